@@ -1,0 +1,32 @@
+# Compiler settings every target shares.
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
+
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Release, Debug or RelWithDebInfo" FORCE)
+endif()
+
+set(FSI_MARCH native CACHE STRING "Instruction set of the kernels (-march=...); x86-64-v3 for a portable build")
+option(FSI_SANITIZE "Build with the address and undefined-behaviour sanitizers" OFF)
+option(FSI_BENCH "Build the micro-benchmarks" ON)
+
+# The kernels need -fno-math-errno -fno-trapping-math to vectorise; never -ffast-math.
+# Contraction is pinned so that vector bodies and their tails round alike.
+add_library(fsi_settings INTERFACE)
+target_compile_options(fsi_settings INTERFACE
+  $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror>
+  -march=${FSI_MARCH} -fno-math-errno -fno-trapping-math -ffp-contract=fast -fopenmp-simd
+  $<$<CONFIG:Release>:-O3>)
+if(FSI_SANITIZE)
+  target_compile_options(fsi_settings INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
+  target_link_options(fsi_settings INTERFACE -fsanitize=address,undefined)
+endif()
+
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(fmt REQUIRED)
+find_package(spdlog REQUIRED)
+find_package(Threads REQUIRED)
