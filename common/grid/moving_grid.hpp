@@ -1,0 +1,71 @@
+#pragma once
+/// A mapped component grid that may move: vertices at t^n and at t^{n+1}, ghost lines included.
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "common/core/field.hpp"
+#include "common/core/types.hpp"
+
+namespace fsi::grid {
+
+/// Position of the grid point with parameters (r, s) in the unit square at time t. Also asked a little outside the
+/// square, for the ghost lines.
+using Mapping = std::function<Vec2(double r, double s, double t)>;
+
+struct GridDescription {
+  std::string name = "grid";
+  int n1 = 0, n2 = 0;        ///< points along r and s, both ends included
+  Mapping mapping;
+  bool moving = false;       ///< the mapping depends on t
+  bool periodic1 = false;    ///< the mapping continues periodically: point n1 - 1 is point 0 of the next period
+  bool periodic2 = false;
+  double shake = 0;          ///< random displacement of every inner point at every step, in cells (tests)
+  std::uint64_t shake_seed = 1;
+};
+
+/// Commanded positions of the points of one side: n_d * n, component-major, n points along the side.
+struct SideCommand {
+  Side side = Side::left;
+  std::span<const double> x;
+};
+
+class MovingGrid {
+ public:
+  /// Places the vertices at time t. @throws NumbersBroke at a folded cell
+  MovingGrid(GridDescription description, double t);
+
+  const std::string& name() const { return description_.name; }
+  const Layout& layout() const { return x_.layout(); }
+  bool moves() const { return description_.moving || description_.shake > 0 || follows_; }
+  bool periodic(int direction) const { return direction == 0 ? description_.periodic1 : description_.periodic2; }
+
+  /// Vertices now (planes 0, 1: x1, x2), valid on -2 <= i < n1 + 2, -2 <= j < n2 + 2.
+  ConstFieldView x() const { return x_.view(); }
+  /// Vertices before the last move.
+  ConstFieldView x_old() const { return x_old_.view(); }
+
+  /// Moves to time t: along the mapping, then sides with a command go where they are told and the displacement fades
+  /// linearly to the opposite side (design: numerics of the elastic piston). x() becomes x_old().
+  /// @throws NumbersBroke at a folded cell, naming grid, point, t and the area
+  void move(double t, std::span<const SideCommand> commands = {});
+
+  /// Points of a side, n_d * n component-major.
+  std::vector<double> side_points(Side side) const;
+  int side_size(Side side) const;
+
+ private:
+  GridDescription description_;
+  Field x_reference_, x_, x_old_;
+  bool follows_ = false;
+  std::uint64_t moves_ = 0;
+
+  void place(Field& target, double t) const;
+  void follow(Field& target, std::span<const SideCommand> commands) const;
+  void shake(Field& target) const;
+  void check(double t) const;
+};
+
+}  // namespace fsi::grid
