@@ -1,6 +1,7 @@
 #pragma once
-/// The typed form of a case file: what `configs/*.yaml` says after expressions of the parameters are evaluated,
-/// overrides applied and everything checked. docs/case_file.md is generated from the same description.
+/// The typed form of a case file: what `configs/*.yaml` says after expressions of the parameters are
+/// evaluated, overrides applied and everything checked. docs/case_file.md is generated from the same
+/// description.
 
 #include <array>
 #include <cstdint>
@@ -29,39 +30,49 @@ struct GridSpec {
   enum class Kind { rectangle, mapped };
   Kind kind = Kind::rectangle;
   std::string name;
-  int n1 = 0, n2 = 0;                                  ///< points, both ends included
-  double x_a = 0, x_b = 1, y_a = 0, y_b = 1;           ///< rectangle
-  double rotation = 0;                                 ///< of the whole grid about the origin [rad]
-  VectorExpressions map;                               ///< mapped: x(r, s, t), y(r, s, t) on the unit square
-  bool moving = false;                                 ///< the mapping depends on t
+  int n1 = 0, n2 = 0;                         ///< points, both ends included
+  double x_a = 0, x_b = 1, y_a = 0, y_b = 1;  ///< rectangle
+  double rotation = 0;                        ///< of the whole grid about the origin [rad]
+  VectorExpressions map;                      ///< mapped: x(r, s, t), y(r, s, t) on the unit square
+  bool moving = false;                        ///< the mapping depends on t
   std::array<bool, 2> periodic{false, false};
-  double shake = 0;                                    ///< random displacement of each inner point at each step, in cells
+  double shake = 0;  ///< random displacement of each inner point at each step, in cells
   std::uint64_t shake_seed = 1;
 };
 
-enum class BoundaryKind { interface, slip_wall, symmetry, inflow, outflow, dirichlet, periodic, traction, displacement };
+enum class BoundaryKind {
+  interface,
+  slip_wall,
+  symmetry,
+  inflow,
+  outflow,
+  dirichlet,
+  periodic,
+  traction,
+  displacement
+};
 
 struct BoundarySpec {
   BoundaryKind kind = BoundaryKind::symmetry;
-  std::string solid;                                   ///< interface: the solid on the other side
-  bool from_reference = false;                         ///< inflow, dirichlet, traction, displacement: data of `reference`
-  std::optional<GasExpressions> state;                 ///< gas inflow, dirichlet
-  std::optional<VectorExpressions> vector;             ///< solid: traction per unit current area, or displacement
+  std::string solid;                    ///< interface: the solid on the other side
+  bool from_reference = false;          ///< inflow, dirichlet, traction, displacement: data of `reference`
+  std::optional<GasExpressions> state;  ///< gas inflow, dirichlet
+  std::optional<VectorExpressions> vector;  ///< solid: traction per unit current area, or displacement
 };
 
 struct GasScheme {
-  std::string riemann = "roe";                         ///< roe, hllc
-  std::string limiter = "minmod";                      ///< none, minmod, mc, van_leer
-  double entropy_fix = 0.1;                            ///< width of the sonic-point fix, part of a [-]
-  double shock_viscosity = 0;                          ///< coefficient of max(0, -div v) on undivided differences [-]
-  double linear_diffusion = 0;                         ///< of undivided second differences [1/time]
+  std::string riemann = "roe";     ///< roe, hllc
+  std::string limiter = "minmod";  ///< none, minmod, mc, van_leer
+  double entropy_fix = 0.1;        ///< width of the sonic-point fix, part of a [-]
+  double shock_viscosity = 0;      ///< coefficient of max(0, -div v) on undivided differences [-]
+  double linear_diffusion = 0;     ///< of undivided second differences [1/time]
 };
 
 struct FluidSpec {
   double gamma = 1.4;
   double p_e = 0;
   GridSpec grid;
-  std::array<BoundarySpec, 4> boundary;                ///< left, right, bottom, top
+  std::array<BoundarySpec, 4> boundary;  ///< left, right, bottom, top
   GasScheme scheme;
   bool initial_from_reference = false;
   std::optional<GasExpressions> initial;
@@ -69,47 +80,47 @@ struct FluidSpec {
 
 /// Coefficient with a rate and a 1/dt part: beta = rate * dt + scaled.
 struct Beta {
-  double rate = 0;                                     ///< [1/time]
-  double scaled = 0;                                   ///< [-]
+  double rate = 0;    ///< [1/time]
+  double scaled = 0;  ///< [-]
 };
 
 struct SolidScheme {
-  std::string limiter = "minmod";                      ///< none, minmod
-  Beta tangential_stress;                              ///< beta^P of (39)
-  Beta displacement;                                   ///< beta^u of (40)
-  Beta relaxation;                                     ///< beta^r of (41)
-  double bulk_diffusion = 0;                           ///< undivided second differences of v and P [1/time]
+  std::string limiter = "minmod";  ///< none, minmod
+  Beta tangential_stress;          ///< beta^P of (39)
+  Beta displacement;               ///< beta^u of (40)
+  Beta relaxation;                 ///< beta^r of (41)
+  double bulk_diffusion = 0;       ///< undivided second differences of v and P [1/time]
 };
 
 struct SolidSpec {
   std::string name;
-  std::string law;                                     ///< the executable is solid_solver_<law>
+  std::string law;  ///< the executable is solid_solver_<law>
   double rho = 1, lambda = 1, mu = 1;
   GridSpec grid;
   std::array<BoundarySpec, 4> boundary;
   SolidScheme scheme;
   bool initial_from_reference = false;
   std::optional<VectorExpressions> initial_u, initial_v;
-  std::optional<VectorExpressions> body_force;         ///< force per unit reference volume
+  std::optional<VectorExpressions> body_force;  ///< force per unit reference volume
 };
 
 struct TimeSpec {
   double end = 1;
-  double cfl = 0.9;                                    ///< safety factor C_CFL
-  double growth = 1.2;                                 ///< largest ratio of successive steps
+  double cfl = 0.9;     ///< safety factor C_CFL
+  double growth = 1.2;  ///< largest ratio of successive steps
   bool multirate = false;
-  int robin_order = 2;                                 ///< 1 linear, 2 quadratic extrapolation of the Robin data
-  std::optional<double> dt;                            ///< largest step, for studies
-  double peer_timeout = 4;                             ///< [s]
+  int robin_order = 2;       ///< 1 linear, 2 quadratic extrapolation of the Robin data
+  std::optional<double> dt;  ///< largest step, for studies
+  double peer_timeout = 4;   ///< [s]
 };
 
 struct InterfaceSpec {
-  std::string projection = "simplified";               ///< full, simplified, traditional
+  std::string projection = "simplified";  ///< full, simplified, traditional
 };
 
 struct ProbeSpec {
-  std::string name, in;                                ///< in: "fluid" or a solid
-  double x = 0, y = 0;                                 ///< gas: where; solid: reference position
+  std::string name, in;  ///< in: "fluid" or a solid
+  double x = 0, y = 0;   ///< gas: where; solid: reference position
 };
 
 struct OutputSpec {
@@ -119,24 +130,24 @@ struct OutputSpec {
 
 /// Where an exact or a fine solution comes from.
 struct ReferenceSpec {
-  std::string kind = "none";                           ///< none, expressions, manufactured, or a named solution
-  std::map<std::string, double> numbers;               ///< data of a named solution
-  std::optional<GasExpressions> fluid;                 ///< expressions
-  std::optional<VectorExpressions> u;                  ///< manufactured solid: displacement of x, y, t
+  std::string kind = "none";              ///< none, expressions, manufactured, or a named solution
+  std::map<std::string, double> numbers;  ///< data of a named solution
+  std::optional<GasExpressions> fluid;    ///< expressions
+  std::optional<VectorExpressions> u;     ///< manufactured solid: displacement of x, y, t
 };
 
 struct Expectation {
-  std::string quantity;                                ///< path in summary.json, "errors.rho"
+  std::string quantity;  ///< path in summary.json, "errors.rho"
   std::optional<double> max, min;
   std::optional<std::string> equals;
 };
 
 struct Case {
   std::string name, title, path;
-  std::string digest;                                  ///< of the resolved text: all programs of a run must agree
-  std::string resolved;                                ///< the case with parameters and overrides filled in, as YAML
+  std::string digest;    ///< of the resolved text: all programs of a run must agree
+  std::string resolved;  ///< the case with parameters and overrides filled in, as YAML
   std::map<std::string, double> parameters;
-  double grid_factor = 1;                              ///< j of h = 1 / (10 j)
+  double grid_factor = 1;  ///< j of h = 1 / (10 j)
   TimeSpec time;
   InterfaceSpec interface;
   std::optional<FluidSpec> fluid;
@@ -146,7 +157,8 @@ struct Case {
   std::vector<Expectation> expect;
 };
 
-/// Reads, checks and resolves a case. `overrides` are "key=value" texts of --set, `laws` "NAME=LAW" of --solid.
+/// Reads, checks and resolves a case. `overrides` are "key=value" texts of --set, `laws` "NAME=LAW" of
+/// --solid.
 /// @throws UserMistake with file:line:column
 Case load_case(const std::string& path, const std::vector<std::string>& overrides = {},
                const std::vector<std::string>& laws = {});

@@ -7,8 +7,8 @@
 
 namespace fsi {
 
-/// Formula of x, y, r = |(x, y)|, s and t (for a grid mapping: r and s are its parameters), with the case's parameters
-/// and helper definitions already bound. Cheap to move, copies share nothing.
+/// Formula of x, y, r = |(x, y)|, s and t (for a grid mapping: r and s are its parameters), with the case's
+/// parameters and helper definitions already bound. Cheap to move, copies share nothing.
 class Expression {
  public:
   Expression();  ///< the constant 0

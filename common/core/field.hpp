@@ -2,9 +2,9 @@
 /// Structure-of-arrays fields on one component grid.
 ///
 /// A Field owns `planes` planes of (n1 + ghosts) x (n2 + ghosts) doubles. A point (i, j) with 0 <= i < n1,
-/// 0 <= j < n2 lies in the grid; two ghost lines surround it: -2 <= i < n1 + 2, -2 <= j < n2 + 2. The first index is
-/// contiguous; every row starts on a cache line (point i = 0 is 64-byte aligned) and ends with enough padding for a whole
-/// vector to be read past the last ghost.
+/// 0 <= j < n2 lies in the grid; two ghost lines surround it: -2 <= i < n1 + 2, -2 <= j < n2 + 2. The first
+/// index is contiguous; every row starts on a cache line (point i = 0 is 64-byte aligned) and ends with
+/// enough padding for a whole vector to be read past the last ghost.
 
 #include <cstddef>
 #include <cstdlib>
@@ -50,14 +50,19 @@ struct BasicFieldView {
   T* row(int plane, int j) const { return data + offset(plane) + layout.at(0, j); }
   T* plane(int k) const { return data + offset(k); }
 
-  operator BasicFieldView<const double>() const { return {data, layout, planes}; }  // NOLINT(google-explicit-constructor)
+  operator BasicFieldView<const double>() const {
+    return {data, layout, planes};
+  }  // NOLINT(google-explicit-constructor)
 
  private:
-  std::ptrdiff_t offset(int k) const { return static_cast<std::ptrdiff_t>(k) * static_cast<std::ptrdiff_t>(layout.plane_size()); }
+  std::ptrdiff_t offset(int k) const {
+    return static_cast<std::ptrdiff_t>(k) * static_cast<std::ptrdiff_t>(layout.plane_size());
+  }
 
  public:
   BasicFieldView() = default;
-  BasicFieldView(T* values, Layout shape, int plane_count) : data(values), layout(shape), planes(plane_count) {}
+  BasicFieldView(T* values, Layout shape, int plane_count)
+      : data(values), layout(shape), planes(plane_count) {}
 };
 
 using FieldView = BasicFieldView<double>;

@@ -15,10 +15,14 @@ enum class Side { left, right, bottom, top };
 inline constexpr Side all_sides[] = {Side::left, Side::right, Side::bottom, Side::top};
 
 /// Coordinate direction (0 or 1) that is constant on a side.
-constexpr int direction_of(Side side) { return side == Side::left || side == Side::right ? 0 : 1; }
+constexpr int direction_of(Side side) {
+  return side == Side::left || side == Side::right ? 0 : 1;
+}
 
 /// True for the sides at r = 1.
-constexpr bool at_upper_end(Side side) { return side == Side::right || side == Side::top; }
+constexpr bool at_upper_end(Side side) {
+  return side == Side::right || side == Side::top;
+}
 
 constexpr const char* name_of(Side side) {
   constexpr const char* names[] = {"left", "right", "bottom", "top"};

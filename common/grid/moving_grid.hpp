@@ -1,28 +1,30 @@
 #pragma once
 /// A mapped component grid that may move: vertices at t^n and at t^{n+1}, ghost lines included.
 
+#include <cstdint>
 #include <functional>
-#include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "common/core/field.hpp"
 #include "common/core/types.hpp"
 
 namespace fsi::grid {
 
-/// Position of the grid point with parameters (r, s) in the unit square at time t. Also asked a little outside the
-/// square, for the ghost lines.
+/// Position of the grid point with parameters (r, s) in the unit square at time t. Also asked a little
+/// outside the square, for the ghost lines.
 using Mapping = std::function<Vec2(double r, double s, double t)>;
 
 struct GridDescription {
   std::string name = "grid";
-  int n1 = 0, n2 = 0;        ///< points along r and s, both ends included
+  int n1 = 0, n2 = 0;  ///< points along r and s, both ends included
   Mapping mapping;
-  bool moving = false;       ///< the mapping depends on t
-  bool periodic1 = false;    ///< the mapping continues periodically: point n1 - 1 is point 0 of the next period
+  bool moving = false;     ///< the mapping depends on t
+  bool periodic1 = false;  ///< the mapping continues periodically: point n1 - 1 is point 0 of the next period
   bool periodic2 = false;
-  double shake = 0;          ///< random displacement of every inner point at every step, in cells (tests)
+  bool follows = false;  ///< one of its sides is moved by commands
+  double shake = 0;      ///< random displacement of every inner point at every step, in cells (tests)
   std::uint64_t shake_seed = 1;
 };
 
@@ -39,16 +41,18 @@ class MovingGrid {
 
   const std::string& name() const { return description_.name; }
   const Layout& layout() const { return x_.layout(); }
-  bool moves() const { return description_.moving || description_.shake > 0 || follows_; }
-  bool periodic(int direction) const { return direction == 0 ? description_.periodic1 : description_.periodic2; }
+  bool moves() const { return description_.moving || description_.shake > 0 || description_.follows; }
+  bool periodic(int direction) const {
+    return direction == 0 ? description_.periodic1 : description_.periodic2;
+  }
 
   /// Vertices now (planes 0, 1: x1, x2), valid on -2 <= i < n1 + 2, -2 <= j < n2 + 2.
   ConstFieldView x() const { return x_.view(); }
   /// Vertices before the last move.
   ConstFieldView x_old() const { return x_old_.view(); }
 
-  /// Moves to time t: along the mapping, then sides with a command go where they are told and the displacement fades
-  /// linearly to the opposite side (design: numerics of the elastic piston). x() becomes x_old().
+  /// Moves to time t: along the mapping, then sides with a command go where they are told and the
+  /// displacement fades linearly to the opposite side, continued to the ghost lines. x() becomes x_old().
   /// @throws NumbersBroke at a folded cell, naming grid, point, t and the area
   void move(double t, std::span<const SideCommand> commands = {});
 
@@ -58,13 +62,12 @@ class MovingGrid {
 
  private:
   GridDescription description_;
-  Field x_reference_, x_, x_old_;
-  bool follows_ = false;
-  std::uint64_t moves_ = 0;
+  Field x_mapped_, x_, x_old_;
+  std::uint64_t move_count_ = 0;
 
-  void place(Field& target, double t) const;
-  void follow(Field& target, std::span<const SideCommand> commands) const;
-  void shake(Field& target) const;
+  void place(double t);
+  void follow(const SideCommand& command);
+  void shake();
   void check(double t) const;
 };
 

@@ -1,7 +1,7 @@
 #pragma once
-/// What the programs say to each other, as plain structures. The bus layer turns them into the generated IDL types
-/// and back; no program sees those. Arrays over the n points of an interface are component-major: component c of
-/// point k is at [c * n + k].
+/// What the programs say to each other, as plain structures. The bus layer turns them into the generated IDL
+/// types and back; no program sees those. Arrays over the n points of an interface are component-major:
+/// component c of point k is at [c * n + k].
 
 #include <cstdint>
 #include <string>
@@ -13,9 +13,9 @@ inline constexpr std::uint32_t protocol_version = 1;
 
 /// Where one program meets the gas or a solid.
 struct InterfaceInfo {
-  std::string name;           ///< name of the solid on this interface: the key both sides share
-  std::int32_t dimension = 2; ///< n_d
-  std::vector<double> x;      ///< initial positions, n_d * n
+  std::string name;            ///< name of the solid on this interface: the key both sides share
+  std::int32_t dimension = 2;  ///< n_d
+  std::vector<double> x;       ///< initial positions, n_d * n
 };
 
 /// First word of every solver. Transient-local: a late coupler still gets it.
@@ -28,7 +28,7 @@ struct Hello {
   std::string config_digest;  ///< every program of a run must have read the same case
   std::string host;
   std::int32_t pid = 0;
-  std::uint64_t points = 0;   ///< grid points
+  std::uint64_t points = 0;  ///< grid points
   std::vector<InterfaceInfo> interfaces;
 };
 
@@ -53,51 +53,55 @@ struct ModalResponse {
 /// Solver -> coupler, one per step and interface: the state predicted without interface conditions.
 struct PredictedInterface {
   std::string run;
-  std::string from;           ///< participant's name
-  std::string interface;      ///< solid's name
-  std::uint64_t step = 0;     ///< 0: initial state
-  double t = 0;               ///< time of the state
-  double dt_bid = 0;          ///< largest step the solver can take next, safety factor included [time]; inf = no limit
-  std::string dt_reason;      ///< what limits it, for people
-  std::vector<double> x;      ///< solid: x_bar + u; gas: its grid's interface, n_d * n
-  std::vector<double> v;      ///< velocity, n_d * n
-  std::vector<double> w;      ///< solid: traction eta n0^T P per current area, n_d * n
-  std::vector<double> p;      ///< gas: pressure, n
-  std::vector<double> z_f;    ///< gas: impedance rho a, n
-  std::vector<double> Z;      ///< solid: impedance matrix Z11, Z12, Z22, 3 * n
-  double z_p = 0;             ///< solid: rest impedance rho_bar c_p of the simplified projection (29)
-  std::vector<std::uint8_t> fixed; ///< solid: 1 where the point lies on a displacement boundary (keeps its velocity), n
-  double p_e = 0;             ///< gas: equilibrium pressure
+  std::string from;        ///< participant's name
+  std::string interface;   ///< solid's name
+  std::uint64_t step = 0;  ///< 0: initial state
+  double t = 0;            ///< time of the state
+  double dt_bid =
+      0;  ///< largest step the solver can take next, safety factor included [time]; inf = no limit
+  std::string dt_reason;    ///< what limits it, for people
+  std::vector<double> x;    ///< solid: x_bar + u; gas: its grid's interface, n_d * n
+  std::vector<double> v;    ///< velocity, n_d * n
+  std::vector<double> w;    ///< solid: traction eta n0^T P per current area, n_d * n
+  std::vector<double> p;    ///< gas: pressure, n
+  std::vector<double> z_f;  ///< gas: impedance rho a, n
+  std::vector<double> Z;    ///< solid: impedance matrix Z11, Z12, Z22, 3 * n
+  double z_p = 0;           ///< solid: rest impedance rho_bar c_p of the simplified projection (29)
+  std::vector<std::uint8_t>
+      fixed;       ///< solid: 1 where the point lies on a displacement boundary (keeps its velocity), n
+  double p_e = 0;  ///< gas: equilibrium pressure
   ModalResponse modal;
   Health health;
-  double compute_s = 0;       ///< since the run began
+  double compute_s = 0;  ///< since the run began
   double wait_s = 0;
-  double mass = 0, energy = 0, momentum1 = 0, momentum2 = 0, angular_momentum = 0;  ///< totals over the body of gas or solid
+  double mass = 0, energy = 0, momentum1 = 0, momentum2 = 0,
+         angular_momentum = 0;  ///< totals over the body of gas or solid
 };
 
-/// Coupler -> solver, one per step and interface: projected state at t, and everything needed for the next step.
+/// Coupler -> solver, one per step and interface: projected state at t, and everything needed for the next
+/// step.
 struct ProjectedInterface {
   std::string run;
-  std::string to;             ///< participant's name
+  std::string to;  ///< participant's name
   std::string interface;
-  std::uint64_t step = 0;     ///< the predicted state this answers
+  std::uint64_t step = 0;  ///< the predicted state this answers
   double t = 0;
-  std::vector<double> n;      ///< unit normal, solid -> gas, n_d * n
-  std::vector<double> v_n;    ///< normal velocity v_n^I, n
-  std::vector<double> w_n;    ///< normal traction w_n^I = p_e - p^I, n
-  std::vector<double> v;      ///< velocity of the interface points at t, n_d * n
-  std::vector<double> a;      ///< their acceleration at t, n_d * n
+  std::vector<double> n;    ///< unit normal, solid -> gas, n_d * n
+  std::vector<double> v_n;  ///< normal velocity v_n^I, n
+  std::vector<double> w_n;  ///< normal traction w_n^I = p_e - p^I, n
+  std::vector<double> v;    ///< velocity of the interface points at t, n_d * n
+  std::vector<double> a;    ///< their acceleration at t, n_d * n
   // The gas characteristic as Robin data for substeps: w_n + z_f v_n = r(t), r_k at t_k, newest first.
-  std::vector<double> z_f;    ///< n
-  std::vector<double> robin_t;///< times t_k, 1 to 3 of them
-  std::vector<double> robin_r;///< r_k = w_k + z_f v_k with the newest z_f for every k, levels * n
+  std::vector<double> z_f;      ///< n
+  std::vector<double> robin_t;  ///< times t_k, 1 to 3 of them
+  std::vector<double> robin_r;  ///< r_k = w_k + z_f v_k with the newest z_f for every k, levels * n
   // The next step.
   double dt_next = 0;
   std::int32_t substeps_next = 1;
-  std::vector<double> x_next; ///< commanded positions at t + dt_next, n_d * n
-  bool write_output = false;  ///< write fields of the state at t
+  std::vector<double> x_next;  ///< commanded positions at t + dt_next, n_d * n
+  bool write_output = false;   ///< write fields of the state at t
   bool write_checkpoint = false;
-  bool stop = false;          ///< the run ends after this state
+  bool stop = false;  ///< the run ends after this state
   std::string stop_reason;
 };
 
@@ -118,23 +122,23 @@ struct Control {
 /// What the monitor shows; best effort, never waited for.
 struct Telemetry {
   std::string run;
-  std::string from;           ///< participant's name
-  std::string role;           ///< "fluid", "solid" or "coupler"
-  std::string state;          ///< "computing", "waiting", "done", "failed"
+  std::string from;   ///< participant's name
+  std::string role;   ///< "fluid", "solid" or "coupler"
+  std::string state;  ///< "computing", "waiting", "done", "failed"
   std::uint64_t step = 0;
   double t = 0, t_end = 0, dt = 0;
   std::string dt_reason;
   double compute_s = 0, wait_s = 0;
   double point_updates_per_s = 0;
   Health health;
-  std::uint64_t messages = 0; ///< received and sent
+  std::uint64_t messages = 0;  ///< received and sent
   std::uint64_t bytes = 0;
   double round_trip_p50_us = 0, round_trip_p99_us = 0;
   /// Per interface (the coupler's telemetry only).
   struct Interface {
     std::string name;
     double velocity_jump = 0, traction_jump = 0, gap = 0, power = 0;
-    std::vector<double> s;    ///< arclength at the points shown (at most 256)
+    std::vector<double> s;  ///< arclength at the points shown (at most 256)
     std::vector<double> p_predicted, p_projected, v_predicted, v_projected;
   };
   std::vector<Interface> interfaces;

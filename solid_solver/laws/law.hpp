@@ -1,5 +1,6 @@
 #pragma once
-/// What a constitutive law is to the solid solver: three pure functions of the deformation gradient F (plane strain).
+/// What a constitutive law is to the solid solver: three pure functions of the deformation gradient F (plane
+/// strain).
 
 #include <concepts>
 #include <string_view>
@@ -11,15 +12,17 @@ struct Tensor2 {
   double a11 = 0, a12 = 0, a21 = 0, a22 = 0;
 };
 
-/// paper eq. (5): K_ijkl = dP_ij/dF_kl, as the ten entries that K_ijkl = K_lkji leaves (misprinted after eq. (8)).
-/// k1122 is i = 1, j = 1, k = 2, l = 2. The other six:
-/// K1211 = K1121, K1212 = K2121, K2111 = K1112, K2211 = K1122, K2212 = K2122, K2221 = K1222.
+/// paper eq. (5): K_ijkl = dP_ij/dF_kl, as the ten entries that K_ijkl = K_lkji leaves (misprinted after eq.
+/// (8)). k1122 is i = 1, j = 1, k = 2, l = 2. The other six: K1211 = K1121, K1212 = K2121, K2111 = K1112,
+/// K2211 = K1122, K2212 = K2122, K2221 = K1222.
 struct Stiffness {
-  double k1111 = 0, k1112 = 0, k1121 = 0, k1122 = 0, k1221 = 0, k1222 = 0, k2112 = 0, k2121 = 0, k2122 = 0, k2222 = 0;
+  double k1111 = 0, k1112 = 0, k1121 = 0, k1122 = 0, k1221 = 0, k1222 = 0, k2112 = 0, k2121 = 0, k2122 = 0,
+         k2222 = 0;
 };
 
-/// A constitutive law: strain energy psi per unit reference volume, nominal stress P_ij = dpsi/dF_ji, stiffness K.
-/// Each is a pure, branch-free function of F that a compiler can vectorise; `L{lambda, mu}` makes one.
+/// A constitutive law: strain energy psi per unit reference volume, nominal stress P_ij = dpsi/dF_ji,
+/// stiffness K. Each is a pure, branch-free function of F that a compiler can vectorise; `L{lambda, mu}`
+/// makes one.
 template <class L>
 concept Law = requires(const L law, const Tensor2 F) {
   { L::name } -> std::convertible_to<std::string_view>;

@@ -1,0 +1,170 @@
+#include "common/grid/moving_grid.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "common/core/failure.hpp"
+
+namespace fsi::grid {
+
+namespace {
+
+/// Uniform number in [-1, 1) that depends on its arguments only (splitmix64).
+double random_number(std::uint64_t seed, std::uint64_t move, std::uint64_t point) {
+  std::uint64_t z =
+      seed * 0x9e3779b97f4a7c15ULL + move * 0xbf58476d1ce4e5b9ULL + point * 0x94d049bb133111ebULL;
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
+  z ^= z >> 31;
+  return static_cast<double>(z >> 11) * 0x1.0p-52 - 1.0;
+}
+
+/// Index pair of point k of a side, m lines inward (m < 0: ghost lines).
+std::pair<int, int> side_index(const Layout& layout, Side side, int k, int m) {
+  switch (side) {
+    case Side::left:
+      return {m, k};
+    case Side::right:
+      return {layout.n1 - 1 - m, k};
+    case Side::bottom:
+      return {k, m};
+    case Side::top:
+      return {k, layout.n2 - 1 - m};
+  }
+  return {0, 0};
+}
+
+/// Cross product of the edges from (i, j) to its neighbours at (i + a, j) and (i, j + b), positive when
+/// unfolded.
+double corner_area(ConstFieldView x, int i, int j, int a, int b) {
+  const double e1 = x(0, i + a, j) - x(0, i, j), e2 = x(1, i + a, j) - x(1, i, j);
+  const double f1 = x(0, i, j + b) - x(0, i, j), f2 = x(1, i, j + b) - x(1, i, j);
+  return a * b * (e1 * f2 - e2 * f1);
+}
+
+}  // namespace
+
+MovingGrid::MovingGrid(GridDescription description, double t)
+    : description_(std::move(description)),
+      x_mapped_(Layout(description_.n1, description_.n2), 2),
+      x_(x_mapped_.layout(), 2),
+      x_old_(x_mapped_.layout(), 2) {
+  if (description_.n1 < 5 || description_.n2 < 5) {
+    throw UserMistake(fmt::format("grid \"{}\": {} x {} points are too few; each direction needs at least 5",
+                                  name(), description_.n1, description_.n2));
+  }
+  place(t);
+  std::ranges::copy(x_mapped_.values(), x_.values().begin());
+  std::ranges::copy(x_mapped_.values(), x_old_.values().begin());
+  check(t);
+}
+
+void MovingGrid::place(double t) {
+  const Layout& shape = layout();
+  FieldView x = x_mapped_.view();
+  for (int j = -Layout::ghosts; j < shape.n2 + Layout::ghosts; ++j) {
+    for (int i = -Layout::ghosts; i < shape.n1 + Layout::ghosts; ++i) {
+      const Vec2 position = description_.mapping(static_cast<double>(i) / (shape.n1 - 1),
+                                                 static_cast<double>(j) / (shape.n2 - 1), t);
+      x(0, i, j) = position[0];
+      x(1, i, j) = position[1];
+    }
+  }
+}
+
+void MovingGrid::move(double t, std::span<const SideCommand> commands) {
+  std::swap(x_, x_old_);
+  if (description_.moving) place(t);
+  std::ranges::copy(x_mapped_.values(), x_.values().begin());
+  for (const SideCommand& command : commands) follow(command);
+  ++move_count_;
+  if (description_.shake > 0) shake();
+  check(t);
+}
+
+void MovingGrid::follow(const SideCommand& command) {
+  constexpr int g = Layout::ghosts;
+  const int n = side_size(command.side);
+  const int lines = direction_of(command.side) == 0 ? layout().n1 : layout().n2;
+  const bool closed = periodic(1 - direction_of(command.side));
+  if (command.x.size() != static_cast<std::size_t>(2 * n)) {
+    throw std::logic_error(
+        fmt::format("grid \"{}\": command of {} numbers for {} points", name(), command.x.size(), n));
+  }
+  FieldView x = x_.view();
+  std::vector<double> d(static_cast<std::size_t>(n + 2 * g));
+  const auto at = [&d](int k) -> double& { return d[static_cast<std::size_t>(k + g)]; };
+  for (int c = 0; c < 2; ++c) {
+    for (int k = 0; k < n; ++k) {
+      const auto [i, j] = side_index(layout(), command.side, k, 0);
+      at(k) = command.x[static_cast<std::size_t>(c * n + k)] - x_mapped_(c, i, j);
+    }
+    for (int k = 1; k <= g; ++k) {
+      at(-k) = closed ? at(n - 1 - k) : 3 * at(1 - k) - 3 * at(2 - k) + at(3 - k);
+      at(n - 1 + k) = closed ? at(k) : 3 * at(n - 2 + k) - 3 * at(n - 3 + k) + at(n - 4 + k);
+    }
+    for (int m = -g; m < lines + g; ++m) {
+      const double weight = 1.0 - static_cast<double>(m) / (lines - 1);
+      for (int k = -g; k < n + g; ++k) {
+        const auto [i, j] = side_index(layout(), command.side, k, m);
+        x(c, i, j) += weight * at(k);
+      }
+    }
+  }
+}
+
+void MovingGrid::shake() {
+  const Layout& shape = layout();
+  const ConstFieldView mapped = x_mapped_.view();
+  FieldView x = x_.view();
+  for (int j = 1; j < shape.n2 - 1; ++j) {
+    for (int i = 1; i < shape.n1 - 1; ++i) {
+      const double cell = std::sqrt(std::abs(corner_area(mapped, i, j, 1, 1)));
+      const auto point = static_cast<std::uint64_t>(shape.at(i, j)) * 2;
+      for (int c = 0; c < 2; ++c) {
+        x(c, i, j) +=
+            description_.shake * cell *
+            random_number(description_.shake_seed, move_count_, point + static_cast<std::uint64_t>(c));
+      }
+    }
+  }
+}
+
+void MovingGrid::check(double t) const {
+  const Layout& shape = layout();
+  const ConstFieldView x = x_.view();
+  for (int j = 0; j < shape.n2 - 1; ++j) {
+    for (int i = 0; i < shape.n1 - 1; ++i) {
+      const double smallest =
+          std::min({corner_area(x, i, j, 1, 1), corner_area(x, i + 1, j, -1, 1),
+                    corner_area(x, i, j + 1, 1, -1), corner_area(x, i + 1, j + 1, -1, -1)});
+      if (!(smallest > 0)) {
+        throw NumbersBroke(fmt::format(
+            "t = {:.6g}, grid \"{}\", cell ({}, {}) at ({:.6g}, {:.6g}): folded, corner area = {:.3g}", t,
+            name(), i, j, x(0, i, j), x(1, i, j), smallest));
+      }
+    }
+  }
+}
+
+int MovingGrid::side_size(Side side) const {
+  return direction_of(side) == 0 ? layout().n2 : layout().n1;
+}
+
+std::vector<double> MovingGrid::side_points(Side side) const {
+  const int n = side_size(side);
+  std::vector<double> points(static_cast<std::size_t>(2 * n));
+  for (int c = 0; c < 2; ++c) {
+    for (int k = 0; k < n; ++k) {
+      const auto [i, j] = side_index(layout(), side, k, 0);
+      points[static_cast<std::size_t>(c * n + k)] = x_(c, i, j);
+    }
+  }
+  return points;
+}
+
+}  // namespace fsi::grid
