@@ -1,0 +1,37 @@
+#include "common/program/grid_from_case.hpp"
+
+#include <cmath>
+
+namespace fsi {
+
+namespace {
+
+grid::Mapping mapping_of(const GridSpec& spec) {
+  const double c = std::cos(spec.rotation), s = std::sin(spec.rotation);
+  const auto turn = [c, s](double x, double y) { return Vec2(c * x - s * y, s * x + c * y); };
+  if (spec.kind == GridSpec::Kind::mapped) {
+    return [turn, map = spec.map](double r1, double r2, double t) {
+      return turn(map.c1.at_parameters(r1, r2, t), map.c2.at_parameters(r1, r2, t));
+    };
+  }
+  return [turn, spec](double r1, double r2, double) {
+    return turn(spec.x_a + r1 * (spec.x_b - spec.x_a), spec.y_a + r2 * (spec.y_b - spec.y_a));
+  };
+}
+
+}  // namespace
+
+grid::GridDescription grid_from_case(const GridSpec& spec, bool follows) {
+  return {.name = spec.name,
+          .n1 = spec.n1,
+          .n2 = spec.n2,
+          .mapping = mapping_of(spec),
+          .moving = spec.moving,
+          .periodic1 = spec.periodic[0],
+          .periodic2 = spec.periodic[1],
+          .follows = follows,
+          .shake = spec.shake,
+          .shake_seed = spec.shake_seed};
+}
+
+}  // namespace fsi

@@ -1,0 +1,74 @@
+#pragma once
+/// The shell every program of a run lives in: command line, signals, log, exit code and the report it leaves
+/// behind.
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+
+#include "common/case/case.hpp"
+#include "common/core/failure.hpp"
+#include "common/wire/messages.hpp"
+
+namespace fsi {
+
+/// What a program is told on its command line, and the case it read.
+struct Setup {
+  Case problem;
+  std::string run_dir;
+  std::string run;   ///< identity of the run on the bus
+  std::string name;  ///< participant's name: "fluid", "coupler" or the solid's name
+};
+
+/// What a program leaves in DIR/parts/<name>.json; the launcher merges the parts into summary.json.
+struct Report {
+  std::string participant, role;
+  std::string status = "failed";
+  std::string reason;
+  double t = 0;
+  std::uint64_t steps = 0;
+  double dt_min = 0, dt_max = 0;
+  std::uint64_t points = 0;
+  std::uint64_t substeps = 0;
+  double compute_s = 0, wait_s = 0;
+  std::map<std::string, double> errors, counters, conservation, interface;
+
+  /// Counts one finished step of size dt ending at time `now`.
+  void count_step(double now, double dt);
+};
+
+/// Runs the body of a program with everything around it. Failures become the exit code and the report's
+/// reason. `default_name` is the participant's name when --name is not given.
+int run_program(int argc, char** argv, const std::string& default_name, const std::string& role,
+                const std::function<void(const Setup&, Report&)>& body);
+
+/// True after SIGTERM or SIGINT.
+bool interrupted();
+/// Ends the program (exit 143 or 130) when a signal asks for it.
+void throw_if_interrupted();
+
+/// Wall-clock time split into computing and waiting.
+class Stopwatch {
+ public:
+  Stopwatch() : last_(std::chrono::steady_clock::now()) {}
+  /// Seconds since the last lap.
+  double lap();
+
+ private:
+  std::chrono::steady_clock::time_point last_;
+};
+
+/// Prints `progress step=.. t=.. dt=.. limit=.. t_end=..` lines for the launcher, at most ten a second.
+class ProgressLines {
+ public:
+  explicit ProgressLines(double t_end) : t_end_(t_end) {}
+  void show(std::uint64_t step, double t, double dt, const std::string& limit);
+
+ private:
+  double t_end_;
+  std::chrono::steady_clock::time_point last_{};
+};
+
+}  // namespace fsi
