@@ -1,0 +1,171 @@
+#!/usr/bin/python3
+"""Rules about the source tree that no compiler checks. Usage: check_structure.py RULE [ROOT]
+
+equations  every required equation of the paper has tagged code and a tagged test
+includes   who may include what: the arrows between the folders point one way
+lengths    no source file is longer than 400 lines
+words      no notes of unfinished work in the sources
+
+Every offence is printed as file:line: what is wrong; exit 1 if there is one.
+"""
+
+import os
+import re
+import sys
+from pathlib import Path
+
+# Equations of the paper that this program implements. (6) is (4) in another form, (14)-(15) and (17)-(18) are steps of
+# the derivation of (16) and (19), (30) restates (29).
+REQUIRED_EQUATIONS = [*range(1, 6), *range(7, 14), 16, *range(19, 30), *range(31, 46)]
+CODE_FOLDERS = ("common", "fluid_solver", "solid_solver", "coupler")
+PROGRAM_FOLDERS = ("fluid_solver", "solid_solver", "coupler", "monitor")
+CXX = (".cpp", ".hpp", ".h")
+SOURCES = (*CXX, ".py", ".idl", ".cmake", ".sh", ".txt", ".yaml", ".yml", "")
+MAX_LINES = 400
+UNFINISHED = re.compile(r"\b(" + "|".join(("TO" + "DO", "FIX" + "ME", "X" + "XX", "HA" + "CK")) + r")\b")
+SKIPPED = {"build", "runs", ".git", "__pycache__", ".cache", "docs"}
+
+
+def files(root, suffixes, folders=None):
+    """Paths below `root` (relative, in order) with one of the suffixes, in the given top folders."""
+    for folder, names, entries in os.walk(root):
+        relative = Path(folder).relative_to(root)
+        names[:] = sorted(n for n in names if not (n in SKIPPED and relative == Path(".")) and n != "__pycache__")
+        if folders is not None and relative != Path(".") and relative.parts[0] not in folders:
+            names.clear()
+            continue
+        for entry in sorted(entries):
+            path = relative / entry
+            if path.suffix in suffixes and (folders is None or path.parts[0] in folders):
+                yield path
+
+
+def text_of(root, path):
+    return (root / path).read_text(encoding="utf-8", errors="replace")
+
+
+def lines_of(root, path):
+    return enumerate(text_of(root, path).splitlines(), start=1)
+
+
+# --- equations -----------------------------------------------------------------------------------------------------
+
+CODE_TAG = re.compile(r"paper eq\. \((\d+)\)")
+TEST_NAME = re.compile(r"\b(?:TYPED_)?TEST(?:_F|_P)?\s*\(\s*(\w+)\s*,\s*(\w+)\s*\)")
+TEST_TAG = re.compile(r"Eq(\d+)")
+
+
+def tagged_code(root):
+    """{equation: places} in the code of the programs."""
+    places = {}
+    for path in files(root, CXX, CODE_FOLDERS):
+        for number, line in lines_of(root, path):
+            for tag in CODE_TAG.findall(line):
+                places.setdefault(int(tag), []).append(f"{path}:{number}")
+    return places
+
+
+def tagged_tests(root):
+    """{equation: names of the tests that check it}."""
+    names = {}
+    for path in files(root, CXX, ("tests",)):
+        for suite, name in TEST_NAME.findall(text_of(root, path)):
+            for tag in TEST_TAG.findall(suite + " " + name):
+                names.setdefault(int(tag), []).append(f"{suite}.{name}")
+    return names
+
+
+def check_equations(root):
+    code, tests = tagged_code(root), tagged_tests(root)
+    for equation in REQUIRED_EQUATIONS:
+        if equation not in code:
+            yield f"equation ({equation}): no code carries the tag 'paper eq. ({equation})'"
+        if equation not in tests:
+            yield f"equation ({equation}): no test carries Eq{equation} in its name"
+
+
+# --- includes ------------------------------------------------------------------------------------------------------
+
+INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
+
+
+def includes_of(root, path):
+    """(line number, True for "...", target) of every include."""
+    for number, line in lines_of(root, path):
+        if match := INCLUDE.match(line):
+            yield number, match.group(1) == '"', match.group(2)
+
+
+def top(target):
+    return target.split("/")[0]
+
+
+def is_kernel(path):
+    return "kernel" in path.stem
+
+
+def forbidden(path, quoted, target, generated):
+    """The reason why `path` must not include `target`, or None."""
+    folder, where = path.parts[0], path.as_posix()
+    if folder in PROGRAM_FOLDERS and top(target) in PROGRAM_FOLDERS and top(target) != folder:
+        return f"the programs meet only on the bus: {folder} must not include {top(target)}"
+    if folder in ("common", "reference") and top(target) in PROGRAM_FOLDERS:
+        if not (target.startswith("solid_solver/laws/") and where.startswith(("reference/", "common/exact/"))):
+            return f"{folder} must not know the program {top(target)}"
+    if where.startswith("common/grid/") and (target.startswith(("common/bus/", "dds/")) or target in generated):
+        return "grids know no bus"
+    if is_kernel(path) and quoted and "/" in target:
+        if not target.startswith("common/core/") and Path(target).parent != path.parent:
+            return "kernels include common/core and their own folder only"
+    if not where.startswith("common/bus/") and (Path(target).name in generated or target.startswith(("dds/", "ddsc/"))):
+        return "only common/bus knows DDS and the types generated from idl/"
+    if not where.startswith("common/io/") and re.match(r"(hdf5|H5)\w*\.h|highfive/", target):
+        return "only common/io knows HDF5"
+    if target.startswith("yaml-cpp/") and not where.startswith(("common/case/", "common/core/config.")):
+        return "only common/core/config.* and common/case read YAML"
+    return None
+
+
+def check_includes(root):
+    generated = {path.stem + ".h" for path in files(root, (".idl",), ("idl",))}
+    folders = (*PROGRAM_FOLDERS, "common", "reference")
+    for path in files(root, CXX, folders):
+        for number, quoted, target in includes_of(root, path):
+            if reason := forbidden(path, quoted, target, generated):
+                yield f"{path}:{number}: includes {target}: {reason}"
+
+
+# --- lengths and words ---------------------------------------------------------------------------------------------
+
+
+def check_lengths(root):
+    for path in files(root, (*CXX, ".py", ".idl", ".cmake", ".sh")):
+        count = len(text_of(root, path).splitlines())
+        if count > MAX_LINES:
+            yield f"{path}:{MAX_LINES + 1}: {count} lines, more than {MAX_LINES}"
+
+
+def check_words(root):
+    for path in files(root, SOURCES):
+        if path.name == "LICENSE":
+            continue
+        for number, line in lines_of(root, path):
+            if match := UNFINISHED.search(line):
+                yield f"{path}:{number}: '{match.group(1)}' marks unfinished work"
+
+
+RULES = {"equations": check_equations, "includes": check_includes, "lengths": check_lengths, "words": check_words}
+
+
+def main(arguments):
+    if not arguments or arguments[0] not in RULES:
+        print(__doc__)
+        return 2
+    root = Path(arguments[1] if len(arguments) > 1 else os.environ.get("FSI_ROOT", Path(__file__).parents[2]))
+    offences = list(RULES[arguments[0]](root))
+    print("\n".join(offences) if offences else f"{arguments[0]}: nothing to complain about")
+    return 1 if offences else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
