@@ -1,0 +1,39 @@
+#pragma once
+/// Tables that grow by one line per step: interface.csv, probes.csv, forces_<solid>.csv.
+
+#include <cstdio>
+#include <initializer_list>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace fsi::io {
+
+/// Numbers only, 17 digits so that they read back exactly. Lines reach the file in batches: a kill loses at
+/// most the last `batch` of them, and never leaves half a line before a whole one.
+class CsvWriter {
+ public:
+  /// Starts the file with one header line; name the unit in the column, "t [time]". @throws OutputFailed
+  CsvWriter(std::string path, const std::vector<std::string>& columns, int batch = 16);
+
+  /// One value per column. @throws OutputFailed @throws std::logic_error when the number of values is wrong
+  void row(std::span<const double> values);
+  void row(std::initializer_list<double> values) {
+    row(std::span<const double>(values.begin(), values.size()));
+  }
+  /// Hands all lines to the operating system. @throws OutputFailed
+  void flush();
+
+ private:
+  struct Close {
+    void operator()(std::FILE* file) const { std::fclose(file); }  // NOLINT(cppcoreguidelines-owning-memory)
+  };
+  std::string path_;
+  std::unique_ptr<std::FILE, Close> file_;
+  std::string pending_;
+  std::size_t columns_ = 0;
+  int batch_ = 16, waiting_ = 0;
+};
+
+}  // namespace fsi::io

@@ -1,0 +1,57 @@
+#pragma once
+/// Fields of one program on its component grids, as a series of output times (layout: docs/output.md).
+///
+///   DIR/fields/fluid_0000.h5 ...   one file per output time, whole or not there
+///   DIR/fluid.h5                   the whole series: group per output time, linked to those files
+///
+/// All of them are written aside, synced and renamed, so that a kill at any moment leaves a series that
+/// opens.
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "common/core/field.hpp"
+
+namespace fsi::io {
+
+/// One plane of a field under the name it has in the file.
+struct NamedPlane {
+  std::string name;
+  ConstFieldView field;
+  int plane = 0;
+};
+
+/// What is written of one component grid. Ghost lines are left out.
+struct GridOutput {
+  std::string grid;  ///< name of the component grid
+  ConstFieldView x;  ///< planes 0, 1: positions; reference positions x_bar where `u` is given
+  ConstFieldView u;  ///< planes 0, 1: displacement of a solid; empty for a gas
+  std::vector<NamedPlane> fields;
+};
+
+class GridWriter {
+ public:
+  /// `name` is "fluid" or "solid_<name>". @throws OutputFailed
+  GridWriter(std::string run_dir, std::string name);
+
+  /// Adds one output time. Groups are counted "0000", "0001", ... in the order they are written.
+  /// @throws OutputFailed; the outputs before remain
+  void write(double t, std::uint64_t step, std::span<const GridOutput> grids);
+
+ private:
+  struct Entry {
+    double t = 0;
+    std::uint64_t step = 0;
+  };
+  std::string run_dir_, name_;
+  std::vector<Entry> entries_;
+
+  void write_master() const;
+};
+
+/// Name of the group of output number `index`.
+std::string output_name(std::size_t index);
+
+}  // namespace fsi::io

@@ -1,0 +1,47 @@
+#pragma once
+/// The part one program contributes to summary.json: DIR/parts/<participant>.json (format: docs/output.md).
+/// The launcher merges the parts.
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "common/core/failure.hpp"
+
+namespace fsi::io {
+
+/// Largest jumps over an interface in a whole run.
+struct InterfaceExtremes {
+  double max_velocity_jump = 0;
+  double max_traction_jump = 0;
+  double max_gap = 0;
+};
+
+struct Part {
+  std::string participant;           ///< "fluid", "coupler" or the solid's name
+  std::string role;                  ///< "fluid", "solid", "coupler"
+  std::string status = "completed";  ///< "running", "completed", "stopped" or "failed"
+  std::string reason;                ///< of a failure or a stop
+  ExitCode exit_code = ExitCode::done;
+  double t = 0;
+  std::uint64_t steps = 0;  ///< macro steps
+  double dt_min = 0, dt_max = 0;
+  std::uint64_t points = 0;    ///< grid points, or interface points for the coupler
+  std::uint64_t substeps = 0;  ///< steps the program itself took
+  double compute_s = 0, wait_s = 0;
+  double point_updates_per_s = 0;
+  std::map<std::string, double> errors;        ///< maximum norms, where a reference exists
+  std::map<std::string, double> counters;      ///< first_order_fallbacks, floors, ...
+  std::map<std::string, double> health;        ///< min_rho, min_p, min_det_F
+  std::map<std::string, double> conservation;  ///< drifts of mass, energy, momentum, angular momentum
+  std::optional<InterfaceExtremes> interface;  ///< coupler only
+};
+
+/// The part as JSON text; a number that is not finite becomes null.
+std::string to_json(const Part& part);
+
+/// Writes DIR/parts/<participant>.json, whole or not at all. @throws OutputFailed
+void write_part(const std::string& run_dir, const Part& part);
+
+}  // namespace fsi::io
