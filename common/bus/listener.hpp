@@ -1,0 +1,37 @@
+#pragma once
+/// Watching a run from outside without ever disturbing it, and asking it for something.
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/wire/messages.hpp"
+
+namespace fsi::bus {
+
+/// Best-effort reader of everybody's telemetry: a listener that freezes costs the run nothing.
+class Listener {
+ public:
+  explicit Listener(const std::string& run);
+  Listener(Listener&&) noexcept;
+  Listener& operator=(Listener&&) noexcept;
+  ~Listener();
+
+  /// What arrived, newest per program; waits up to `seconds` for the first.
+  std::vector<wire::Telemetry> wait(double seconds);
+  /// The Abort that ended the run, once one was heard.
+  const std::optional<wire::Abort>& aborted() const;
+  /// Programs of the run that can be heard now.
+  int programs() const;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+/// Sends a request ("pause", "resume", "checkpoint", "stop") to a run and returns when it has arrived.
+/// @throws PeerLost nobody takes requests for that run within `timeout_s`
+void send_control(const std::string& run, const std::string& command, double timeout_s = 3);
+
+}  // namespace fsi::bus

@@ -1,0 +1,42 @@
+#pragma once
+/// What every program says when it joins a run, and what the bus measured for it.
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace fsi::bus {
+
+/// How a program takes part in a run.
+struct BusOptions {
+  std::string run;  ///< identity of the run; programs of different runs never see each other
+  double peer_timeout_s =
+      4;  ///< a peer whose liveliness lease expired (stopped, starved) has this long to return [s]
+  double hello_timeout_s = 20;  ///< everybody must have joined within this time [s]
+  double step_timeout_s =
+      600;  ///< a living peer may take this long for one step; then it counts as stuck [s]
+  /// Asked at least every 100 ms while waiting: 0, or the number of the signal that wants the program to end
+  /// (`caught_signal` of signals.hpp fits). May be empty.
+  std::function<int()> interrupted;
+};
+
+/// Exchange of one program with the others since it joined.
+struct Statistics {
+  std::uint64_t messages = 0;  ///< lock-step messages sent and received
+  std::uint64_t bytes = 0;     ///< payload of their arrays [byte]
+  std::uint64_t stale = 0;     ///< messages of another run or an older step, ignored
+  double wait_s = 0;           ///< time spent waiting for the others [s]
+  double round_trip_p50_us =
+      0;  ///< solver: from `publish` to the answer, other programs' work included; median [us]
+  double round_trip_p99_us = 0;  ///< the same, 99 % are faster; both over the last 1024 steps [us]
+};
+
+/// What on this machine makes the bus slow, one line with its remedy each. Empty: nothing.
+std::vector<std::string> start_up_warnings();
+
+/// DDS domain (1..100) that belongs to a run. Domains share participant indices but not data; the discovery
+/// tag, which is the run itself, keeps two runs apart that meet in one domain.
+std::uint32_t domain_of(const std::string& run);
+
+}  // namespace fsi::bus

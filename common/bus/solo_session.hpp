@@ -1,0 +1,38 @@
+#pragma once
+/// The seat of a solver that runs alone: nobody to wait for, but it can be watched and told to stop.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common/bus/options.hpp"
+#include "common/core/failure.hpp"
+#include "common/wire/messages.hpp"
+
+namespace fsi::bus {
+
+class SoloSession {
+ public:
+  /// `role` is "fluid" or "solid", `name` as in the case file.
+  SoloSession(BusOptions options, const std::string& role, const std::string& name);
+  SoloSession(SoloSession&&) noexcept;
+  SoloSession& operator=(SoloSession&&) noexcept;
+  ~SoloSession();
+
+  /// Requests that came in since the last call; never waits.
+  std::vector<wire::Control> controls();
+  /// Waits (paused run) until a request comes in or the time is over.
+  void idle(double seconds);
+  /// True when the last telemetry is older than 100 ms: time to make a new one.
+  bool telemetry_due() const;
+  /// Sends telemetry to whoever listens; never waits. `run`, `from` and `role` are filled in.
+  void publish(const wire::Telemetry& telemetry);
+  /// Tells whoever listens that the run is over and why.
+  void abort(ExitCode code, const std::string& reason) noexcept;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace fsi::bus
