@@ -16,6 +16,7 @@ struct InterfaceInfo {
   std::string name;            ///< name of the solid on this interface: the key both sides share
   std::int32_t dimension = 2;  ///< n_d
   std::vector<double> x;       ///< initial positions, n_d * n
+  std::vector<double> n;       ///< solid: outward unit normals of the reference body, n_d * n; gas: empty
 };
 
 /// First word of every solver. Transient-local: a late coupler still gets it.
