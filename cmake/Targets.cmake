@@ -1,5 +1,6 @@
 # fsi_library(name SOURCES ... DEPENDS ...)     a static library seen from the repository root: #include "common/core/field.hpp"
 # fsi_program(name SOURCES ... DEPENDS ...)     an executable in <build>/bin
+#   the target `programs` builds all that a run may need, and no tests
 # fsi_test(name LABEL unit SOURCES ... DEPENDS ...)  a GoogleTest executable; every TEST becomes one CTest test
 
 function(fsi_library name)
@@ -15,11 +16,17 @@ function(fsi_library name)
   endif()
 endfunction()
 
+add_custom_target(programs)
+
 function(fsi_program name)
   cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
   target_link_libraries(${name} PRIVATE fsi_settings ${ARG_DEPENDS})
+  file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
+  if(NOT folder MATCHES "^(tests|bench)")
+    add_dependencies(programs ${name})
+  endif()
 endfunction()
 
 function(fsi_test name)
