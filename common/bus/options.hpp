@@ -16,9 +16,9 @@ struct BusOptions {
   double hello_timeout_s = 20;  ///< everybody must have joined within this time [s]
   double step_timeout_s =
       600;  ///< a living peer may take this long for one step; then it counts as stuck [s]
-  /// Asked at least every 100 ms while waiting: 0, or the number of the signal that wants the program to end
-  /// (`caught_signal` of signals.hpp fits). May be empty.
-  std::function<int()> interrupted;
+  /// Called at least every 100 ms while waiting; ends the wait by throwing (`fsi::throw_if_interrupted`
+  /// fits). May be empty.
+  std::function<void()> throw_if_interrupted;
 };
 
 /// Exchange of one program with the others since it joined.

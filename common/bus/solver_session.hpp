@@ -13,7 +13,7 @@ namespace fsi::bus {
 /// Joins a run on construction and leaves it in order on destruction.
 ///
 /// Every call that waits ends with a Failure, never with a hang: the code and reason of another program's
-/// Abort, PeerLost with the name of who is gone or silent, or interrupted/terminated after a signal.
+/// Abort, PeerLost with the name of who is gone or silent, or what `throw_if_interrupted` throws.
 class SolverSession {
  public:
   /// Says hello and waits until the coupler has welcomed everybody. `run`, `host` and `pid` of `self` are
