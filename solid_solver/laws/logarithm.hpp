@@ -22,10 +22,10 @@ inline double logarithm(double x) {
   constexpr double ln2_high = 0x1.62e42fefa3800p-1;  // 42 bits: k * ln2_high is exact
   constexpr double ln2_low = 0x1.ef35793c76730p-45;
 
-  const std::uint64_t bits = std::bit_cast<std::uint64_t>(x);
+  const auto bits = std::bit_cast<std::uint64_t>(x);
   const std::uint64_t shifted = bits - bits_of_sqrt_half + (bias << 52);
-  const double k = std::bit_cast<double>(bits_of_2_to_52 | (shifted >> 52)) - (0x1.0p52 + double(bias));
-  const double m = std::bit_cast<double>((shifted & mantissa) + bits_of_sqrt_half);
+  const auto k = std::bit_cast<double>(bits_of_2_to_52 | (shifted >> 52)) - (0x1.0p52 + double(bias));
+  const auto m = std::bit_cast<double>((shifted & mantissa) + bits_of_sqrt_half);
   const double f = m - 1.0;
   const double s = f / (2.0 + f);
   const double s2 = s * s;
