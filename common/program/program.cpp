@@ -5,12 +5,10 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <atomic>
 #include <csignal>
 #include <cstdio>
-#include <filesystem>
-#include <nlohmann/json.hpp>
 
+#include "common/bus/signals.hpp"
 #include "common/core/log.hpp"
 #include "common/io/atomic_file.hpp"
 
@@ -18,88 +16,49 @@ namespace fsi {
 
 namespace {
 
-std::atomic<int> received_signal{0};
-
-void remember_signal(int signal) {
-  received_signal = signal;
-}
-
-void catch_signals() {
-  struct sigaction action {};
-  action.sa_handler = remember_signal;
-  sigemptyset(&action.sa_mask);
-  sigaction(SIGTERM, &action, nullptr);
-  sigaction(SIGINT, &action, nullptr);
-  std::signal(SIGPIPE, SIG_IGN);     // NOLINT(cert-err33-c): nothing to do when it fails
-  prctl(PR_SET_PDEATHSIG, SIGTERM);  // the launcher's death ends the run
-}
-
-nlohmann::json to_json(const Report& report, ExitCode code) {
-  const double updates = static_cast<double>(report.points) * static_cast<double>(report.substeps);
-  return {{"participant", report.participant},
-          {"role", report.role},
-          {"status", report.status},
-          {"reason", report.reason},
-          {"exit_code", static_cast<int>(code)},
-          {"t", report.t},
-          {"steps", report.steps},
-          {"dt_min", report.dt_min},
-          {"dt_max", report.dt_max},
-          {"points", report.points},
-          {"substeps", report.substeps},
-          {"compute_s", report.compute_s},
-          {"wait_s", report.wait_s},
-          {"point_updates_per_s", report.compute_s > 0 ? updates / report.compute_s : 0.0},
-          {"errors", report.errors},
-          {"counters", report.counters},
-          {"conservation", report.conservation},
-          {"interface", report.interface}};
-}
-
 /// Runs the body; a failure becomes a code and the report's reason.
-ExitCode run_body(const std::function<void()>& body, Report& report) {
+ExitCode run_body(const std::function<void()>& body, io::Part& part) {
   try {
     body();
-    report.status = "completed";
+    if (part.status == "running") part.status = "completed";
     return ExitCode::done;
   } catch (const Failure& failure) {
-    report.reason = failure.what();
+    part.status = "failed";
+    part.reason = failure.what();
     return failure.code();
   } catch (const std::exception& error) {
-    report.reason = fmt::format("internal error: {}", error.what());
+    part.status = "failed";
+    part.reason = fmt::format("internal error: {}", error.what());
     return ExitCode::expectation_missed;
   }
 }
 
-ExitCode write_report(const Setup& setup, const Report& report, ExitCode code) {
+ExitCode leave_part(const Setup& setup, io::Part& part, ExitCode code) {
+  part.exit_code = code;
+  const double updates = static_cast<double>(part.points) * static_cast<double>(part.substeps);
+  part.point_updates_per_s = part.compute_s > 0 ? updates / part.compute_s : 0;
   try {
-    const auto path = std::filesystem::path(setup.run_dir) / "parts" / (setup.name + ".json");
-    std::filesystem::create_directories(path.parent_path());
-    io::write_atomically(path.string(), to_json(report, code).dump(1) + "\n");
-  } catch (const std::exception& error) {
-    log_error(error.what());
-    return code == ExitCode::done ? ExitCode::output_failed : code;
+    io::write_part(setup.run_dir, part);
+  } catch (const Failure& failure) {
+    log_error(failure.what());
+    return code == ExitCode::done ? failure.code() : code;
   }
   return code;
 }
 
 }  // namespace
 
-bool interrupted() {
-  return received_signal != 0;
-}
-
 void throw_if_interrupted() {
-  const int signal = received_signal;
+  const int signal = bus::caught_signal();
   if (signal == SIGINT) throw Failure(ExitCode::interrupted, "interrupted (SIGINT)");
   if (signal != 0) throw Failure(ExitCode::terminated, "ended on request (SIGTERM)");
 }
 
-void Report::count_step(double now, double dt) {
-  dt_min = steps == 0 ? dt : std::min(dt_min, dt);
-  dt_max = steps == 0 ? dt : std::max(dt_max, dt);
-  ++steps;
-  t = now;
+void count_step(io::Part& part, double t, double dt) {
+  part.dt_min = part.steps == 0 ? dt : std::min(part.dt_min, dt);
+  part.dt_max = part.steps == 0 ? dt : std::max(part.dt_max, dt);
+  ++part.steps;
+  part.t = t;
 }
 
 double Stopwatch::lap() {
@@ -135,20 +94,22 @@ int run_program(int argc, char** argv, const std::string& default_name, const st
     return code == 0 ? 0 : static_cast<int>(ExitCode::user_mistake);
   }
 
-  catch_signals();
-  Report report;
-  report.participant = setup.name;
-  report.role = role;
+  bus::catch_signals();
+  prctl(PR_SET_PDEATHSIG, SIGTERM);  // the launcher's death ends the run
+  io::Part part;
+  part.participant = setup.name;
+  part.role = role;
+  part.status = "running";
   ExitCode code = run_body(
       [&] {
-        std::filesystem::create_directories(std::filesystem::path(setup.run_dir) / "log");
+        io::make_directory(setup.run_dir + "/log");
         open_log(setup.name, setup.run_dir);
         setup.problem = load_case(case_path);
-        body(setup, report);
+        body(setup, part);
       },
-      report);
-  if (code != ExitCode::done) log_error(report.reason);
-  code = write_report(setup, report, code);
+      part);
+  if (code != ExitCode::done) log_error(part.reason);
+  code = leave_part(setup, part, code);
   return static_cast<int>(code);
 }
 

@@ -5,12 +5,10 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <string>
 
 #include "common/case/case.hpp"
-#include "common/core/failure.hpp"
-#include "common/wire/messages.hpp"
+#include "common/io/part.hpp"
 
 namespace fsi {
 
@@ -22,30 +20,14 @@ struct Setup {
   std::string name;  ///< participant's name: "fluid", "coupler" or the solid's name
 };
 
-/// What a program leaves in DIR/parts/<name>.json; the launcher merges the parts into summary.json.
-struct Report {
-  std::string participant, role;
-  std::string status = "failed";
-  std::string reason;
-  double t = 0;
-  std::uint64_t steps = 0;
-  double dt_min = 0, dt_max = 0;
-  std::uint64_t points = 0;
-  std::uint64_t substeps = 0;
-  double compute_s = 0, wait_s = 0;
-  std::map<std::string, double> errors, counters, conservation, interface;
-
-  /// Counts one finished step of size dt ending at time `now`.
-  void count_step(double now, double dt);
-};
+/// Counts one finished macro step of size dt that ended at time `t`.
+void count_step(io::Part& part, double t, double dt);
 
 /// Runs the body of a program with everything around it. Failures become the exit code and the report's
 /// reason. `default_name` is the participant's name when --name is not given.
 int run_program(int argc, char** argv, const std::string& default_name, const std::string& role,
-                const std::function<void(const Setup&, Report&)>& body);
+                const std::function<void(const Setup&, io::Part&)>& body);
 
-/// True after SIGTERM or SIGINT.
-bool interrupted();
 /// Ends the program (exit 143 or 130) when a signal asks for it.
 void throw_if_interrupted();
 

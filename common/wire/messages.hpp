@@ -98,6 +98,7 @@ struct ProjectedInterface {
   std::vector<double> robin_r;  ///< r_k = w_k + z_f v_k with the newest z_f for every k, levels * n
   // The next step.
   double dt_next = 0;
+  double t_next = 0;  ///< time after it: exactly an output time where one is hit
   std::int32_t substeps_next = 1;
   std::vector<double> x_next;  ///< commanded positions at t + dt_next, n_d * n
   bool write_output = false;   ///< write fields of the state at t

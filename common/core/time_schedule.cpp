@@ -1,0 +1,53 @@
+#include "common/core/time_schedule.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "common/core/failure.hpp"
+
+namespace fsi {
+
+namespace {
+
+constexpr double smallest_part = 1e-11;  ///< of the run's length: below, the step counts as vanished
+
+}  // namespace
+
+TimeSchedule::TimeSchedule(Options options) : options_(std::move(options)) {
+  auto& times = options_.output_times;
+  std::erase_if(times, [this](double t) { return t > options_.end * (1 + smallest_part); });
+  times.push_back(options_.end);
+  std::ranges::sort(times);
+  times.erase(std::ranges::unique(times).begin(), times.end());
+}
+
+bool TimeSchedule::output_at_start() const {
+  return options_.output_times.front() <= 0;
+}
+
+PlannedStep TimeSchedule::plan(double t, double bid, const std::string& reason) {
+  if (std::isinf(bid) && bid > 0) bid = options_.end;
+  if (!(bid > smallest_part * options_.end) || std::isnan(bid)) {
+    throw NumbersBroke(fmt::format("t = {:.6g}: the time step has collapsed to {:.3g} ({})", t, bid, reason));
+  }
+  double dt = bid;
+  if (previous_ > 0) dt = std::min(dt, options_.growth * previous_);
+  if (options_.dt_max > 0) dt = std::min(dt, options_.dt_max);
+  previous_ = dt;
+
+  const double tiny = smallest_part * options_.end;
+  const auto target =
+      std::ranges::find_if(options_.output_times, [=](double wanted) { return wanted > t + tiny; });
+  if (target == options_.output_times.end()) return {.dt = 0, .t_next = t, .output = false, .end = true};
+  const double steps = std::ceil((*target - t) / dt * (1 - 1e-12));
+  if (steps <= 1)
+    return {
+        .dt = *target - t, .t_next = *target, .output = true, .end = *target == options_.output_times.back()};
+  dt = (*target - t) / steps;
+  return {.dt = dt, .t_next = t + dt};
+}
+
+}  // namespace fsi

@@ -1,0 +1,54 @@
+#pragma once
+/// What a solver is to the loop that drives it. Implement this to bring a solver of your own.
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "common/io/part.hpp"
+#include "common/program/program.hpp"
+#include "common/wire/messages.hpp"
+
+namespace fsi {
+
+/// Largest step the solver can take, safety factor included; infinite when it has no limit.
+struct TimeStepBid {
+  double dt = 0;
+  std::string reason;
+};
+
+/// Projected states of the solver's interfaces in the order of its hello; empty when it runs alone.
+using ProjectedStates = std::span<const wire::ProjectedInterface* const>;
+
+class Participant {
+ public:
+  Participant() = default;
+  Participant(const Participant&) = delete;
+  Participant& operator=(const Participant&) = delete;
+  Participant(Participant&&) = delete;
+  Participant& operator=(Participant&&) = delete;
+  virtual ~Participant() = default;
+
+  /// Role, name, law, points and interfaces.
+  virtual wire::Hello hello() const = 0;
+  virtual TimeStepBid compute_time_step() const = 0;
+  /// Predicted state of interface number k of the hello; the driver adds step, time, bid and waiting times.
+  virtual void fill(std::size_t k, wire::PredictedInterface& predicted) const = 0;
+  /// Boundary and interface conditions at t.
+  virtual void apply_bcs(double t, ProjectedStates projected) = 0;
+  /// From t to t + dt in `substeps` equal steps, without interface conditions at the end.
+  virtual void advance(double t, double dt, int substeps, ProjectedStates projected) = 0;
+  /// Fields at t.
+  virtual void write_fields(double t, std::uint64_t step) = 0;
+  /// Lines of the tables, once a step.
+  virtual void write_tables(double t, double dt, ProjectedStates projected) = 0;
+  virtual wire::Health health() const = 0;
+  /// Errors, counters and budgets at the end of the run.
+  virtual void report(double t, io::Part& part) const = 0;
+};
+
+/// Runs a solver to the end of the case: with the coupler when it has interfaces, alone when it has none.
+void participate(const Setup& setup, io::Part& part, Participant& solver);
+
+}  // namespace fsi
