@@ -1,0 +1,97 @@
+#pragma once
+/// The gas solver: Euler equations on mapped, moving component grids, advanced one step at a time.
+///
+///     receive projected values -> apply_fluid_bcs -> move_grids -> advance_fluid -> interface_state -> publish
+///
+/// One component grid now; everything that belongs to one grid lives in Component.
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "common/grid/moving_grid.hpp"
+#include "fluid_solver/component.hpp"
+#include "fluid_solver/gas_options.hpp"
+
+namespace fsi::fluid {
+
+/// Largest stable step, safety factor included, and what limits it.
+struct TimeStep {
+  double dt = 0;
+  std::string reason;  ///< for people: which grid, point and position
+};
+
+/// The gas along an interface side, n points; vectors component-major (component c of point k at [c * n + k]).
+struct GasInterface {
+  std::vector<double> x;    ///< positions, 2 n
+  std::vector<double> v;    ///< velocity, 2 n
+  std::vector<double> p;    ///< pressure, n
+  std::vector<double> z_f;  ///< impedance rho a, n
+};
+
+/// Totals over the body of gas: sums over the control volumes, those of boundary points cut at the boundary.
+struct Totals {
+  double mass = 0, momentum1 = 0, momentum2 = 0, energy = 0, angular_momentum = 0;
+};
+
+/// How well the numbers are.
+struct Health {
+  double min_rho = 0, min_p = 0;
+  std::uint64_t first_order_fallbacks = 0;  ///< points advanced with first-order states, since the start
+  std::uint64_t floors = 0;                 ///< points whose pressure was lifted to the floor, since the start
+};
+
+/// Largest errors over all grid points; T = p / rho.
+struct GasErrors {
+  double rho = 0, v1 = 0, v2 = 0, T = 0;
+};
+
+class GasSolver {
+ public:
+  /// `boundaries` in the order left, right, bottom, top.
+  /// @throws UserMistake where boundaries and grid do not fit or an option is out of range
+  GasSolver(grid::MovingGrid grid, const GasOptions& options, std::array<Boundary, 4> boundaries, double t0);
+
+  /// Sets every point, ghosts included. @throws UserMistake at a density or pressure that is not positive
+  void assign_initial_conditions(const StateField& initial);
+  /// Works on the projected as on the predicted state. (44), (45)
+  TimeStep compute_time_step() const;
+  /// Moves the grid to t_new = t + dt; interface sides go where they are told.
+  void move_grids(double t_new, double dt, std::span<const grid::SideCommand> commands = {});
+  /// Predicted state at t, all points, boundary points included, without interface conditions; the grid was moved before.
+  /// @throws NumbersBroke at a density or pressure that is no longer a number or not positive
+  void advance_fluid(double t, double dt);
+  /// The gas along a side, for the projection.
+  GasInterface interface_state(Side side) const;
+  /// Boundary conditions at t: boundary points, then ghosts. Every interface side needs its values.
+  void apply_fluid_bcs(double t, std::span<const InterfaceValues> interfaces = {});
+
+  Health health() const;
+  Totals totals() const;
+  /// Largest differences to a given solution at time t.
+  GasErrors errors(const StateField& exact, double t) const;
+  /// State at a position by bilinear interpolation; nothing where no grid covers it.
+  std::optional<State> probe(double x, double y) const;
+
+  /// Primitive state: planes rho, v1, v2, p.
+  ConstFieldView state() const { return component_.state(); }
+  /// Conserved state: planes rho, rho v1, rho v2, rho E; ghosts included.
+  Field conserved() const;
+  const grid::MovingGrid& grid() const { return component_.grid(); }
+  const GasOptions& options() const { return options_; }
+  std::size_t points() const { return component_.grid().layout().points(); }
+  double time() const { return t_; }
+
+  /// Everything besides the grid that a restart needs, under fixed names, to be written or overwritten in place.
+  std::vector<CheckpointArray> checkpoint_arrays();
+
+ private:
+  GasOptions options_;
+  Component component_;
+  double t_;
+};
+
+}  // namespace fsi::fluid
