@@ -1,0 +1,1 @@
+"""The Python half of ./launch/fsi: starts, watches and ends programs, merges what they report, draws pictures."""

@@ -1,0 +1,59 @@
+"""A case as `fsi_case` reads and checks it: the only reader of case files is in C++."""
+
+import json
+import subprocess
+from dataclasses import dataclass
+
+from fsi_launch import paths
+from fsi_launch.failure import Failure, INTERNAL_ERROR, UserMistake
+
+REFERENCE_PROGRAMS = {"piston_1d": "reference_piston"}  # reference kinds computed by a program of their own
+
+
+@dataclass
+class Case:
+    """What the launcher needs to know. `text` is the resolved case: parameters and overrides filled in."""
+
+    name: str
+    text: str
+    fluid: bool
+    solids: dict        # name: law
+    reference: str      # kind
+    expect: list        # of {quantity, max, min, equals}
+
+    def participants(self):
+        """{participant: program}, in the order they start. A case without an interface needs no coupler."""
+        programs = {"fluid": "fluid_solver"} if self.fluid else {}
+        programs |= {name: f"solid_solver_{law}" for name, law in self.solids.items()}
+        if self.fluid and self.solids:
+            programs["coupler"] = "coupler"
+        return programs
+
+    def speaker(self):
+        """The participant that reports progress."""
+        return list(self.participants())[-1]
+
+
+def _ask(verb, case, overrides, laws):
+    command = [paths.program("fsi_case"), verb, paths.case_file(case)]
+    command += [f"--set={override}" for override in overrides] + [f"--solid={law}" for law in laws]
+    answer = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
+    if answer.returncode == 2:
+        raise UserMistake(answer.stderr.strip() or "the case is wrong")
+    if answer.returncode != 0:
+        raise Failure(INTERNAL_ERROR, f"fsi_case failed ({answer.returncode}): {answer.stderr.strip()}")
+    return answer.stdout
+
+
+def check(case, overrides, laws):
+    """One line about a case that is right. Throws UserMistake with file:line:column."""
+    return _ask("check", case, overrides, laws).strip()
+
+
+def resolve(case, overrides, laws):
+    """The checked Case. Throws UserMistake with file:line:column."""
+    answer = json.loads(_ask("resolve", case, overrides, laws))
+    return Case(
+        name=answer["name"], text=answer["resolved"], fluid=bool(answer["fluid"]),
+        solids={solid["name"]: solid["law"] for solid in answer["solids"]},
+        reference=answer["reference"]["kind"], expect=answer["expect"])

@@ -1,0 +1,139 @@
+"""The command line: verbs, their options and their exit codes."""
+
+import argparse
+import signal
+import sys
+
+from fsi_launch import paths
+from fsi_launch.failure import DONE, Failure, INTERRUPTED, OUTPUT_FAILED, TERMINATED, UserMistake
+
+USAGE = (paths.ROOT / "launch" / "usage.txt").read_text(encoding="utf-8")
+
+
+class _Parser(argparse.ArgumentParser):
+    """Reports a mistake in one line; exit code 2."""
+
+    def error(self, message):
+        raise UserMistake(f"{self.prog.split()[-1]}: {message}; --help says more")
+
+
+def _add_case(parser):
+    parser.add_argument("case", metavar="CASE", help="a case file, or a name in configs/")
+    parser.add_argument("--set", dest="overrides", metavar="KEY=VALUE", action="append", default=[],
+                        help="override an entry of the case, e.g. --set time.end=0.4 (repeatable)")
+    parser.add_argument("--solid", dest="laws", metavar="NAME=LAW", action="append", default=[],
+                        help="give a solid another law, e.g. --solid solid=neo_hookean (repeatable)")
+
+
+def _run(options):
+    from fsi_launch.run import Request, run
+    return run(Request(case=options.case, overrides=options.overrides, laws=options.laws, out=options.out,
+                       overwrite=options.overwrite, progress=options.progress)).code
+
+
+def _check(options):
+    from fsi_launch import case
+    print(case.check(options.case, options.overrides, options.laws))
+    return DONE
+
+
+def _converge(options):
+    from fsi_launch import converge
+    return converge.main(options)
+
+
+def _test(options):
+    from fsi_launch import testing
+    return testing.main(options)
+
+
+def _bench(options):
+    from fsi_launch import bench
+    return bench.main(options)
+
+
+def _plot(options):
+    from fsi_launch import plot
+    return plot.main(options)
+
+
+def _levels(text):
+    levels = [int(word) for word in text.split(",")]
+    if not levels or min(levels) < 1:
+        raise ValueError
+    return levels
+
+
+def _words(text):
+    return [word for word in text.split(",") if word]
+
+
+def _parser():
+    parser = _Parser(prog="fsi", add_help=False)
+    verbs = parser.add_subparsers(dest="verb", required=True, parser_class=_Parser)
+
+    verb = verbs.add_parser("run", description="Runs a case: checks it, starts its programs, shows the progress, "
+                            "and writes the results and summary.json to DIR.")
+    _add_case(verb)
+    verb.add_argument("--out", metavar="DIR", help="folder of the results (default: runs/CASE-TIME)")
+    verb.add_argument("--overwrite", action="store_true", help="replace the results of a former run in DIR")
+    verb.add_argument("--no-progress", dest="progress", action="store_false", help="no progress bar")
+    verb.set_defaults(act=_run)
+
+    verb = verbs.add_parser("check", description="Checks a case file and starts nothing.")
+    _add_case(verb)
+    verb.set_defaults(act=_check)
+
+    verb = verbs.add_parser("converge", description="Runs a case on several grids and prints its errors with their "
+                            "rates of convergence; writes them as text, markdown and JSON.")
+    _add_case(verb)
+    verb.add_argument("--levels", type=_levels, metavar="J,J,..", default=[2, 4, 8],
+                      help="grid factors j of h = 1/(10 j) (default: 2,4,8)")
+    verb.add_argument("--rates", type=_words, metavar="NAME,..", default=[],
+                      help="only these errors, e.g. rho,v1 (default: all)")
+    verb.add_argument("--min-rate", type=float, metavar="R", help="exit 1 if a fitted rate is below R")
+    verb.add_argument("--out", metavar="DIR", help="folder of the runs and tables (default: runs/converge-CASE-TIME)")
+    verb.set_defaults(act=_converge)
+
+    verb = verbs.add_parser("test", description="Builds everything and runs the tests: unit, programs, convergence, "
+                            "regression.")
+    verb.add_argument("--quick", action="store_true", help="unit tests only")
+    verb.add_argument("-R", dest="pattern", metavar="REGEX", help="only tests whose name matches")
+    verb.set_defaults(act=_test)
+
+    verb = verbs.add_parser("plot", description="Draws the results of a run as PNG pictures into DIR/plots.")
+    verb.add_argument("directory", metavar="DIR", help="folder of a run")
+    verb.add_argument("--out", metavar="DIR", help="folder of the pictures (default: DIR/plots)")
+    verb.set_defaults(act=_plot)
+
+    verb = verbs.add_parser("bench", description="Runs all benchmarks; prints one table and writes JSON.")
+    verb.add_argument("--quick", action="store_true", help="a short look: fewer repetitions")
+    verb.add_argument("--filter", metavar="REGEX", default="", help="only benchmarks whose name matches")
+    verb.add_argument("--out", metavar="FILE", default="build/bench.json", help="JSON file (default: build/bench.json)")
+    verb.set_defaults(act=_bench)
+    return parser
+
+
+def _terminated(*_):
+    raise Failure(TERMINATED, "ended on request (SIGTERM)")
+
+
+def main(arguments):
+    """Returns the exit code."""
+    if not arguments or arguments[0] in ("-h", "--help", "help"):
+        print(USAGE, end="")
+        return DONE
+    signal.signal(signal.SIGTERM, _terminated)
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # also in the background of a script
+    try:
+        options = _parser().parse_args(arguments)
+        return options.act(options)
+    except Failure as failure:
+        print(f"fsi: {failure}", file=sys.stderr)
+        return failure.code
+    except KeyboardInterrupt:
+        print("fsi: interrupted (Ctrl-C)", file=sys.stderr)
+        return INTERRUPTED
+    except OSError as error:
+        print(f"fsi: {error.filename or 'output'}: {error.strerror}", file=sys.stderr)
+        return OUTPUT_FAILED

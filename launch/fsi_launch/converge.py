@@ -1,0 +1,108 @@
+"""`fsi converge`: the same case on finer and finer grids; errors and rates as text, markdown and JSON."""
+
+import json
+import math
+import sys
+import time
+from pathlib import Path
+
+from fsi_launch import case as cases
+from fsi_launch.failure import DONE, EXPECTATION_MISSED, Failure, UserMistake
+from fsi_launch.run import Request, run
+
+
+def pairwise_rates(levels, errors):
+    """Order of convergence from each level to the next; None where an error is missing or zero."""
+    rates = []
+    for (j0, e0), (j1, e1) in zip(zip(levels, errors), zip(levels[1:], errors[1:])):
+        rates.append(math.log(e0 / e1) / math.log(j1 / j0) if e0 and e1 else None)
+    return rates
+
+
+def fitted_rate(levels, errors):
+    """Slope of the least-squares line through log(error) over log(h); None for fewer than two errors."""
+    points = [(-math.log(j), math.log(e)) for j, e in zip(levels, errors) if e]
+    if len(points) < 2:
+        return None
+    mean_x = sum(x for x, _ in points) / len(points)
+    mean_y = sum(y for _, y in points) / len(points)
+    return (sum((x - mean_x) * (y - mean_y) for x, y in points)
+            / sum((x - mean_x) ** 2 for x, _ in points))
+
+
+def table(levels, summaries, names):
+    """{levels, h, errors, rates, fitted, steps, wall_s} of finished runs."""
+    errors = {name: [summary["errors"].get(name) for summary in summaries] for name in names}
+    return {
+        "levels": levels, "h": [1 / (10 * j) for j in levels], "errors": errors,
+        "rates": {name: pairwise_rates(levels, column) for name, column in errors.items()},
+        "fitted": {name: fitted_rate(levels, column) for name, column in errors.items()},
+        "steps": [summary["steps"] for summary in summaries],
+        "wall_s": [summary["wall_s"] for summary in summaries],
+    }
+
+
+def _rows(result):
+    """The table as rows of text, the heading first."""
+    rows = [["h"] + [word for name in result["errors"] for word in (name, "rate")] + ["steps", "wall [s]"]]
+    for k, j in enumerate(result["levels"]):
+        row = [f"1/{10 * j}"]
+        for name, column in result["errors"].items():
+            rate = result["rates"][name][k - 1] if k else None
+            row += ["-" if column[k] is None else f"{column[k]:.2e}", "" if rate is None else f"{rate:.2f}"]
+        rows.append(row + [str(result["steps"][k]), f"{result['wall_s'][k]:.1f}"])
+    fitted = [result["fitted"][name] for name in result["errors"]]
+    rows.append(["fit"] + [word for rate in fitted for word in ("", "" if rate is None else f"{rate:.2f}")] + ["", ""])
+    return rows
+
+
+def as_text(result):
+    rows = _rows(result)
+    widths = [max(len(row[k]) for row in rows) for k in range(len(rows[0]))]
+    return "\n".join("  ".join(cell.rjust(width) for cell, width in zip(row, widths)) for row in rows) + "\n"
+
+
+def as_markdown(result):
+    rows = _rows(result)
+    lines = ["| " + " | ".join(row) + " |" for row in rows]
+    return "\n".join([lines[0], "|" + "---|" * len(rows[0]), *lines[1:]]) + "\n"
+
+
+def _run_levels(options, directory):
+    """Summaries of the runs, one per level. Throws the Failure of the first run that fails."""
+    summaries = []
+    for j in options.levels:
+        overrides = [*options.overrides, f"grid.factor={j}"]
+        print(f"level {j}: h = 1/{10 * j}", file=sys.stderr)
+        result = run(Request(case=options.case, overrides=overrides, laws=options.laws, quiet=True,
+                             out=str(directory / f"level_{j}")))
+        # At a coarse level an expectation made for a finer grid may be missed: only the errors count here.
+        if result.code not in (DONE, EXPECTATION_MISSED):
+            raise Failure(result.code, f"level {j} failed; no table")
+        summaries.append(result.summary)
+    return summaries
+
+
+def main(options):
+    """Prints the table and writes converge.{txt,md,json}."""
+    name = cases.resolve(options.case, options.overrides, options.laws).name
+    directory = Path(options.out or f"runs/converge-{name}-{time.strftime('%Y%m%d-%H%M%S')}")
+    summaries = _run_levels(options, directory)
+    names = [key for key in summaries[0]["errors"] if not options.rates or key in options.rates]
+    if unknown := set(options.rates) - set(names):
+        raise UserMistake(f"--rates: no error {', '.join(sorted(unknown))}; there are: "
+                          + (", ".join(summaries[0]["errors"]) or "none, for want of a reference solution"))
+    if not names:
+        raise UserMistake(f"{name} has no reference solution: there are no errors to compare")
+    result = table(options.levels, summaries, names) | {"case": name, "overrides": options.overrides}
+    text = as_text(result)
+    print(text, end="")
+    for suffix, content in (("txt", text), ("md", as_markdown(result)), ("json", json.dumps(result, indent=2) + "\n")):
+        (directory / f"converge.{suffix}").write_text(content, encoding="utf-8")
+    print(f"tables in {directory}", file=sys.stderr)
+    low = {key: rate for key, rate in result["fitted"].items()
+           if options.min_rate is not None and (rate is None or rate < options.min_rate)}
+    for key, rate in low.items():
+        print(f"fsi: rate of {key} is {'unknown' if rate is None else f'{rate:.2f}'}, must be at least "
+              f"{options.min_rate:g}", file=sys.stderr)
+    return EXPECTATION_MISSED if low else DONE

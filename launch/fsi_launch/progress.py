@@ -1,0 +1,97 @@
+"""The bar a person watches while a run goes on, from the `progress ...` lines of the coupler or the lone solver."""
+
+import collections
+import shutil
+import sys
+import time
+
+BAR = 24            # characters
+LINE_EVERY = 5.0    # [s] between lines when the output is not a terminal
+DRAW_EVERY = 0.1    # [s] between two states of the bar
+WINDOW = 10.0       # [s] over which speed is measured
+
+
+def parse(text):
+    """{key: value} of a line `progress step=12 t=0.03 dt=1e-3 limit=fluid t_end=.8`, or None for any other line."""
+    words = text.split()
+    if not words or words[0] != "progress":
+        return None
+    values = dict(word.split("=", 1) for word in words[1:] if "=" in word)
+    try:
+        state = {key: float(values[key]) for key in ("t", "dt", "t_end")}
+        state["step"] = int(values["step"])
+    except (KeyError, ValueError):
+        return None
+    state["limit"] = values.get("limit", "").replace("_", " ")
+    return state
+
+
+def clock(seconds):
+    """3725 -> 1:02:05"""
+    minutes, s = divmod(int(seconds), 60)
+    hours, m = divmod(minutes, 60)
+    return f"{hours}:{m:02}:{s:02}" if hours else f"{m}:{s:02}"
+
+
+class Progress:
+    """Shows the newest state on `out`; `enabled=False` keeps silent."""
+
+    def __init__(self, enabled=True, out=None):
+        self._out = out or sys.stderr
+        self._enabled = enabled
+        self._bar = self._out.isatty()
+        self._state = None
+        self._history = collections.deque()
+        self._drawn = time.monotonic()
+        self._on_screen = False
+
+    def hear(self, text):
+        """Takes a line a program printed."""
+        if state := parse(text):
+            self._state = state
+            now = time.monotonic()
+            self._history.append((now, state["step"], state["t"]))
+            while now - self._history[0][0] > WINDOW and len(self._history) > 2:
+                self._history.popleft()
+
+    def tick(self):
+        """Draws when it is time to."""
+        now = time.monotonic()
+        if self._state and self._enabled and now - self._drawn >= (DRAW_EVERY if self._bar else LINE_EVERY):
+            self._drawn = now
+            self._draw()
+
+    def close(self):
+        """Removes the bar."""
+        if self._on_screen:
+            self._out.write("\r\033[K")
+            self._out.flush()
+
+    def _speed(self):
+        """(steps per second, time of the problem per second), or (0, 0) while unknown."""
+        (first, step0, t0), (last, step1, t1) = self._history[0], self._history[-1]
+        seconds = last - first
+        return ((step1 - step0) / seconds, (t1 - t0) / seconds) if seconds > 0 else (0.0, 0.0)
+
+    def _text(self):
+        state = self._state
+        part = min(1.0, max(0.0, state["t"] / state["t_end"])) if state["t_end"] > 0 else 0.0
+        steps, rate = self._speed()
+        words = [f"{100 * part:3.0f} %", f"t {state['t']:.4g} of {state['t_end']:.4g}", f"dt {state['dt']:.2e}"]
+        if state["limit"]:
+            words[-1] += f" ({state['limit']})"
+        if rate > 0:
+            words += [f"{steps:.0f} steps/s", f"{clock((state['t_end'] - state['t']) / rate)} left"]
+        if self._bar:
+            full = round(BAR * part)
+            words.insert(1, "[" + "=" * full + " " * (BAR - full) + "]")
+        return "  ".join(words)
+
+    def _draw(self):
+        if self._bar:
+            width = shutil.get_terminal_size().columns - 1
+            self._out.write("\r" + self._text()[:width] + "\033[K")
+            self._on_screen = True
+        else:
+            self._out.write(self._text() + "\n")
+        self._out.flush()

@@ -1,0 +1,205 @@
+"""`fsi run`: one case from its file to its summary."""
+
+import signal
+import subprocess
+import sys
+import time
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from fsi_launch import case as cases
+from fsi_launch import paths, registry, summary
+from fsi_launch.failure import (DONE, EXPECTATION_MISSED, Failure, INTERRUPTED, OUTPUT_FAILED,
+                                PEER_LOST, TERMINATED, UserMistake)
+from fsi_launch.progress import Progress
+from fsi_launch.supervise import Outcome, Program, Supervisor
+
+
+@dataclass
+class Request:
+    """What a person asks for."""
+
+    case: str
+    overrides: list = field(default_factory=list)
+    laws: list = field(default_factory=list)
+    out: str = None
+    overwrite: bool = False
+    progress: bool = True
+    quiet: bool = False
+
+
+@dataclass
+class Result:
+    """What became of it."""
+
+    code: int
+    directory: Path
+    summary: dict
+
+
+# --- the folder of the results
+
+
+def _free_name(name, stamp):
+    for count in range(1, 1000):
+        path = Path("runs") / (f"{name}-{stamp}" + (f"-{count}" if count > 1 else ""))
+        if not path.exists():
+            return path
+    raise Failure(OUTPUT_FAILED, "no free name for the results in runs/")
+
+
+def _remove_former_run(directory):
+    """Only what a run wrote; anything else stays, and makes the folder unusable."""
+    for path in sorted(directory.rglob("*"), key=lambda p: len(p.parts), reverse=True):
+        if path.is_dir() and not path.is_symlink():
+            path.rmdir()
+        else:
+            path.unlink()
+
+
+def _make_directory(request, name):
+    """The new folder of the results, with log/ in it."""
+    directory = Path(request.out) if request.out else _free_name(name, time.strftime("%Y%m%d-%H%M%S"))
+    if directory.exists() and not directory.is_dir():
+        raise UserMistake(f"--out {directory} is a file; name a folder")
+    if directory.is_dir() and any(directory.iterdir()):
+        if not (directory / "case.yaml").is_file() or not (directory / "log").is_dir():
+            raise UserMistake(f"--out {directory} is not empty and holds no run; name a new folder")
+        if not request.overwrite:
+            raise UserMistake(f"--out {directory} holds the results of a run; name a new folder or add --overwrite")
+        _remove_former_run(directory)
+    try:
+        (directory / "log").mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise Failure(OUTPUT_FAILED, f"cannot make {directory}: {error.strerror}") from None
+    return directory
+
+
+# --- the programs
+
+
+def _programs(case, directory, run):
+    common = ["--case", str(directory / "case.yaml"), "--run-dir", str(directory), "--run", run]
+    return [Program(name, [paths.program(program), *common, "--name", name], listen=name == case.speaker())
+            for name, program in case.participants().items()]
+
+
+def _reference(case, directory):
+    """The program that computes this case's reference solution, if it has one of its own."""
+    program = cases.REFERENCE_PROGRAMS.get(case.reference)
+    if program is None:
+        return []
+    command = [paths.program(program), "--case", str(directory / "case.yaml"), "--run-dir", str(directory)]
+    return [Program("reference", command)]
+
+
+def _last_line(directory, name):
+    """The last words of a program, for when it left no reason."""
+    try:
+        lines = (directory / "log" / f"{name}.out").read_text(encoding="utf-8", errors="replace").split("\n")
+    except OSError:
+        return ""
+    return next((line.strip() for line in reversed(lines) if line.strip()), "")
+
+
+def _is_consequence(ending):
+    """Programs that end because another one did: by losing it, or by our signal."""
+    return ending.ours or ending.code in (PEER_LOST, INTERRUPTED, TERMINATED)
+
+
+def root_cause(endings):
+    """The ending that made the others fail, or None when all went well."""
+    failures = [ending for ending in endings if ending.code != 0]
+    causes = [ending for ending in failures if not _is_consequence(ending)]
+    return next(iter(causes or failures), None)
+
+
+def _explain(ending, case, directory):
+    """(exit code, reason) of the run from the ending that caused it."""
+    program = case.participants().get(ending.name, ending.name)
+    label = ending.name if program == ending.name else f"{ending.name} ({program})"
+    if ending.lost():
+        name = signal.Signals(-ending.code).name
+        words = _last_line(directory, ending.name)
+        return PEER_LOST, f"lost {label}: ended by {name}" + (f"; its last words: {words}" if words else "")
+    if ending.ours:
+        return PEER_LOST, f"lost {label}: it did not end by itself"
+    part = summary.read_parts(directory, [ending.name]).get(ending.name, {})
+    reason = part.get("reason") or _last_line(directory, ending.name) or f"exit code {ending.code}"
+    code = ending.code if ending.code in range(1, 6) else PEER_LOST
+    return code, f"{ending.name}: {reason}"
+
+
+def _judge(outcome, case, directory):
+    """(exit code, status, reason) of a run whose programs have all ended."""
+    if outcome.signal == signal.SIGINT:
+        return INTERRUPTED, "failed", "interrupted (Ctrl-C)"
+    if outcome.signal:
+        return TERMINATED, "failed", f"ended on request ({signal.Signals(outcome.signal).name})"
+    if cause := root_cause(outcome.endings):
+        code, reason = _explain(cause, case, directory)
+        return code, "failed", reason
+    for part in summary.read_parts(directory, case.participants()).values():
+        if part.get("status") == "stopped":
+            return DONE, "stopped", part.get("reason") or "stopped on request"
+    return DONE, "completed", ""
+
+
+def _write_xdmf(directory):
+    """DIR/run.xmf for ParaView."""
+    answer = subprocess.run([paths.program("fsi_xdmf"), str(directory)], stdin=subprocess.DEVNULL,
+                            capture_output=True, text=True, check=False)
+    if answer.returncode != 0:
+        raise Failure(OUTPUT_FAILED, answer.stderr.strip() or "fsi_xdmf failed")
+
+
+# --- the whole
+
+
+def _supervise(case, directory, run, progress):
+    """Runs the reference program, then the programs of the run."""
+    outcome = Outcome()
+    for programs in (_reference(case, directory), _programs(case, directory, run)):
+        supervisor = Supervisor(directory / "log", progress.hear, progress.tick)
+        outcome = supervisor.run(programs)
+        if outcome.signal or root_cause(outcome.endings):
+            break
+    return outcome
+
+
+def run(request):
+    """Runs a case to its end. Throws UserMistake before anything is started; everything later is in the Result."""
+    case = cases.resolve(request.case, request.overrides, request.laws)
+    for program in case.participants().values():
+        paths.program(program)
+    directory = _make_directory(request, case.name)
+    (directory / "case.yaml").write_text(case.text, encoding="utf-8")
+    identity = f"{case.name}-{time.strftime('%H%M%S')}-{time.time_ns() % 10**9:09d}"
+    say = (lambda text: None) if request.quiet else (lambda text: print(text, file=sys.stderr))
+    say(f"{case.name}: {', '.join(case.participants().values())}")
+
+    start = time.monotonic()
+    progress = Progress(request.progress and not request.quiet)
+    with registry.Entry(identity, directory.resolve(), case.name):
+        outcome = _supervise(case, directory, identity, progress)
+    progress.close()
+    code, status, reason = _judge(outcome, case, directory)
+    result = summary.merge(directory, case, status, reason, time.monotonic() - start)
+    try:
+        _write_xdmf(directory)
+    except Failure as failure:
+        if code == DONE:
+            code, result["status"], result["reason"] = failure.code, "failed", str(failure)
+    missed = summary.missed_expectations(result, case.expect) if status == "completed" else []
+    summary.write(directory, result)
+    _report(result, directory, missed, request.quiet)
+    return Result(EXPECTATION_MISSED if code == DONE and missed else code, directory, result)
+
+
+def _report(result, directory, missed, quiet):
+    """Prints the summary, and each offence on a line of its own."""
+    if not quiet:
+        print(summary.describe(result, directory), flush=True)
+    for line in missed + ([result["reason"]] if result["status"] == "failed" else []):
+        print(f"fsi: {line}", file=sys.stderr)
+

@@ -1,0 +1,171 @@
+"""summary.json: the parts every program leaves in DIR/parts, merged, and what the case expects of it."""
+
+import json
+import math
+import os
+from pathlib import Path
+
+ERROR_ORDER = ("rho", "v1", "v2", "T", "p", "u_bar", "v_bar", "P_bar")
+PARTICIPANT_KEYS = ("role", "status", "points", "substeps", "compute_s", "wait_s", "point_updates_per_s")
+
+
+def read_parts(directory, participants):
+    """{participant: part}; a program that left no part is not in it."""
+    parts = {}
+    for name in participants:
+        try:
+            parts[name] = json.loads((Path(directory) / "parts" / f"{name}.json").read_text(encoding="utf-8"))
+        except (OSError, ValueError):
+            continue
+    return parts
+
+
+def _merged(parts, key, combine):
+    """One dictionary of numbers out of the parts' dictionaries `key`."""
+    merged = {}
+    for part in parts.values():
+        for name, value in (part.get(key) or {}).items():
+            merged[name] = combine(merged[name], value) if name in merged else value
+    return merged
+
+
+def _worse(a, b):
+    """The larger error; null (not finite) is the worst."""
+    return None if a is None or b is None else max(a, b)
+
+
+def _ordered(errors):
+    known = [name for name in ERROR_ORDER if name in errors]
+    return {name: errors[name] for name in known + sorted(errors.keys() - set(known))}
+
+
+def merge(directory, case, status, reason, wall_s):
+    """The summary of a run, whatever became of it. `case` is the launcher's Case."""
+    participants = case.participants()
+    parts = read_parts(directory, participants)
+    speaker = parts.get(case.speaker()) or max(parts.values(), key=lambda part: part.get("t", 0), default={})
+    summary = {
+        "status": status, "reason": reason, "case": case.name,
+        "t": speaker.get("t", 0.0), "steps": speaker.get("steps", 0),
+        "dt": {"min": speaker.get("dt_min"), "max": speaker.get("dt_max")},
+        "wall_s": round(wall_s, 4),
+        "participants": {}, "errors": _ordered(_merged(parts, "errors", _worse)),
+        "interface": speaker.get("interface") or {},
+        "counters": {"first_order_fallbacks": 0, "floors": 0} | _merged(parts, "counters", lambda a, b: a + b),
+    }
+    for name, program in participants.items():
+        part = parts.get(name, {"status": "lost"})
+        summary["participants"][name] = {"program": program} | {
+            key: part[key] for key in PARTICIPANT_KEYS if key in part}
+    conservation = {name: part["conservation"] for name, part in parts.items() if part.get("conservation")}
+    if conservation:
+        summary["conservation"] = conservation
+    return summary
+
+
+def write(directory, summary):
+    """Writes DIR/summary.json, whole or not at all."""
+    path = Path(directory) / "summary.json"
+    aside = path.with_suffix(".json.tmp")
+    with open(aside, "w", encoding="utf-8") as file:
+        json.dump(summary, file, indent=2)
+        file.write("\n")
+        file.flush()
+        os.fsync(file.fileno())
+    os.replace(aside, path)
+
+
+# --- expectations
+
+
+def value_at(summary, quantity):
+    """The value at a path like "errors.rho", or None."""
+    value = summary
+    for key in quantity.split("."):
+        if not isinstance(value, dict) or key not in value:
+            return None
+        value = value[key]
+    return value
+
+
+def _is_met(value, entry):
+    if entry.get("equals") is not None:
+        return str(value) == str(entry["equals"])
+    if not isinstance(value, (int, float)) or not math.isfinite(value):
+        return False
+    return not ((entry.get("max") is not None and value > entry["max"])
+                or (entry.get("min") is not None and value < entry["min"]))
+
+
+def _bound(entry):
+    if entry.get("equals") is not None:
+        return f"must be {entry['equals']}"
+    bounds = [f"{word} {entry[key]:g}" for key, word in (("min", "at least"), ("max", "at most"))
+              if entry.get(key) is not None]
+    return "must be " + " and ".join(bounds)
+
+
+def missed_expectations(summary, expect):
+    """One line for every expectation that is not met; the results go to summary["expectations"]."""
+    missed, results = [], []
+    for entry in expect:
+        value = value_at(summary, entry["quantity"])
+        met = _is_met(value, entry)
+        results.append({key: item for key, item in entry.items() if item is not None} | {"value": value, "met": met})
+        if not met:
+            shown = "missing" if value is None else f"{value:.6g}" if isinstance(value, float) else value
+            missed.append(f"expectation missed: {entry['quantity']} = {shown}, {_bound(entry)}")
+    if results:
+        summary["expectations"] = results
+    return missed
+
+
+# --- for people
+
+
+def _table(rows):
+    """Rows of text as aligned columns: the first to the left, the others to the right."""
+    widths = [max(len(row[k]) for row in rows) for k in range(len(rows[0]))]
+    return ["  " + "  ".join(cell.ljust(w) if k == 0 else cell.rjust(w) for k, (cell, w) in enumerate(zip(row, widths)))
+            for row in rows]
+
+
+def _number(value, form="{:.3g}"):
+    return "-" if value is None else form.format(value)
+
+
+def _rate(value):
+    return "-" if not value else f"{value / 1e6:.2f} M/s"
+
+
+def _participant_rows(summary):
+    rows = [["participant", "points", "steps", "computing", "waiting", "point updates"]]
+    for name, part in summary["participants"].items():
+        label = name if part["program"] == name else f"{name} ({part['program']})"
+        rows.append([label, str(part.get("points", "-")), str(part.get("substeps", "-")),
+                     _number(part.get("compute_s"), "{:.2f} s"), _number(part.get("wait_s"), "{:.2f} s"),
+                     _rate(part.get("point_updates_per_s"))])
+    return rows
+
+
+def describe(summary, directory):
+    """The end of a run as lines of text."""
+    dt = summary["dt"]
+    head = f"{summary['case']} {summary['status']}: t = {summary['t']:.6g}, {summary['steps']} steps"
+    if dt["min"] is not None and summary["steps"]:
+        head += f" of {dt['min']:.3g} to {dt['max']:.3g}"
+    lines = [f"{head}, {summary['wall_s']:.2f} s", *_table(_participant_rows(summary))]
+    if summary["errors"]:
+        lines.append("  errors (maximum norm)")
+        names = list(summary["errors"])
+        lines += _table([[""] + names, [""] + [_number(summary["errors"][name], "{:.2e}") for name in names]])
+    if interface := summary["interface"]:
+        lines.append("  interface: " + ", ".join(f"{key.replace('_', ' ')} {_number(value, '{:.2e}')}"
+                                                 for key, value in interface.items()))
+    if summary["counters"].get("first_order_fallbacks") or summary["counters"].get("floors"):
+        lines.append("  counters: " + ", ".join(f"{key.replace('_', ' ')} {value:g}"
+                                                for key, value in summary["counters"].items()))
+    if summary.get("expectations"):
+        met = sum(entry["met"] for entry in summary["expectations"])
+        lines.append(f"  expectations: {met} of {len(summary['expectations'])} met")
+    return "\n".join(lines + [f"  results in {directory}"])

@@ -1,0 +1,203 @@
+"""Runs the programs of one run side by side, each in a session of its own, and sees to it that all of them end.
+
+When one fails, the others notice on the bus and end by themselves; whoever has not done so after `GRACE` seconds is
+terminated, then killed. Ctrl-C and SIGTERM end all of them the same way.
+"""
+
+import contextlib
+import ctypes
+import fcntl
+import os
+import selectors
+import signal
+import subprocess
+import time
+from dataclasses import dataclass, field
+
+GRACE = 4.0         # [s] from a program's failure to SIGTERM for the others: they should have ended by then
+KILL_AFTER = 1.0    # [s] from that SIGTERM to SIGKILL
+STOP_GRACE = 5.0    # [s] from Ctrl-C or SIGTERM to SIGKILL: a checkpoint may be written
+LAST_GRACE = 60.0   # [s] from the first program's good end to SIGTERM for the others: results may be written
+PIPE_SIZE = 1 << 20
+PR_SET_PDEATHSIG = 1
+SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+
+_libc = ctypes.CDLL(None, use_errno=True)
+
+
+@dataclass
+class Program:
+    """One program to run. `listen`: its standard output goes to the caller line by line, not to its log."""
+
+    name: str
+    command: list
+    listen: bool = False
+
+
+@dataclass
+class Ending:
+    """How a program ended. `ours`: the supervisor sent it the signal."""
+
+    name: str
+    code: int
+    when: float
+    ours: bool = False
+
+    def lost(self):
+        return self.code < 0 and not self.ours
+
+
+@dataclass
+class Outcome:
+    """How all of them ended, in order of time; `signal` is the one that ended the launcher, or 0."""
+
+    endings: list = field(default_factory=list)
+    signal: int = 0
+
+
+def _child_setup(parent):
+    """Runs in the child: it dies with its launcher, even if that is killed with SIGKILL."""
+
+    def prepare():
+        _libc.prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
+        if os.getppid() != parent:
+            os._exit(1)
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, SIGNALS)
+
+    return prepare
+
+
+class Supervisor:
+    """Starts programs and waits for all to end. `on_line(text)` gets the lines of programs that `listen`,
+    `on_tick()` is called about ten times a second."""
+
+    def __init__(self, log_dir, on_line=lambda text: None, on_tick=lambda: None):
+        self._log_dir = log_dir
+        self._on_line = on_line
+        self._on_tick = on_tick
+        self._selector = selectors.DefaultSelector()
+        self._processes = {}
+        self._pidfds = {}
+        self._signalled = set()
+        self._terminate_at = self._kill_at = float("inf")
+        self._outcome = Outcome()
+
+    def run(self, programs):
+        """Starts all, returns the Outcome when none is left."""
+        with self._signals_caught():
+            try:
+                for program in programs:
+                    self._start(program)
+                while self._processes:
+                    self._wait_for_events()
+                    self._keep_deadlines()
+                    self._on_tick()
+            finally:
+                self._end_everything()
+        return self._outcome
+
+    # --- starting
+
+    def _start(self, program):
+        with contextlib.ExitStack() as stack:
+            log = stack.enter_context(open(self._log_dir / f"{program.name}.out", "ab"))
+            process = subprocess.Popen(
+                program.command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE if program.listen else log,
+                stderr=log, start_new_session=True, preexec_fn=_child_setup(os.getpid()))
+        self._processes[program.name] = process
+        pidfd = os.pidfd_open(process.pid)
+        self._pidfds[program.name] = pidfd
+        self._selector.register(pidfd, selectors.EVENT_READ, lambda: self._ended(program.name))
+        if program.listen:
+            self._listen(process.stdout)
+
+    def _listen(self, pipe):
+        with contextlib.suppress(OSError):  # room for a launcher that is stopped for a while
+            fcntl.fcntl(pipe, fcntl.F_SETPIPE_SZ, PIPE_SIZE)
+        os.set_blocking(pipe.fileno(), False)
+        rest = bytearray()
+
+        def read():
+            data = pipe.read(65536)
+            if data == b"":
+                self._selector.unregister(pipe)
+                pipe.close()
+                return
+            rest.extend(data or b"")
+            *lines, tail = rest.split(b"\n")
+            rest[:] = tail
+            for line in lines:
+                self._on_line(line.decode("utf-8", "replace"))
+
+        self._selector.register(pipe, selectors.EVENT_READ, read)
+
+    # --- waiting
+
+    def _wait_for_events(self):
+        for key, _ in self._selector.select(0.1):
+            key.data()
+
+    def _ended(self, name):
+        process = self._processes.pop(name)
+        self._selector.unregister(self._pidfds[name])
+        os.close(self._pidfds.pop(name))
+        ending = Ending(name, process.wait(), time.monotonic(), name in self._signalled)
+        self._outcome.endings.append(ending)
+        grace = LAST_GRACE if ending.code == 0 else GRACE
+        self._end_by(ending.when + grace, ending.when + grace + KILL_AFTER)
+
+    def _end_by(self, terminate_at, kill_at):
+        self._terminate_at = min(self._terminate_at, terminate_at)
+        self._kill_at = min(self._kill_at, kill_at)
+
+    def _keep_deadlines(self):
+        now = time.monotonic()
+        if now >= self._kill_at:
+            self._send(signal.SIGKILL)
+        elif now >= self._terminate_at:
+            self._terminate_at = float("inf")
+            self._send(signal.SIGTERM)
+
+    def _send(self, number):
+        for name, process in self._processes.items():
+            self._signalled.add(name)
+            with contextlib.suppress(ProcessLookupError):
+                process.send_signal(number)
+                process.send_signal(signal.SIGCONT)  # a stopped program must hear it too
+
+    def _end_everything(self):
+        """Only after an error of our own is anything left here."""
+        self._send(signal.SIGKILL)
+        for name in list(self._processes):
+            self._ended(name)
+        self._selector.close()
+
+    # --- signals to the launcher
+
+    @contextlib.contextmanager
+    def _signals_caught(self):
+        read_end, write_end = os.pipe2(os.O_NONBLOCK | os.O_CLOEXEC)
+        old_wakeup = signal.set_wakeup_fd(write_end)
+        caught = [n for n in SIGNALS if n != signal.SIGHUP or signal.getsignal(n) != signal.SIG_IGN]  # nohup
+        old_handlers = {number: signal.signal(number, lambda *_: None) for number in caught}
+        self._selector.register(read_end, selectors.EVENT_READ, lambda: self._asked_to_end(os.read(read_end, 64)))
+        try:
+            yield
+        finally:
+            for number, handler in old_handlers.items():
+                signal.signal(number, handler)
+            signal.set_wakeup_fd(old_wakeup)
+            os.close(read_end)
+            os.close(write_end)
+
+    def _asked_to_end(self, numbers):
+        """First request: ask the programs to end. Second request: kill them."""
+        for number in numbers:
+            if number not in SIGNALS:
+                continue
+            now = time.monotonic()
+            if self._outcome.signal:
+                self._end_by(now, now)
+            else:
+                self._outcome.signal = number
+                self._end_by(now, now + STOP_GRACE)
