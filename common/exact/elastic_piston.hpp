@@ -56,7 +56,6 @@ class ElasticPiston final : public Solution {
   double sound_speed(double tau) const;
   double departure(double x, double t) const;
   double impulse(double t) const;
-  double strain(double x_bar, double t) const;
 };
 
 }  // namespace fsi::exact

@@ -10,12 +10,17 @@
 
 namespace fsi::io {
 
-/// Numbers only, 17 digits so that they read back exactly. Lines reach the file in batches: a kill loses at
-/// most the last `batch` of them, and never leaves half a line before a whole one.
+/// Numbers only, with as many digits as they need to read back exactly. Lines reach the file in batches: a
+/// kill loses at most the last `batch` of them, and never leaves half a line before a whole one.
 class CsvWriter {
  public:
   /// Starts the file with one header line; name the unit in the column, "t [time]". @throws OutputFailed
   CsvWriter(std::string path, const std::vector<std::string>& columns, int batch = 16);
+  CsvWriter(CsvWriter&&) noexcept = default;
+  CsvWriter& operator=(CsvWriter&&) noexcept = default;
+  CsvWriter(const CsvWriter&) = delete;
+  CsvWriter& operator=(const CsvWriter&) = delete;
+  ~CsvWriter();  ///< hands over the last lines
 
   /// One value per column. @throws OutputFailed @throws std::logic_error when the number of values is wrong
   void row(std::span<const double> values);

@@ -1,7 +1,7 @@
 #pragma once
 /// Fields of one program on its component grids, as a series of output times (layout: docs/output.md).
 ///
-///   DIR/fields/fluid_0000.h5 ...   one file per output time, whole or not there
+///   DIR/fields/fluid_000000.h5 ...   one file per output time, whole or not there
 ///   DIR/fluid.h5                   the whole series: group per output time, linked to those files
 ///
 /// All of them are written aside, synced and renamed, so that a kill at any moment leaves a series that
@@ -36,7 +36,7 @@ class GridWriter {
   /// `name` is "fluid" or "solid_<name>". @throws OutputFailed
   GridWriter(std::string run_dir, std::string name);
 
-  /// Adds one output time. Groups are counted "0000", "0001", ... in the order they are written.
+  /// Adds one output time. Groups are counted "000000", "000001", ... in the order they are written.
   /// @throws OutputFailed; the outputs before remain
   void write(double t, std::uint64_t step, std::span<const GridOutput> grids);
 

@@ -1,0 +1,82 @@
+#include "common/exact/solution.hpp"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+#include "common/core/failure.hpp"
+#include "common/exact/elastic_piston.hpp"
+#include "common/exact/riemann.hpp"
+#include "common/exact/table.hpp"
+
+namespace fsi::exact {
+
+namespace {
+
+/// Named numbers of a case's `reference` section; each must be asked for.
+class Numbers {
+ public:
+  Numbers(const std::string& kind, const std::map<std::string, double>& numbers)
+      : kind_(kind), left_(numbers) {}
+
+  double take(const std::string& name, double otherwise) {
+    names_ += (names_.empty() ? "" : ", ") + name;
+    const auto found = left_.find(name);
+    if (found == left_.end()) return otherwise;
+    const double value = found->second;
+    left_.erase(found);
+    return value;
+  }
+  void expect_none_left() const {
+    if (left_.empty()) return;
+    throw UserMistake(
+        fmt::format("reference: '{}' knows no number '{}'; it has {}", kind_, left_.begin()->first, names_));
+  }
+
+ private:
+  std::string kind_, names_;
+  std::map<std::string, double> left_;
+};
+
+std::unique_ptr<Solution> make_elastic_piston(Numbers numbers) {
+  ElasticPistonData data;
+  data.density_ratio = numbers.take("density_ratio", data.density_ratio);
+  data.c_p = numbers.take("c_p", data.c_p);
+  data.amplitude = numbers.take("amplitude", data.amplitude);
+  data.rotation = numbers.take("rotation", data.rotation);
+  data.gamma = numbers.take("gamma", data.gamma);
+  numbers.expect_none_left();
+  return std::make_unique<ElasticPiston>(data);
+}
+
+std::unique_ptr<Solution> make_riemann_tube(Numbers numbers) {
+  const TubeState sod_left{.rho = 1, .v = 0, .p = 1};
+  const TubeState sod_right{.rho = 0.125, .v = 0, .p = 0.1};
+  const TubeState left{.rho = numbers.take("rho_left", sod_left.rho),
+                       .v = numbers.take("v_left", sod_left.v),
+                       .p = numbers.take("p_left", sod_left.p)};
+  const TubeState right{.rho = numbers.take("rho_right", sod_right.rho),
+                        .v = numbers.take("v_right", sod_right.v),
+                        .p = numbers.take("p_right", sod_right.p)};
+  const double gamma = numbers.take("gamma", 1.4);
+  const double x_0 = numbers.take("x_0", 0.5);
+  numbers.expect_none_left();
+  return std::make_unique<RiemannTube>(Riemann(left, right, gamma), left, right, x_0);
+}
+
+}  // namespace
+
+std::unique_ptr<Solution> make_solution(const std::string& kind, const std::map<std::string, double>& numbers,
+                                        const std::string& run_dir) {
+  try {
+    if (kind == "elastic_piston") return make_elastic_piston({kind, numbers});
+    if (kind == "riemann") return make_riemann_tube({kind, numbers});
+    if (kind == "piston_1d") return std::make_unique<PistonTable>(run_dir + "/reference.h5");
+  } catch (const std::invalid_argument& error) {
+    throw UserMistake(fmt::format("reference: {}: {}", kind, error.what()));
+  }
+  throw UserMistake(
+      fmt::format("reference: no solution is named '{}'; write elastic_piston, riemann or piston_1d", kind));
+}
+
+}  // namespace fsi::exact

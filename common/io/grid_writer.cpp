@@ -1,0 +1,79 @@
+#include "common/io/grid_writer.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "common/io/atomic_file.hpp"
+#include "common/io/hdf5.hpp"
+
+namespace fsi::io {
+
+namespace {
+
+/// A plane without ghosts and padding, row after row.
+std::vector<double> packed(const ConstFieldView& field, int plane) {
+  std::vector<double> values;
+  values.reserve(field.layout.points());
+  for (int j = 0; j < field.layout.n2; ++j) {
+    const double* row = field.row(plane, j);
+    values.insert(values.end(), row, row + field.layout.n1);
+  }
+  return values;
+}
+
+void write_positions(Hdf5& group, const GridOutput& grid, const std::array<std::uint64_t, 2>& shape) {
+  for (int c = 0; c < 2; ++c) {
+    const std::string name = fmt::format("x{}", c + 1);
+    std::vector<double> x = packed(grid.x, c);
+    if (grid.u.data != nullptr) {
+      group.write(name + "_bar", x, shape);
+      const std::vector<double> u = packed(grid.u, c);
+      for (std::size_t k = 0; k < x.size(); ++k) x[k] += u[k];
+    }
+    group.write(name, x, shape);
+  }
+}
+
+void write_grid(Hdf5 group, const GridOutput& grid) {
+  const std::array shape{static_cast<std::uint64_t>(grid.x.layout.n2),
+                         static_cast<std::uint64_t>(grid.x.layout.n1)};
+  write_positions(group, grid, shape);
+  for (const auto& field : grid.fields) group.write(field.name, packed(field.field, field.plane), shape);
+}
+
+}  // namespace
+
+std::string output_name(std::size_t index) {
+  return fmt::format("{:06}", index);
+}
+
+GridWriter::GridWriter(std::string run_dir, std::string name)
+    : run_dir_(std::move(run_dir)), name_(std::move(name)) {
+  make_directory(run_dir_ + "/fields");
+}
+
+void GridWriter::write(double t, std::uint64_t step, std::span<const GridOutput> grids) {
+  const std::string path = fmt::format("{}/fields/{}_{}.h5", run_dir_, name_, output_name(entries_.size()));
+  Hdf5 file = Hdf5::create(aside(path));
+  file.write_attribute("t", t);
+  file.write_attribute("step", step);
+  for (const auto& grid : grids) write_grid(file.make_group(grid.grid), grid);
+  file.close();
+  rename_into_place(path);
+  entries_.push_back({t, step});
+  write_master();
+}
+
+void GridWriter::write_master() const {
+  const std::string path = fmt::format("{}/{}.h5", run_dir_, name_);
+  Hdf5 file = Hdf5::create(aside(path));
+  file.write_attribute("outputs", static_cast<std::uint64_t>(entries_.size()));
+  for (std::size_t k = 0; k < entries_.size(); ++k) {
+    file.link(output_name(k), fmt::format("fields/{}_{}.h5", name_, output_name(k)), "/");
+  }
+  file.close();
+  rename_into_place(path);
+}
+
+}  // namespace fsi::io

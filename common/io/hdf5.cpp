@@ -1,0 +1,230 @@
+#include "common/io/hdf5.hpp"
+
+#include <fmt/format.h>
+#include <hdf5.h>
+
+#include <algorithm>
+#include <functional>
+#include <numeric>
+#include <utility>
+
+#include "common/core/failure.hpp"
+
+namespace fsi::io {
+
+namespace {
+
+/// Owner of an HDF5 handle of any kind.
+class Handle {
+ public:
+  using Close = herr_t (*)(hid_t);
+  Handle(hid_t id, Close close) : id_(id), close_(close) {}
+  Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
+  Handle(const Handle&) = delete;
+  Handle& operator=(const Handle&) = delete;
+  Handle& operator=(Handle&&) = delete;
+  ~Handle() {
+    if (id_ >= 0) close_(id_);
+  }
+  hid_t get() const { return id_; }
+  explicit operator bool() const { return id_ >= 0; }
+
+ private:
+  hid_t id_;
+  Close close_;
+};
+
+/// HDF5 would print its own error stack; errors here are exceptions.
+void keep_quiet() {
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
+
+[[noreturn]] void fail(const std::string& path, const std::string& what) {
+  throw OutputFailed(fmt::format(
+      "'{}': {}; check that the file is an HDF5 file of this run and that the disk has space", path, what));
+}
+
+void require(bool good, const std::string& path, const std::string& what) {
+  if (!good) fail(path, what);
+}
+
+Handle open_dataset(hid_t id, const std::string& path, const std::string& name) {
+  Handle dataset(H5Dopen2(id, name.c_str(), H5P_DEFAULT), H5Dclose);
+  require(static_cast<bool>(dataset), path, fmt::format("there is no dataset '{}'", name));
+  return dataset;
+}
+
+std::vector<std::uint64_t> shape_of(const Handle& dataset) {
+  const Handle space(H5Dget_space(dataset.get()), H5Sclose);
+  std::vector<hsize_t> extent(static_cast<std::size_t>(std::max(0, H5Sget_simple_extent_ndims(space.get()))));
+  H5Sget_simple_extent_dims(space.get(), extent.data(), nullptr);
+  return {extent.begin(), extent.end()};
+}
+
+void write_scalar(hid_t id, const std::string& path, const std::string& name, hid_t type, const void* value) {
+  const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+  const Handle attribute(H5Acreate2(id, name.c_str(), type, space.get(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  require(attribute && H5Awrite(attribute.get(), type, value) >= 0, path,
+          fmt::format("cannot write the attribute '{}'", name));
+}
+
+Handle open_attribute(hid_t id, const std::string& path, const std::string& name) {
+  Handle attribute(H5Aopen(id, name.c_str(), H5P_DEFAULT), H5Aclose);
+  require(static_cast<bool>(attribute), path, fmt::format("there is no attribute '{}'", name));
+  return attribute;
+}
+
+}  // namespace
+
+Hdf5 Hdf5::create(const std::string& path) {
+  keep_quiet();
+  const hid_t id = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
+  if (id < 0) {
+    throw OutputFailed(
+        fmt::format("cannot create '{}'; check the directory, its permissions and the free space", path));
+  }
+  return {path, id, true};
+}
+
+Hdf5 Hdf5::open(const std::string& path) {
+  keep_quiet();
+  const hid_t id = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  if (id < 0) {
+    throw OutputFailed(fmt::format("cannot open '{}'; check that it exists and is an HDF5 file", path));
+  }
+  return {path, id, true};
+}
+
+Hdf5::Hdf5(Hdf5&& other) noexcept
+    : path_(std::move(other.path_)), id_(std::exchange(other.id_, -1)), is_file_(other.is_file_) {}
+
+Hdf5& Hdf5::operator=(Hdf5&& other) noexcept {
+  std::swap(path_, other.path_);
+  std::swap(id_, other.id_);
+  std::swap(is_file_, other.is_file_);
+  return *this;
+}
+
+Hdf5::~Hdf5() {
+  if (id_ < 0) return;
+  if (is_file_) {
+    H5Fclose(id_);
+  } else {
+    H5Gclose(id_);
+  }
+}
+
+void Hdf5::close() {
+  const hid_t id = std::exchange(id_, -1);
+  if (id < 0) return;
+  const bool flushed = !is_file_ || H5Fflush(id, H5F_SCOPE_LOCAL) >= 0;
+  const bool closed = (is_file_ ? H5Fclose(id) : H5Gclose(id)) >= 0;
+  require(flushed && closed, path_, "cannot write the last of it");
+}
+
+Hdf5 Hdf5::make_group(const std::string& name) {
+  const hid_t id = H5Gcreate2(id_, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+  require(id >= 0, path_, fmt::format("cannot create the group '{}'", name));
+  return {path_, id, false};
+}
+
+Hdf5 Hdf5::group(const std::string& name) const {
+  const hid_t id = H5Gopen2(id_, name.c_str(), H5P_DEFAULT);
+  require(id >= 0, path_, fmt::format("there is no group '{}'", name));
+  return {path_, id, false};
+}
+
+void Hdf5::link(const std::string& name, const std::string& file, const std::string& target) {
+  const herr_t status =
+      H5Lcreate_external(file.c_str(), target.c_str(), id_, name.c_str(), H5P_DEFAULT, H5P_DEFAULT);
+  require(status >= 0, path_, fmt::format("cannot link '{}' to '{}'", name, file));
+}
+
+void Hdf5::write(const std::string& name, std::span<const double> values,
+                 std::span<const std::uint64_t> shape) {
+  const auto expected = std::accumulate(shape.begin(), shape.end(), std::uint64_t{1}, std::multiplies<>());
+  if (expected != values.size()) {
+    throw std::logic_error(fmt::format("dataset '{}': {} values do not fill its shape", name, values.size()));
+  }
+  const std::vector<hsize_t> extent(shape.begin(), shape.end());
+  const Handle space(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), H5Sclose);
+  const Handle dataset(
+      H5Dcreate2(id_, name.c_str(), H5T_IEEE_F64LE, space.get(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+      H5Dclose);
+  require(dataset &&
+              H5Dwrite(dataset.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0,
+          path_, fmt::format("cannot write the dataset '{}'", name));
+}
+
+void Hdf5::write(const std::string& name, std::span<const double> values) {
+  const std::uint64_t size = values.size();
+  write(name, values, {&size, 1});
+}
+
+Array Hdf5::read(const std::string& name) const {
+  const Handle dataset = open_dataset(id_, path_, name);
+  Array array{.shape = shape_of(dataset), .values = {}};
+  array.values.resize(
+      std::accumulate(array.shape.begin(), array.shape.end(), std::uint64_t{1}, std::multiplies<>()));
+  require(H5Dread(dataset.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, array.values.data()) >= 0,
+          path_, fmt::format("cannot read the dataset '{}'", name));
+  return array;
+}
+
+void Hdf5::write_attribute(const std::string& name, double value) {
+  write_scalar(id_, path_, name, H5T_NATIVE_DOUBLE, &value);
+}
+
+void Hdf5::write_attribute(const std::string& name, std::uint64_t value) {
+  write_scalar(id_, path_, name, H5T_NATIVE_UINT64, &value);
+}
+
+void Hdf5::write_attribute(const std::string& name, const std::string& value) {
+  const Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+  H5Tset_size(type.get(), std::max<std::size_t>(1, value.size()));
+  H5Tset_strpad(type.get(), H5T_STR_NULLPAD);
+  write_scalar(id_, path_, name, type.get(), value.data());
+}
+
+double Hdf5::number_attribute(const std::string& name) const {
+  const Handle attribute = open_attribute(id_, path_, name);
+  double value = 0;
+  require(H5Aread(attribute.get(), H5T_NATIVE_DOUBLE, &value) >= 0, path_,
+          fmt::format("cannot read the attribute '{}'", name));
+  return value;
+}
+
+std::string Hdf5::text_attribute(const std::string& name) const {
+  const Handle attribute = open_attribute(id_, path_, name);
+  const Handle type(H5Aget_type(attribute.get()), H5Tclose);
+  std::string value(H5Tget_size(type.get()), '\0');
+  require(H5Aread(attribute.get(), type.get(), value.data()) >= 0, path_,
+          fmt::format("cannot read the attribute '{}'", name));
+  value.resize(std::min(value.find('\0'), value.size()));
+  return value;
+}
+
+bool Hdf5::has(const std::string& name) const {
+  for (auto slash = name.find('/'); slash != std::string::npos; slash = name.find('/', slash + 1)) {
+    if (slash > 0 && H5Lexists(id_, name.substr(0, slash).c_str(), H5P_DEFAULT) <= 0) return false;
+  }
+  return H5Lexists(id_, name.c_str(), H5P_DEFAULT) > 0 &&
+         H5Oexists_by_name(id_, name.c_str(), H5P_DEFAULT) > 0;
+}
+
+std::vector<std::uint64_t> Hdf5::shape(const std::string& name) const {
+  return shape_of(open_dataset(id_, path_, name));
+}
+
+std::vector<std::string> Hdf5::names() const {
+  std::vector<std::string> names;
+  const auto collect = [](hid_t, const char* name, const H5L_info_t*, void* list) -> herr_t {
+    static_cast<std::vector<std::string>*>(list)->emplace_back(name);
+    return 0;
+  };
+  const herr_t status = H5Literate(id_, H5_INDEX_NAME, H5_ITER_INC, nullptr, collect, &names);
+  require(status >= 0, path_, "cannot list a group");
+  return names;
+}
+
+}  // namespace fsi::io

@@ -1,0 +1,44 @@
+#include "common/io/part.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "common/io/atomic_file.hpp"
+
+namespace fsi::io {
+
+std::string to_json(const Part& part) {
+  nlohmann::ordered_json json{
+      {"participant", part.participant},
+      {"role", part.role},
+      {"status", part.status},
+      {"reason", part.reason},
+      {"exit_code", static_cast<int>(part.exit_code)},
+      {"t", part.t},
+      {"steps", part.steps},
+      {"dt_min", part.dt_min},
+      {"dt_max", part.dt_max},
+      {"points", part.points},
+      {"substeps", part.substeps},
+      {"compute_s", part.compute_s},
+      {"wait_s", part.wait_s},
+      {"point_updates_per_s", part.point_updates_per_s},
+      {"errors", part.errors},
+      {"counters", part.counters},
+      {"health", part.health},
+      {"conservation", part.conservation},
+  };
+  if (part.interface) {
+    json["interface"] = {{"max_velocity_jump", part.interface->max_velocity_jump},
+                         {"max_traction_jump", part.interface->max_traction_jump},
+                         {"max_gap", part.interface->max_gap}};
+  }
+  constexpr int indent = 2;
+  return json.dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+void write_part(const std::string& run_dir, const Part& part) {
+  make_directory(run_dir + "/parts");
+  write_atomically(run_dir + "/parts/" + part.participant + ".json", to_json(part));
+}
+
+}  // namespace fsi::io
