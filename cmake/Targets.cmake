@@ -2,6 +2,7 @@
 # fsi_program(name SOURCES ... DEPENDS ...)     an executable in <build>/bin
 #   the target `programs` builds all that a run may need, and no tests
 # fsi_test(name LABEL unit SOURCES ... DEPENDS ...)  a GoogleTest executable; every TEST becomes one CTest test
+#   the target `tests_<label>` builds all of one label
 
 function(fsi_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS" ${ARGN})
@@ -29,6 +30,10 @@ function(fsi_program name)
   endif()
 endfunction()
 
+foreach(label IN ITEMS unit programs convergence regression)
+  add_custom_target(tests_${label})
+endforeach()
+
 function(fsi_test name)
   if(NOT BUILD_TESTING)
     return()
@@ -40,5 +45,6 @@ function(fsi_test name)
   find_package(GTest REQUIRED)
   include(GoogleTest)
   fsi_program(${name} SOURCES ${ARG_SOURCES} DEPENDS ${ARG_DEPENDS} GTest::gtest_main)
+  add_dependencies(tests_${ARG_LABEL} ${name})
   gtest_discover_tests(${name} PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT} DISCOVERY_TIMEOUT 60)
 endfunction()
