@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "common/bus/signals.hpp"
 #include "common/bus/solo_session.hpp"
 #include "common/bus/solver_session.hpp"
 #include "common/core/log.hpp"
@@ -13,8 +12,9 @@ namespace fsi {
 namespace {
 
 bus::BusOptions bus_options(const Setup& setup) {
-  return {
-      .run = setup.run, .peer_timeout_s = setup.problem.time.peer_timeout, .interrupted = bus::caught_signal};
+  return {.run = setup.run,
+          .peer_timeout_s = setup.problem.time.peer_timeout,
+          .throw_if_interrupted = throw_if_interrupted};
 }
 
 wire::Telemetry telemetry_of(const Setup& setup, const io::Part& part, const Participant& solver, double dt,

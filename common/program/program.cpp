@@ -5,16 +5,27 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <atomic>
 #include <csignal>
 #include <cstdio>
 
-#include "common/bus/signals.hpp"
 #include "common/core/log.hpp"
 #include "common/io/atomic_file.hpp"
 
 namespace fsi {
 
 namespace {
+
+std::atomic<int> caught_signal{0};
+
+void catch_signals() {
+  struct sigaction action {};
+  action.sa_handler = [](int signal) { caught_signal = signal; };
+  sigemptyset(&action.sa_mask);
+  sigaction(SIGTERM, &action, nullptr);
+  sigaction(SIGINT, &action, nullptr);
+  prctl(PR_SET_PDEATHSIG, SIGTERM);  // the launcher's death ends the run
+}
 
 /// Runs the body; a failure becomes a code and the report's reason.
 ExitCode run_body(const std::function<void()>& body, io::Part& part) {
@@ -49,7 +60,7 @@ ExitCode leave_part(const Setup& setup, io::Part& part, ExitCode code) {
 }  // namespace
 
 void throw_if_interrupted() {
-  const int signal = bus::caught_signal();
+  const int signal = caught_signal;
   if (signal == SIGINT) throw Failure(ExitCode::interrupted, "interrupted (SIGINT)");
   if (signal != 0) throw Failure(ExitCode::terminated, "ended on request (SIGTERM)");
 }
@@ -94,8 +105,7 @@ int run_program(int argc, char** argv, const std::string& default_name, const st
     return code == 0 ? 0 : static_cast<int>(ExitCode::user_mistake);
   }
 
-  bus::catch_signals();
-  prctl(PR_SET_PDEATHSIG, SIGTERM);  // the launcher's death ends the run
+  catch_signals();
   io::Part part;
   part.participant = setup.name;
   part.role = role;

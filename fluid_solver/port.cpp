@@ -1,0 +1,220 @@
+#include "fluid_solver/port.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include "common/program/grid_from_case.hpp"
+#include "common/program/reference_from_case.hpp"
+
+namespace fsi::fluid {
+
+namespace {
+
+StateField field_of(const GasExpressions& state) {
+  return [state](double x, double y, double t) {
+    return State{
+        .rho = state.rho(x, y, t), .v1 = state.v1(x, y, t), .v2 = state.v2(x, y, t), .p = state.p(x, y, t)};
+  };
+}
+
+StateField field_of(std::shared_ptr<const exact::Solution> solution) {
+  return [solution = std::move(solution)](double x, double y, double t) {
+    const exact::GasState gas = solution->gas(x, y, t);
+    return State{.rho = gas.rho, .v1 = gas.v1, .v2 = gas.v2, .p = gas.p};
+  };
+}
+
+/// Data given by formulas, or by the reference solution.
+StateField data_of(bool from_reference, const std::optional<GasExpressions>& formulas,
+                   const std::shared_ptr<const exact::Solution>& reference, const std::string& what) {
+  if (from_reference && reference) return field_of(reference);
+  if (!from_reference && formulas) return field_of(*formulas);
+  throw UserMistake(fmt::format(
+      "fluid: {} has no data; write a state {{rho: .., v: [.., ..], p: ..}} or a reference", what));
+}
+
+Boundary boundary_of(const BoundarySpec& spec, Side side,
+                     const std::shared_ptr<const exact::Solution>& reference) {
+  const auto data = [&] {
+    return data_of(spec.from_reference, spec.state, reference, fmt::format("boundary {}", name_of(side)));
+  };
+  switch (spec.kind) {
+    case BoundaryKind::interface:
+      return Interface{};
+    case BoundaryKind::slip_wall:
+      return SlipWall{};
+    case BoundaryKind::symmetry:
+      return Symmetry{};
+    case BoundaryKind::inflow:
+      return Inflow{data()};
+    case BoundaryKind::outflow:
+      return Outflow{};
+    case BoundaryKind::dirichlet:
+      return Dirichlet{data()};
+    case BoundaryKind::periodic:
+      return Periodic{};
+    case BoundaryKind::traction:
+    case BoundaryKind::displacement:
+      break;
+  }
+  throw UserMistake(fmt::format("fluid: boundary {} has a condition for solids", name_of(side)));
+}
+
+GasOptions options_of(const Case& problem) {
+  static const std::map<std::string, Riemann> riemann{{"roe", Riemann::roe}, {"hllc", Riemann::hllc}};
+  static const std::map<std::string, Limiter> limiter{{"none", Limiter::none},
+                                                      {"minmod", Limiter::minmod},
+                                                      {"mc", Limiter::mc},
+                                                      {"van_leer", Limiter::van_leer}};
+  const GasScheme& scheme = problem.fluid->scheme;
+  return {.gamma = problem.fluid->gamma,
+          .p_e = problem.fluid->p_e,
+          .riemann = riemann.at(scheme.riemann),
+          .limiter = limiter.at(scheme.limiter),
+          .entropy_fix = scheme.entropy_fix,
+          .shock_viscosity = scheme.shock_viscosity,
+          .linear_diffusion = scheme.linear_diffusion,
+          .cfl = problem.time.cfl};
+}
+
+GasSolver solver_of(const Case& problem, const std::shared_ptr<const exact::Solution>& reference) {
+  const FluidSpec& spec = *problem.fluid;
+  std::array<Boundary, 4> boundaries;
+  bool follows = false;
+  for (const Side side : all_sides) {
+    const auto k = static_cast<std::size_t>(side);
+    boundaries[k] = boundary_of(spec.boundary[k], side, reference);
+    follows = follows || spec.boundary[k].kind == BoundaryKind::interface;
+  }
+  return {grid::MovingGrid(grid_from_case(spec.grid, follows), 0), options_of(problem), std::move(boundaries),
+          0};
+}
+
+}  // namespace
+
+FluidParticipant::FluidParticipant(const Setup& setup)
+    : setup_(setup),
+      spec_(*setup.problem.fluid),
+      reference_(reference_from_case(setup.problem, setup.run_dir)),
+      solver_(solver_of(setup.problem, reference_)),
+      fields_(setup.run_dir, "fluid") {
+  for (const Side side : all_sides) {
+    const BoundarySpec& boundary = spec_.boundary[static_cast<std::size_t>(side)];
+    if (boundary.kind == BoundaryKind::interface) interfaces_.push_back({side, boundary.solid});
+  }
+  solver_.assign_initial_conditions(
+      data_of(spec_.initial_from_reference, spec_.initial, reference_, "initial"));
+  initial_totals_ = solver_.totals();
+
+  std::vector<std::string> columns{"t [time]"};
+  for (const ProbeSpec& probe : setup.problem.output.probes) {
+    if (probe.in != "fluid") continue;
+    probes_.push_back(probe);
+    for (const char* quantity : {"rho", "v1", "v2", "p"})
+      columns.push_back(fmt::format("{}.{}", probe.name, quantity));
+  }
+  if (!probes_.empty()) probe_table_.emplace(setup.run_dir + "/probes_fluid.csv", columns);
+}
+
+wire::Hello FluidParticipant::hello() const {
+  wire::Hello hello;
+  hello.role = "fluid";
+  hello.name = setup_.name;
+  hello.law = fmt::format("ideal gas, gamma = {:g}", spec_.gamma);
+  hello.config_digest = setup_.problem.digest;
+  hello.points = solver_.points();
+  for (const InterfaceSide& interface : interfaces_) {
+    hello.interfaces.push_back(
+        {.name = interface.solid, .dimension = 2, .x = solver_.grid().side_points(interface.side), .n = {}});
+  }
+  return hello;
+}
+
+TimeStepBid FluidParticipant::compute_time_step() const {
+  const TimeStep step = solver_.compute_time_step();
+  return {.dt = step.dt, .reason = step.reason};
+}
+
+void FluidParticipant::fill(std::size_t k, wire::PredictedInterface& predicted) const {
+  GasInterface state = solver_.interface_state(interfaces_[k].side);
+  predicted.x = std::move(state.x);
+  predicted.v = std::move(state.v);
+  predicted.p = std::move(state.p);
+  predicted.z_f = std::move(state.z_f);
+  predicted.p_e = spec_.p_e;
+  const Totals totals = solver_.totals();
+  predicted.mass = totals.mass;
+  predicted.momentum1 = totals.momentum1;
+  predicted.momentum2 = totals.momentum2;
+  predicted.energy = totals.energy;
+  predicted.angular_momentum = totals.angular_momentum;
+}
+
+void FluidParticipant::apply_bcs(double t, ProjectedStates projected) {
+  std::vector<InterfaceValues> values;
+  for (std::size_t k = 0; k < projected.size(); ++k) {
+    const wire::ProjectedInterface& p = *projected[k];
+    values.push_back({.side = interfaces_[k].side, .n = p.n, .v_n = p.v_n, .w_n = p.w_n, .v = p.v, .a = p.a});
+  }
+  solver_.apply_fluid_bcs(t, values);
+}
+
+void FluidParticipant::advance(double t, double dt, int /*substeps*/, ProjectedStates projected) {
+  std::vector<grid::SideCommand> commands;
+  for (std::size_t k = 0; k < projected.size(); ++k)
+    commands.push_back({interfaces_[k].side, projected[k]->x_next});
+  const double t_next = projected.empty() ? t + dt : projected.front()->t_next;
+  solver_.move_grids(t_next, dt, commands);
+  solver_.advance_fluid(t, dt);
+}
+
+void FluidParticipant::write_fields(double t, std::uint64_t step) {
+  const ConstFieldView q = solver_.state();
+  const io::GridOutput grids[] = {{.grid = solver_.grid().name(),
+                                   .x = solver_.grid().x(),
+                                   .u = {},
+                                   .fields = {{"rho", q, 0}, {"v1", q, 1}, {"v2", q, 2}, {"p", q, 3}}}};
+  fields_.write(t, step, grids);
+}
+
+void FluidParticipant::write_tables(double t, double /*dt*/, ProjectedStates /*projected*/) {
+  if (!probe_table_) return;
+  std::vector<double> row{t};
+  for (const ProbeSpec& probe : probes_) {
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    const State q = solver_.probe(probe.x, probe.y).value_or(State{nan, nan, nan, nan});
+    row.insert(row.end(), {q.rho, q.v1, q.v2, q.p});
+  }
+  probe_table_->row(row);
+}
+
+wire::Health FluidParticipant::health() const {
+  const Health health = solver_.health();
+  return {.min_rho = health.min_rho,
+          .min_p = health.min_p,
+          .min_det_F = 0,
+          .first_order_fallbacks = health.first_order_fallbacks,
+          .floors = health.floors};
+}
+
+void FluidParticipant::report(double t, io::Part& part) const {
+  const Health health = solver_.health();
+  part.counters["first_order_fallbacks"] = static_cast<double>(health.first_order_fallbacks);
+  part.counters["floors"] = static_cast<double>(health.floors);
+  part.health["min_rho"] = health.min_rho;
+  part.health["min_p"] = health.min_p;
+  const Totals now = solver_.totals();
+  part.conservation["mass"] = now.mass - initial_totals_.mass;
+  part.conservation["energy"] = now.energy - initial_totals_.energy;
+  part.conservation["momentum1"] = now.momentum1 - initial_totals_.momentum1;
+  part.conservation["momentum2"] = now.momentum2 - initial_totals_.momentum2;
+  if (!reference_ || part.status == "stopped") return;
+  const GasErrors errors = solver_.errors(field_of(reference_), t);
+  part.errors = {{"rho", errors.rho}, {"v1", errors.v1}, {"v2", errors.v2}, {"T", errors.T}};
+}
+
+}  // namespace fsi::fluid

@@ -1,0 +1,50 @@
+#pragma once
+/// The gas solver's port: a case file turned into a GasSolver, its state turned into messages and files.
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/case/case.hpp"
+#include "common/exact/solution.hpp"
+#include "common/io/csv_writer.hpp"
+#include "common/io/grid_writer.hpp"
+#include "common/program/participant.hpp"
+#include "fluid_solver/gas_solver.hpp"
+
+namespace fsi::fluid {
+
+class FluidParticipant final : public Participant {
+ public:
+  explicit FluidParticipant(const Setup& setup);
+
+  wire::Hello hello() const override;
+  TimeStepBid compute_time_step() const override;
+  void fill(std::size_t k, wire::PredictedInterface& predicted) const override;
+  void apply_bcs(double t, ProjectedStates projected) override;
+  void advance(double t, double dt, int substeps, ProjectedStates projected) override;
+  void write_fields(double t, std::uint64_t step) override;
+  void write_tables(double t, double dt, ProjectedStates projected) override;
+  wire::Health health() const override;
+  void report(double t, io::Part& part) const override;
+
+ private:
+  /// A side of the grid and the solid on the other side of it.
+  struct InterfaceSide {
+    Side side;
+    std::string solid;
+  };
+
+  const Setup& setup_;
+  const FluidSpec& spec_;
+  std::shared_ptr<const exact::Solution> reference_;
+  std::vector<InterfaceSide> interfaces_;
+  GasSolver solver_;
+  io::GridWriter fields_;
+  std::vector<ProbeSpec> probes_;
+  std::optional<io::CsvWriter> probe_table_;
+  Totals initial_totals_;
+};
+
+}  // namespace fsi::fluid

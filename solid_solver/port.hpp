@@ -1,0 +1,206 @@
+#pragma once
+/// The solid solver's port: a case file turned into a SolidSolver, its state turned into messages and files.
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/grid/interface_geometry.hpp"
+#include "common/io/csv_writer.hpp"
+#include "common/io/grid_writer.hpp"
+#include "common/program/grid_from_case.hpp"
+#include "common/program/participant.hpp"
+#include "solid_solver/case_data.hpp"
+#include "solid_solver/pose.hpp"
+#include "solid_solver/robin.hpp"
+#include "solid_solver/solid_solver.hpp"
+
+namespace fsi::solid {
+
+template <Law L>
+class SolidParticipant final : public Participant {
+ public:
+  SolidParticipant(const Setup& setup, const SolidSpec& spec)
+      : setup_(setup),
+        spec_(spec),
+        law_{spec.lambda, spec.mu},
+        data_(setup, spec, law_),
+        solver_(data_.grid(), law_, data_.options(), data_.boundaries(), 0),
+        fields_(setup.run_dir, "solid_" + spec.name) {
+    for (const Side side : all_sides) {
+      if (spec.boundary[static_cast<std::size_t>(side)].kind == BoundaryKind::interface) side_ = side;
+    }
+    if (const VectorFunction force = data_.body_force()) solver_.set_body_force(force);
+    if (const StateFunction initial = data_.initial_state()) {
+      solver_.assign_initial_conditions(initial);
+    } else {
+      solver_.assign_initial_conditions(data_.initial_displacement(), data_.initial_velocity());
+    }
+    initial_totals_ = solver_.totals();
+    open_tables();
+  }
+
+  wire::Hello hello() const override {
+    wire::Hello hello;
+    hello.role = "solid";
+    hello.name = spec_.name;
+    hello.law = std::string(L::name);
+    hello.config_digest = setup_.problem.digest;
+    hello.points = solver_.points();
+    if (side_) {
+      SolidInterface state;
+      solver_.interface_state(*side_, state);
+      hello.interfaces.push_back(
+          {.name = spec_.name,
+           .dimension = 2,
+           .x = state.x,
+           .n = grid::normals(solver_.grid().side_points(*side_), curve(), grid::outward(*side_))});
+    }
+    return hello;
+  }
+
+  TimeStepBid compute_time_step() const override {
+    const TimeStep step = solver_.compute_time_step();
+    return {.dt = step.dt, .reason = step.reason};
+  }
+
+  void fill(std::size_t /*k*/, wire::PredictedInterface& predicted) const override {
+    solver_.interface_state(*side_, interface_);
+    predicted.x = interface_.x;
+    predicted.v = interface_.v;
+    predicted.w = interface_.w;
+    predicted.Z = interface_.Z;
+    predicted.fixed = interface_.fixed;
+    predicted.z_p = interface_.z_p;
+    const Totals totals = solver_.totals();
+    predicted.mass = totals.mass;
+    predicted.energy = totals.energy();
+    predicted.momentum1 = totals.momentum[0];
+    predicted.momentum2 = totals.momentum[1];
+    predicted.angular_momentum = totals.angular_momentum;
+  }
+
+  void apply_bcs(double t, ProjectedStates projected) override {
+    if (projected.empty()) {
+      solver_.apply_solid_bcs(t);
+      return;
+    }
+    const wire::ProjectedInterface& p = *projected.front();
+    const InterfaceValues values[] = {{.side = *side_, .n = p.n, .v_n = p.v_n, .w_n = p.w_n}};
+    solver_.apply_solid_bcs(t, values);
+  }
+
+  void advance(double t, double dt, int substeps, ProjectedStates projected) override {
+    const double dt_sub = dt / substeps;
+    for (int k = 0; k < substeps; ++k) {
+      const double t_k = t + k * dt_sub;
+      solver_.advance_solid(t_k, dt_sub);
+      if (k + 1 < substeps) close_substep(t_k + dt_sub, *projected.front());
+    }
+  }
+
+  void write_fields(double t, std::uint64_t step) override {
+    static constexpr const char* names[] = {"u1", "u2", "v1", "v2", "P11", "P12", "P21", "P22"};
+    const ConstFieldView q = solver_.state();
+    std::vector<io::NamedPlane> planes;
+    for (int k = 0; k < 8; ++k) planes.push_back({names[k], q, k});
+    const io::GridOutput grids[] = {
+        {.grid = solver_.grid().name(), .x = solver_.reference(), .u = q, .fields = std::move(planes)}};
+    fields_.write(t, step, grids);
+  }
+
+  void write_tables(double t, double /*dt*/, ProjectedStates /*projected*/) override {
+    if (forces_) {
+      const SideLoad load = solver_.side_load(*side_);
+      const Totals totals = solver_.totals();
+      const Pose pose = pose_of(solver_.reference(), solver_.state());
+      forces_->row({t, load.force[0], load.force[1], load.moment, load.power, pose.centre[0], pose.centre[1],
+                    totals.momentum[0] / totals.mass, totals.momentum[1] / totals.mass, pose.angle});
+    }
+    if (probe_table_) {
+      std::vector<double> row{t};
+      for (const ProbePoint& probe : probes_) {
+        const SolidState q = solver_.value(probe);
+        row.insert(row.end(), {q.u[0], q.u[1], q.v[0], q.v[1], q.P.a11, q.P.a12, q.P.a21, q.P.a22});
+      }
+      probe_table_->row(row);
+    }
+  }
+
+  wire::Health health() const override {
+    return {.min_rho = 0,
+            .min_p = 0,
+            .min_det_F = solver_.health().min_det_F,
+            .first_order_fallbacks = 0,
+            .floors = 0};
+  }
+
+  void report(double t, io::Part& part) const override {
+    part.health["min_det_F"] = solver_.health().min_det_F;
+    const Totals now = solver_.totals();
+    part.conservation["mass"] = now.mass - initial_totals_.mass;
+    part.conservation["energy"] = now.energy() - initial_totals_.energy();
+    part.conservation["energy_initial"] = initial_totals_.energy();
+    part.conservation["momentum1"] = now.momentum[0] - initial_totals_.momentum[0];
+    part.conservation["momentum2"] = now.momentum[1] - initial_totals_.momentum[1];
+    part.conservation["angular_momentum"] = now.angular_momentum - initial_totals_.angular_momentum;
+    part.conservation["angular_momentum_initial"] = initial_totals_.angular_momentum;
+    const StateFunction exact = data_.reference_state();
+    if (!exact || part.status == "stopped") return;
+    const Errors errors = solver_.errors(exact, t);
+    part.errors = {{"u_bar", errors.u}, {"v_bar", errors.v}, {"P_bar", errors.P}};
+  }
+
+ private:
+  grid::Curve curve() const {
+    return solver_.grid().periodic(1 - direction_of(*side_)) ? grid::Curve::closed : grid::Curve::open;
+  }
+
+  /// The interface inside a macro step: the gas is known by its outgoing characteristic.
+  void close_substep(double t, const wire::ProjectedInterface& p) {
+    solver_.interface_state(*side_, interface_);
+    const std::vector<double> normal = grid::normals(interface_.x, curve(), grid::outward(*side_));
+    const RobinData gas{.z_f = p.z_f, .t = p.robin_t, .r = p.robin_r};
+    const ClosedInterface closed = close_with_robin(gas, t, normal, interface_.v, interface_.w, interface_.Z);
+    const InterfaceValues values[] = {{.side = *side_, .n = normal, .v_n = closed.v_n, .w_n = closed.w_n}};
+    solver_.apply_solid_bcs(t, values);
+  }
+
+  void open_tables() {
+    if (side_) {
+      forces_.emplace(
+          setup_.run_dir + "/forces_" + spec_.name + ".csv",
+          std::vector<std::string>{"t [time]", "force1 [force/depth]", "force2 [force/depth]",
+                                   "moment [force*length/depth]", "power [power/depth]", "centre1 [length]",
+                                   "centre2 [length]", "velocity1 [length/time]", "velocity2 [length/time]",
+                                   "angle [rad]"});
+    }
+    std::vector<std::string> columns{"t [time]"};
+    for (const ProbeSpec& probe : setup_.problem.output.probes) {
+      if (probe.in != spec_.name) continue;
+      probes_.push_back(solver_.locate(probe.x, probe.y));
+      for (const char* quantity : {"u1", "u2", "v1", "v2", "P11", "P12", "P21", "P22"}) {
+        columns.push_back(fmt::format("{}.{}", probe.name, quantity));
+      }
+    }
+    if (!probes_.empty()) probe_table_.emplace(setup_.run_dir + "/probes_" + spec_.name + ".csv", columns);
+  }
+
+  const Setup& setup_;
+  const SolidSpec& spec_;
+  L law_;
+  CaseData<L> data_;
+  SolidSolver<L> solver_;
+  std::optional<Side> side_;
+  mutable SolidInterface interface_;  ///< memory that is used again every step
+  io::GridWriter fields_;
+  std::optional<io::CsvWriter> forces_, probe_table_;
+  std::vector<ProbePoint> probes_;
+  Totals initial_totals_;
+};
+
+}  // namespace fsi::solid

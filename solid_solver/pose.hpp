@@ -1,0 +1,17 @@
+#pragma once
+/// Where a deforming body is and how far it has turned.
+
+#include "common/core/field.hpp"
+#include "common/core/types.hpp"
+
+namespace fsi::solid {
+
+struct Pose {
+  Vec2 centre = Vec2::Zero();  ///< of mass, in physical space
+  double angle = 0;            ///< of the rotation that fits the motion best [rad], in (-pi, pi]
+};
+
+/// `reference`: planes x_bar1, x_bar2; `state`: planes u1, u2 first. Homogeneous density.
+Pose pose_of(ConstFieldView reference, ConstFieldView state);
+
+}  // namespace fsi::solid
