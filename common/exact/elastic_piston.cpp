@@ -93,7 +93,7 @@ double ElasticPiston::departure(double x, double t) const {
                      0.5 * (data_.gamma + 1) * path_acceleration(tau) * (t - tau) - sound_speed(tau)};
   };
   double late = std::max(t, 0.0);
-  for (int k = 0; distance(late).first > 0 && k < 32; ++k) late += distance(late).first;
+  for (int k = 0; distance(late).first > 0 && k < 32; ++k) late += 2 * distance(late).first;
   return root_between(distance, 0, late, t - (x - path(t)) / sound_speed(t));
 }
 
