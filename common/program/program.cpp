@@ -90,7 +90,7 @@ void ProgressLines::show(std::uint64_t step, double t, double dt, const std::str
 }
 
 int run_program(int argc, char** argv, const std::string& default_name, const std::string& role,
-                const std::function<void(const Setup&, Report&)>& body) {
+                const std::function<void(const Setup&, io::Part&)>& body) {
   CLI::App app(fmt::format("AMP-FSI {}: one program of a run; ./launch/fsi starts it", role));
   Setup setup{.problem = {}, .run_dir = ".", .run = "run", .name = default_name};
   std::string case_path;
