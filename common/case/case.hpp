@@ -57,7 +57,8 @@ struct BoundarySpec {
   std::string solid;                    ///< interface: the solid on the other side
   bool from_reference = false;          ///< inflow, dirichlet, traction, displacement: data of `reference`
   std::optional<GasExpressions> state;  ///< gas inflow, dirichlet
-  std::optional<VectorExpressions> vector;  ///< solid: traction per unit current area, or displacement
+  std::optional<VectorExpressions> vector;    ///< solid: traction per unit current area, or displacement
+  std::optional<VectorExpressions> velocity;  ///< solid displacement: its time derivative, where given
 };
 
 struct GasScheme {
@@ -133,7 +134,7 @@ struct ReferenceSpec {
   std::string kind = "none";              ///< none, expressions, manufactured, or a named solution
   std::map<std::string, double> numbers;  ///< data of a named solution
   std::optional<GasExpressions> fluid;    ///< expressions
-  std::optional<VectorExpressions> u;     ///< manufactured solid: displacement of x, y, t
+  std::optional<VectorExpressions> u;     ///< expressions, manufactured: solid displacement of x, y, t
 };
 
 struct Expectation {
@@ -162,5 +163,12 @@ struct Case {
 /// @throws UserMistake with file:line:column
 Case load_case(const std::string& path, const std::vector<std::string>& overrides = {},
                const std::vector<std::string>& laws = {});
+
+/// The file a user means: a path, or a name in one of `folders`.
+/// @throws UserMistake with the nearest name
+std::string find_case(const std::string& path_or_name, const std::vector<std::string>& folders);
+
+/// Folder configs/ of this source tree.
+std::string configs_folder();
 
 }  // namespace fsi

@@ -1,0 +1,14 @@
+#pragma once
+/// From the validated tree to the typed case.
+
+#include "common/case/case.hpp"
+#include "common/case/scope.hpp"
+#include "common/core/config.hpp"
+
+namespace fsi {
+
+/// Fills a Case from a tree that `validate` has passed. @throws UserMistake where two keys do not fit
+/// together
+Case build_case(const config::Node& root, const Scope& scope);
+
+}  // namespace fsi

@@ -1,0 +1,143 @@
+#include "common/case/case.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "common/case/build.hpp"
+#include "common/case/check.hpp"
+#include "common/case/schema.hpp"
+#include "common/case/scope.hpp"
+#include "common/case/validate.hpp"
+#include "common/core/config.hpp"
+#include "common/core/suggest.hpp"
+
+namespace fsi {
+
+namespace {
+
+using config::Node;
+
+/// FNV-1a, 64 bit: the same on every machine.
+std::string digest_of(const std::string& text) {
+  std::uint64_t hash = 14695981039346656037ULL;
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
+  return fmt::format("{:016x}", hash);
+}
+
+std::vector<std::string> keys_of(const Node& map) {
+  std::vector<std::string> keys;
+  for (const config::Entry& entry : map.entries) keys.push_back(entry.key);
+  return keys;
+}
+
+/// Parameters and solids are named by the file: the command line may change one, not invent one.
+void require_known_name(const Node& root, const std::string& key, const std::string& section,
+                        const std::string& option) {
+  if (!key.starts_with(section + ".")) return;
+  const std::string rest = key.substr(section.size() + 1);
+  const std::string name = rest.substr(0, rest.find('.'));
+  const Node* names = root.find(section);
+  if (names != nullptr && names->find(name) != nullptr) return;
+  const std::vector<std::string> known = names == nullptr ? std::vector<std::string>{} : keys_of(*names);
+  std::string hint = did_you_mean(name, known);
+  if (hint.empty())
+    hint = known.empty() ? "; it has none" : fmt::format("; it has {}", fmt::join(known, ", "));
+  throw UserMistake(
+      fmt::format("{}: {} in section `{}` of the case is missing{}", option, in_ticks(name), section, hint));
+}
+
+std::pair<std::string, std::string> split_at_equals(const std::string& text, const std::string& option,
+                                                    const char* shape) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos || equals == 0) {
+    throw UserMistake(fmt::format("{} {}: write {}", option, in_ticks(text), shape));
+  }
+  return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+void apply_options(Node& root, const std::vector<std::string>& overrides,
+                   const std::vector<std::string>& laws) {
+  for (const std::string& text : overrides) {
+    const auto [key, value] = split_at_equals(text, "--set", "--set KEY=VALUE");
+    const std::string option = "--set " + shown(key);
+    require_known_name(root, key, "parameters", option);
+    require_known_name(root, key, "solids", option);
+    config::assign(root, key, value, option);
+  }
+  for (const std::string& text : laws) {
+    const auto [name, law] = split_at_equals(text, "--solid", "--solid NAME=LAW");
+    const std::string option = "--solid " + shown(text);
+    require_known_name(root, "solids." + name, "solids", option);
+    config::assign(root, "solids." + name + ".law", law, option);
+  }
+}
+
+void put_name(Node& root, const std::string& path) {
+  if (root.find("name") != nullptr) return;
+  Node name;
+  name.kind = Node::Kind::scalar;
+  name.place = path;
+  name.text = std::filesystem::path(path).stem().string();
+  root.entries.insert(root.entries.begin(), {"name", path, name});
+}
+
+std::vector<std::string> names_in_folders(const std::vector<std::string>& folders) {
+  std::vector<std::string> names;
+  for (const std::string& folder : folders) {
+    std::error_code error;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+      if (entry.path().extension() == ".yaml") names.push_back(entry.path().stem().string());
+    }
+  }
+  std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  return names;
+}
+
+}  // namespace
+
+std::string configs_folder() {
+  return FSI_CONFIGS_FOLDER;
+}
+
+std::string find_case(const std::string& path_or_name, const std::vector<std::string>& folders) {
+  std::error_code error;
+  if (std::filesystem::is_regular_file(path_or_name, error)) return path_or_name;
+  for (const std::string& folder : folders) {
+    for (const char* ending : {".yaml", ""}) {
+      const std::string path = fmt::format("{}/{}{}", folder, path_or_name, ending);
+      if (std::filesystem::is_regular_file(path, error)) return path;
+    }
+  }
+  const std::vector<std::string> names = names_in_folders(folders);
+  const std::string stem = std::filesystem::path(path_or_name).stem().string();
+  const std::string hint = did_you_mean(stem, names);
+  throw UserMistake(fmt::format("{}: no such case{}", in_ticks(path_or_name),
+                                hint.empty() ? fmt::format("; there are {}", fmt::join(names, ", ")) : hint));
+}
+
+Case load_case(const std::string& path, const std::vector<std::string>& overrides,
+               const std::vector<std::string>& laws) {
+  const std::string file = find_case(path, {"configs", configs_folder()});
+  Node root = config::parse_file(file);
+  if (root.kind == Node::Kind::null)
+    throw UserMistake(file + ": the file is empty; begin with configs/template.yaml");
+  if (!root.is_map())
+    throw UserMistake(
+        fmt::format("{}: a case is a section of keys, this is {}; begin with configs/template.yaml",
+                    root.place, config::describe(root)));
+  apply_options(root, overrides, laws);
+  const Scope scope = evaluate_scope(root);
+  validate(root, schema::case_file, scope);
+  put_name(root, file);
+  Case result = build_case(root, scope);
+  check_case(result, root);
+  result.path = file;
+  result.resolved = config::emit(root);
+  result.digest = digest_of(result.resolved);
+  return result;
+}
+
+}  // namespace fsi

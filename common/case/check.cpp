@@ -1,0 +1,260 @@
+#include "common/case/check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/core/suggest.hpp"
+#include "common/core/types.hpp"
+
+namespace fsi {
+
+namespace {
+
+using config::fail;
+using config::Node;
+
+/// Node of a dotted key; the deepest one that exists.
+const Node& at(const Node& root, std::initializer_list<std::string_view> keys) {
+  const Node* node = &root;
+  for (const std::string_view key : keys) {
+    const Node* next = node->find(key);
+    if (next == nullptr) break;
+    node = next;
+  }
+  return *node;
+}
+
+/// Position of grid point (i, j) at time t.
+Vec2 position(const GridSpec& grid, int i, int j, double t) {
+  const double r = static_cast<double>(i) / (grid.n1 - 1);
+  const double s = static_cast<double>(j) / (grid.n2 - 1);
+  Vec2 x(grid.x_a + r * (grid.x_b - grid.x_a), grid.y_a + s * (grid.y_b - grid.y_a));
+  if (grid.kind == GridSpec::Kind::mapped) {
+    x = Vec2(grid.map.c1.at_parameters(r, s, t), grid.map.c2.at_parameters(r, s, t));
+  }
+  const double c = std::cos(grid.rotation);
+  const double sine = std::sin(grid.rotation);
+  return {c * x[0] - sine * x[1], sine * x[0] + c * x[1]};
+}
+
+int points_along(const GridSpec& grid, Side side) {
+  return direction_of(side) == 0 ? grid.n2 : grid.n1;
+}
+
+Vec2 side_point(const GridSpec& grid, Side side, int k) {
+  const int end = at_upper_end(side) ? (direction_of(side) == 0 ? grid.n1 : grid.n2) - 1 : 0;
+  return direction_of(side) == 0 ? position(grid, end, k, 0) : position(grid, k, end, 0);
+}
+
+/// Both triangles of every cell have positive area. Sampled at every cell: an unsound map costs one look, not
+/// a run.
+void check_grid(const GridSpec& grid, const Node& node, const std::string& path) {
+  constexpr int most_samples = 64;
+  const int step1 = std::max(1, (grid.n1 - 1) / most_samples);
+  const int step2 = std::max(1, (grid.n2 - 1) / most_samples);
+  for (int j = 0; j + 1 < grid.n2; j += step2) {
+    for (int i = 0; i + 1 < grid.n1; i += step1) {
+      const Vec2 a = position(grid, i, j, 0);
+      const Vec2 along1 = position(grid, i + 1, j, 0) - a;
+      const Vec2 along2 = position(grid, i, j + 1, 0) - a;
+      const double area = along1[0] * along2[1] - along1[1] * along2[0];
+      if (!(area > 0) || !std::isfinite(area)) {
+        fail(node.place, path,
+             fmt::format("the grid folds at point ({}, {}) at t = 0, near ({:.4g}, {:.4g}); change `map`", i,
+                         j, a[0], a[1]));
+      }
+    }
+  }
+}
+
+/// Density and pressure are positive at t = 0 at a sample of points.
+void check_state(const GasExpressions& state, const GridSpec& grid, const Node& node,
+                 const std::string& path) {
+  constexpr int samples = 8;
+  for (int b = 0; b <= samples; ++b) {
+    for (int a = 0; a <= samples; ++a) {
+      const Vec2 x = position(grid, a * (grid.n1 - 1) / samples, b * (grid.n2 - 1) / samples, 0);
+      const auto check = [&](const Expression& quantity, const char* name, bool must_be_positive) {
+        const double value = quantity(x[0], x[1], 0);
+        if (std::isfinite(value) && (value > 0 || !must_be_positive)) return;
+        const Node* own = node.find(name);
+        fail(own == nullptr ? node.place : own->place, fmt::format("{}.{}", path, name),
+             fmt::format("is {} at ({:.4g}, {:.4g}), t = 0; must be {}", value, x[0], x[1],
+                         must_be_positive ? "> 0" : "finite"));
+      };
+      check(state.rho, "rho", true);
+      check(state.p, node.find("p") != nullptr ? "p" : "T", true);
+      check(state.v1, "v", false);
+      check(state.v2, "v", false);
+    }
+  }
+}
+
+std::vector<std::string> solid_names(const Case& problem) {
+  std::vector<std::string> names;
+  for (const SolidSpec& solid : problem.solids) names.push_back(solid.name);
+  return names;
+}
+
+/// The side of a body that is an interface; for the gas, that to `solid`.
+std::vector<Side> interface_sides(const std::array<BoundarySpec, 4>& boundary,
+                                  const std::string& solid = "") {
+  std::vector<Side> sides;
+  for (const Side side : all_sides) {
+    const BoundarySpec& spec = boundary[static_cast<std::size_t>(side)];
+    if (spec.kind == BoundaryKind::interface && spec.solid == solid) sides.push_back(side);
+  }
+  return sides;
+}
+
+void check_points_meet(const Case& problem, const SolidSpec& solid, Side gas_side, Side solid_side,
+                       const Node& root) {
+  const GridSpec& gas_grid = problem.fluid->grid;
+  const Node& place = at(root, {"fluid", "boundary", name_of(gas_side)});
+  const std::string path = fmt::format("fluid.boundary.{}", name_of(gas_side));
+  const int n = points_along(gas_grid, gas_side);
+  const int n_solid = points_along(solid.grid, solid_side);
+  if (n != n_solid) {
+    fail(place.place, path,
+         fmt::format("has {} points, but the {} side of solid `{}` has {}; give both sides the same number "
+                     "(points or spacing)",
+                     n, name_of(solid_side), solid.name, n_solid));
+  }
+  if (solid.initial_from_reference && problem.reference.kind != "elastic_piston")
+    return;                           // its displacement is not known here
+  constexpr double tolerance = 1e-8;  // of the interface's length
+  const double size = (side_point(gas_grid, gas_side, n - 1) - side_point(gas_grid, gas_side, 0)).norm();
+  for (int k = 0; k < n; ++k) {
+    const Vec2 x = side_point(gas_grid, gas_side, k);
+    Vec2 x_solid = side_point(solid.grid, solid_side, k);
+    if (solid.initial_u) {
+      const Vec2 x_bar = x_solid;
+      x_solid += Vec2(solid.initial_u->c1(x_bar[0], x_bar[1], 0), solid.initial_u->c2(x_bar[0], x_bar[1], 0));
+    }
+    if ((x - x_solid).norm() <= tolerance * size) continue;
+    fail(place.place, path,
+         fmt::format("point {} at ({:.6g}, {:.6g}) does not meet the {} side of solid `{}` at ({:.6g}, "
+                     "{:.6g}); let both grids have the same "
+                     "points there, in the same order",
+                     k, x[0], x[1], name_of(solid_side), solid.name, x_solid[0], x_solid[1]));
+  }
+}
+
+void check_interfaces(const Case& problem, const Node& root) {
+  const std::vector<std::string> names = solid_names(problem);
+  if (problem.fluid) {
+    for (const Side side : all_sides) {
+      const BoundarySpec& spec = problem.fluid->boundary[static_cast<std::size_t>(side)];
+      if (spec.kind != BoundaryKind::interface ||
+          std::find(names.begin(), names.end(), spec.solid) != names.end())
+        continue;
+      fail(at(root, {"fluid", "boundary", name_of(side), "solid"}).place,
+           fmt::format("fluid.boundary.{}", name_of(side)),
+           fmt::format("there is no solid {}{}", in_ticks(spec.solid), did_you_mean(spec.solid, names)));
+    }
+  }
+  for (const SolidSpec& solid : problem.solids) {
+    const std::vector<Side> own = interface_sides(solid.boundary);
+    const std::string path = fmt::format("solids.{}.boundary", solid.name);
+    const Node& place = at(root, {"solids", solid.name, "boundary"});
+    const std::vector<Side> gas =
+        problem.fluid ? interface_sides(problem.fluid->boundary, solid.name) : std::vector<Side>{};
+    if (own.empty() && !problem.fluid) continue;
+    if (own.empty())
+      fail(place.place, path,
+           "no side is an interface, yet the case has a gas; write `interface` on the side that meets it");
+    const std::string own_path = fmt::format("{}.{}", path, name_of(own.front()));
+    if (own.size() > 1) fail(place.place, path, "two sides are interfaces; a solid meets the gas along one");
+    if (gas.empty()) {
+      fail(at(place, {name_of(own.front())}).place, own_path,
+           fmt::format("the interface has no partner; write {{kind: interface, solid: {}}} on a side of "
+                       "fluid.boundary",
+                       solid.name));
+    }
+    if (gas.size() > 1) {
+      fail(at(root, {"fluid", "boundary", name_of(gas[1])}).place, "fluid.boundary",
+           fmt::format("two sides meet solid `{}`; keep one", solid.name));
+    }
+    check_points_meet(problem, solid, gas.front(), own.front(), root);
+  }
+}
+
+void check_reference(const Case& problem, const Node& root) {
+  const auto need = [&](const BoundarySpec& spec, bool is_gas, const std::string& owner, Side side,
+                        const Node& node) {
+    if (!spec.from_reference) return;
+    const std::string path = fmt::format("{}.boundary.{}", owner, name_of(side));
+    if (problem.reference.kind == "piston_1d") {
+      fail(node.place, path,
+           "reference `piston_1d` is known at output times only; give the boundary data here");
+    }
+    const bool is_formula =
+        problem.reference.kind == "expressions" || problem.reference.kind == "manufactured";
+    const bool has_data = is_gas ? problem.reference.fluid.has_value() : problem.reference.u.has_value();
+    if (is_formula && !has_data)
+      fail(node.place, path,
+           fmt::format("takes its data from `reference`, which has no `{}`", is_gas ? "fluid" : "u"));
+  };
+  for (const Side side : all_sides) {
+    const auto index = static_cast<std::size_t>(side);
+    if (problem.fluid)
+      need(problem.fluid->boundary[index], true, "fluid", side,
+           at(root, {"fluid", "boundary", name_of(side)}));
+    for (const SolidSpec& solid : problem.solids) {
+      need(solid.boundary[index], false, "solids." + solid.name, side,
+           at(root, {"solids", solid.name, "boundary", name_of(side)}));
+    }
+  }
+}
+
+void check_probes(const Case& problem, const Node& root) {
+  std::vector<std::string> places = solid_names(problem);
+  if (problem.fluid) places.emplace_back("fluid");
+  for (std::size_t k = 0; k < problem.output.probes.size(); ++k) {
+    const ProbeSpec& probe = problem.output.probes[k];
+    const Node& node = at(root, {"output", "probes"}).items[k];
+    if (std::find(places.begin(), places.end(), probe.in) == places.end()) {
+      fail(node.find("in")->place, fmt::format("output.probes[{}].in", k),
+           fmt::format("{} is neither `fluid` nor a solid{}", in_ticks(probe.in),
+                       did_you_mean(probe.in, places)));
+    }
+  }
+}
+
+}  // namespace
+
+void check_case(const Case& problem, const Node& root) {
+  if (!problem.fluid && problem.solids.empty())
+    fail(root.place, "", "the case has neither `fluid` nor `solids`; write at least one");
+  if (!problem.fluid && problem.solids.size() > 1) {
+    fail(at(root, {"solids"}).place, "solids",
+         "several solids without a gas have nothing in common; write one case for each");
+  }
+  if (problem.fluid) {
+    const Node& fluid = at(root, {"fluid"});
+    check_grid(problem.fluid->grid, at(fluid, {"grid"}), "fluid.grid");
+    if (problem.fluid->initial)
+      check_state(*problem.fluid->initial, problem.fluid->grid, at(fluid, {"initial"}), "fluid.initial");
+    for (const Side side : all_sides) {
+      const BoundarySpec& spec = problem.fluid->boundary[static_cast<std::size_t>(side)];
+      const std::string path = fmt::format("fluid.boundary.{}.state", name_of(side));
+      if (spec.state)
+        check_state(*spec.state, problem.fluid->grid, at(fluid, {"boundary", name_of(side), "state"}), path);
+    }
+  }
+  for (const SolidSpec& solid : problem.solids) {
+    if (solid.name == "fluid" || solid.name == "coupler") {
+      fail(at(root, {"solids", solid.name}).place, "solids",
+           fmt::format("`{}` is the name of another program; choose another", solid.name));
+    }
+    check_grid(solid.grid, at(root, {"solids", solid.name, "grid"}),
+               fmt::format("solids.{}.grid", solid.name));
+  }
+  check_reference(problem, root);
+  check_interfaces(problem, root);
+  check_probes(problem, root);
+}
+
+}  // namespace fsi

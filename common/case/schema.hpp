@@ -1,0 +1,76 @@
+#pragma once
+/// What a case file may say: the one description behind validation, docs/case_file.md and the typed case.
+
+#include <limits>
+#include <span>
+#include <string_view>
+
+namespace fsi::schema {
+
+enum class Type {
+  number,   ///< a number, or an expression of the parameters
+  integer,  ///< the same, whole
+  boolean,  ///< true or false
+  word,     ///< one of `words`
+  text,     ///< any text
+  name,     ///< a word that may name things: letters, digits, _
+  pair,     ///< [number, number]
+  counts,   ///< [integer, integer]
+  numbers,  ///< list of numbers
+  field,    ///< expression of x, y, r, t
+  vector,   ///< [field, field]
+  map,      ///< [expression, expression] of r, s, t
+  section,  ///< keys of `section`
+  named,    ///< any names, each with an `element`
+  list,     ///< list of `element`
+};
+
+struct Range {
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+  bool low_open = false;  ///< `low` itself is outside
+  bool high_open = false;
+
+  bool holds(double value) const {
+    return (low_open ? value > low : value >= low) && (high_open ? value < high : value <= high);
+  }
+};
+
+inline constexpr Range any_number{};
+inline constexpr Range positive{.low = 0, .low_open = true};
+inline constexpr Range not_negative{.low = 0};
+
+struct Section;
+
+struct Key {
+  std::string_view name;
+  Type type = Type::number;
+  std::string_view meaning;
+  std::string_view unit = "-";     ///< "-" is a pure number
+  std::string_view fallback = {};  ///< value where the key is missing, for people; "" with `required`
+  bool required = false;
+  Range range = {};
+  std::span<const std::string_view> words =
+      {};  ///< of a word; for other types: words that may stand in its place
+  const Section* section = nullptr;
+  const Key* element = nullptr;
+};
+
+/// Keys that belong to one `kind` of a section.
+struct Variant {
+  std::string_view kind;
+  std::string_view meaning;
+  std::span<const Key> keys;
+};
+
+struct Section {
+  std::string_view title;  ///< heading of the documentation
+  std::span<const Key> keys;
+  std::span<const Variant> variants = {};  ///< chosen by the key `kind`
+  std::string_view default_kind = {};      ///< "": `kind` must be written
+};
+
+/// The whole file.
+extern const Section case_file;
+
+}  // namespace fsi::schema

@@ -1,0 +1,330 @@
+#include "common/core/config.hpp"
+
+#include <fmt/format.h>
+#include <yaml-cpp/eventhandler.h>
+#include <yaml-cpp/exceptions.h>
+#include <yaml-cpp/parser.h>
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "common/core/suggest.hpp"
+
+namespace fsi::config {
+
+namespace {
+
+/// Builds the tree from the parser's events; sees repeated keys, which yaml-cpp's own nodes let pass.
+class Builder : public YAML::EventHandler {
+ public:
+  Builder(std::string file, bool with_marks) : file_(std::move(file)), with_marks_(with_marks) {}
+
+  Node take() { return std::move(root_); }
+
+  void OnDocumentStart(const YAML::Mark&) override {}
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t) override { add(make(Node::Kind::null, mark)); }
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override {
+    throw UserMistake(place(mark) + ": aliases (*name) are not read here; write the value out");
+  }
+  void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t,
+                const std::string& value) override {
+    Node node = make(Node::Kind::scalar, mark);
+    node.text = value;
+    node.quoted = tag == "!";  // yaml-cpp: "?" for a plain scalar
+    add(std::move(node));
+  }
+  void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
+                       YAML::EmitterStyle::value) override {
+    open(make(Node::Kind::list, mark));
+  }
+  void OnSequenceEnd() override { close(); }
+  void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
+                  YAML::EmitterStyle::value) override {
+    open(make(Node::Kind::map, mark));
+  }
+  void OnMapEnd() override { close(); }
+
+ private:
+  struct Open {
+    Node node;
+    bool has_key = false;  ///< a map whose next event is the value of its last key
+  };
+
+  std::string place(const YAML::Mark& mark) const {
+    return with_marks_ ? fmt::format("{}:{}:{}", file_, mark.line + 1, mark.column + 1) : file_;
+  }
+
+  Node make(Node::Kind kind, const YAML::Mark& mark) const {
+    Node node;
+    node.kind = kind;
+    node.place = place(mark);
+    return node;
+  }
+
+  void open(Node node) {
+    if (wants_key()) throw UserMistake(node.place + ": a key must be a word; " + quote_hint);
+    open_.push_back({std::move(node), false});
+  }
+
+  void close() {
+    Node node = std::move(open_.back().node);
+    open_.pop_back();
+    add(std::move(node));
+  }
+
+  bool wants_key() const { return !open_.empty() && open_.back().node.is_map() && !open_.back().has_key; }
+
+  void add(Node node) {
+    if (open_.empty()) {
+      root_ = std::move(node);
+    } else if (open_.back().node.is_list()) {
+      open_.back().node.items.push_back(std::move(node));
+    } else if (wants_key()) {
+      add_key(node);
+    } else {
+      open_.back().node.entries.back().value = std::move(node);
+      open_.back().has_key = false;
+    }
+  }
+
+  void add_key(const Node& key) {
+    if (!key.is_scalar()) throw UserMistake(key.place + ": a key must be a word; " + quote_hint);
+    std::vector<Entry>& entries = open_.back().node.entries;
+    for (const Entry& entry : entries) {
+      if (entry.key == key.text) {
+        throw UserMistake(fmt::format("{}: key {} is there twice, first at {}; keep one", key.place,
+                                      in_ticks(key.text), entry.place));
+      }
+    }
+    entries.push_back({key.text, key.place, {}});
+    entries.back().value.place = key.place;
+    open_.back().has_key = true;
+  }
+
+  static constexpr const char* quote_hint = "put text with : or {} in quotes";
+  std::string file_;
+  bool with_marks_;
+  Node root_;
+  std::vector<Open> open_;
+};
+
+/// YAML forbids tabs before a line's first word; yaml-cpp's own words for it do not say so.
+void refuse_tabs(const std::string& text, const std::string& file) {
+  std::istringstream lines(text);
+  std::string line;
+  for (int number = 1; std::getline(lines, line); ++number) {
+    const std::size_t first = line.find_first_not_of(' ');
+    if (first == std::string::npos || line[first] != '\t') continue;
+    if (line.find_first_not_of(" \t\r", first) == std::string::npos) continue;
+    throw UserMistake(
+        fmt::format("{}:{}:{}: a tab in the indentation; write spaces", file, number, first + 1));
+  }
+}
+
+Node parse_text(const std::string& text, const std::string& file, bool with_marks) {
+  std::istringstream stream(text);
+  Builder builder(file, with_marks);
+  try {
+    YAML::Parser parser(stream);
+    if (!parser.HandleNextDocument(builder)) return {};
+    Node root = builder.take();
+    Builder second(file, with_marks);
+    if (parser.HandleNextDocument(second)) {
+      throw UserMistake(second.take().place +
+                        ": a second document begins here; a case is one document, remove `---`");
+    }
+    return root;
+  } catch (const YAML::Exception& error) {
+    const std::string place = with_marks && error.mark.line >= 0
+                                  ? fmt::format("{}:{}:{}", file, error.mark.line + 1, error.mark.column + 1)
+                                  : file;
+    throw UserMistake(fmt::format("{}: not YAML: {}", place, error.msg));
+  }
+}
+
+// ---- emit
+
+bool reads_back_plain(const std::string& text) {
+  const auto ordinary = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
+           std::string_view("_.+-*/^() ").find(c) != std::string_view::npos;
+  };
+  if (text.empty() || text.front() == ' ' || text.back() == ' ') return false;
+  if (!std::all_of(text.begin(), text.end(), ordinary)) return false;
+  if (std::string_view("*+./^)").find(text.front()) != std::string_view::npos) return false;
+  if (text.front() == '-' && (text.size() < 2 || text[1] == ' ' || text[1] == '-')) return false;
+  return text != "null" && text != "Null" && text != "NULL";
+}
+
+std::string scalar_text(const std::string& text, bool with_quotes) {
+  if (!with_quotes && reads_back_plain(text)) return text;
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') {
+      result += '\\';
+      result += c;
+    } else if (static_cast<unsigned char>(c) < 32 || c == 127) {
+      result += fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
+    } else {
+      result += c;
+    }
+  }
+  return result + '"';
+}
+
+std::string flow_text(const Node& node) {
+  std::vector<std::string> parts;
+  switch (node.kind) {
+    case Node::Kind::null:
+      return "~";
+    case Node::Kind::scalar:
+      return scalar_text(node.text, node.quoted);
+    case Node::Kind::list:
+      for (const Node& item : node.items) parts.push_back(flow_text(item));
+      return fmt::format("[{}]", fmt::join(parts, ", "));
+    case Node::Kind::map:
+      for (const Entry& entry : node.entries) {
+        parts.push_back(fmt::format("{}: {}", scalar_text(entry.key, false), flow_text(entry.value)));
+      }
+      return fmt::format("{{{}}}", fmt::join(parts, ", "));
+  }
+  return "";
+}
+
+void emit_map(const Node& map, int indent, std::string& out) {
+  for (const Entry& entry : map.entries) {
+    out += fmt::format("{:{}}{}:", "", indent, scalar_text(entry.key, false));
+    if (entry.value.is_map() && !entry.value.entries.empty()) {
+      out += '\n';
+      emit_map(entry.value, indent + 2, out);
+    } else {
+      out += ' ' + flow_text(entry.value) + '\n';
+    }
+  }
+}
+
+// ---- assign
+
+/// The child that the rest of a dotted key begins with; keys may themselves contain dots (`expect:
+/// errors.rho:`).
+Entry* child_of(Node& map, const std::string& rest) {
+  Entry* best = nullptr;
+  for (Entry& entry : map.entries) {
+    const bool begins = rest == entry.key || rest.starts_with(entry.key + ".");
+    if (begins && (best == nullptr || entry.key.size() > best->key.size())) best = &entry;
+  }
+  return best;
+}
+
+Node* list_item(Node& list, const std::string& word, const std::string& option) {
+  std::size_t index = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), index);
+  if (error != std::errc() || end != word.data() + word.size() || index >= list.items.size()) {
+    throw UserMistake(fmt::format("{}: {} is not an entry of a list of {}; write a number from 0", option,
+                                  in_ticks(word), list.items.size()));
+  }
+  return &list.items[index];
+}
+
+/// Steps from `node` along the first word of `rest`; makes the key where it is missing.
+Node* step_into(Node& node, std::string& rest, const std::string& option) {
+  const std::size_t dot = rest.find('.');
+  std::string word = rest.substr(0, dot);
+  Node* next = nullptr;
+  if (node.is_list()) {
+    next = list_item(node, word, option);
+  } else {
+    if (node.kind == Node::Kind::null) node.kind = Node::Kind::map;
+    if (!node.is_map()) {
+      throw UserMistake(fmt::format("{}: {} is {}, not a section; set it as a whole", option, in_ticks(word),
+                                    describe(node)));
+    }
+    if (Entry* entry = child_of(node, rest)) {
+      word = entry->key;
+      next = &entry->value;
+    } else {
+      node.entries.push_back({word, option, {}});
+      next = &node.entries.back().value;
+      next->place = option;
+    }
+  }
+  rest = word.size() < rest.size() ? rest.substr(word.size() + 1) : "";
+  return next;
+}
+
+}  // namespace
+
+const Node* Node::find(std::string_view key) const {
+  const auto found =
+      std::find_if(entries.begin(), entries.end(), [&](const Entry& entry) { return entry.key == key; });
+  return found == entries.end() ? nullptr : &found->value;
+}
+
+Node* Node::find(std::string_view key) {
+  return const_cast<Node*>(std::as_const(*this).find(key));
+}
+
+Node parse(const std::string& text, const std::string& file) {
+  refuse_tabs(text, file);
+  return parse_text(text, file, true);
+}
+
+Node parse_file(const std::string& path) {
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) throw UserMistake(path + ": is a folder, not a case file");
+  std::ifstream file(path);
+  std::ostringstream text;
+  text << file.rdbuf();
+  if (!file) throw UserMistake(path + ": cannot be read");
+  return parse(text.str(), path);
+}
+
+void assign(Node& root, const std::string& key, const std::string& value, const std::string& option) {
+  const bool has_empty_word =
+      key.empty() || key.front() == '.' || key.back() == '.' || key.find("..") != std::string::npos;
+  if (has_empty_word)
+    throw UserMistake(fmt::format("{}: write KEY=VALUE with a key such as time.end", option));
+  Node parsed = parse_text(value, option, false);
+  if (parsed.kind == Node::Kind::null) throw UserMistake(option + ": the value is missing; write KEY=VALUE");
+  Node* node = &root;
+  std::string rest = key;
+  while (!rest.empty()) node = step_into(*node, rest, option);
+  *node = std::move(parsed);
+}
+
+std::string emit(const Node& root) {
+  std::string out;
+  if (root.is_map()) {
+    emit_map(root, 0, out);
+  } else {
+    out = flow_text(root) + '\n';
+  }
+  return out;
+}
+
+std::string describe(const Node& node) {
+  switch (node.kind) {
+    case Node::Kind::null:
+      return "nothing";
+    case Node::Kind::scalar:
+      return in_ticks(node.text);
+    case Node::Kind::list:
+      return fmt::format("a list of {}", node.items.size());
+    case Node::Kind::map:
+      return "a section";
+  }
+  return "";
+}
+
+void fail(const std::string& place, const std::string& key, const std::string& message) {
+  const bool names_key = place.starts_with("--") || key.empty();
+  throw UserMistake(names_key ? fmt::format("{}: {}", place, message)
+                              : fmt::format("{}: {}: {}", place, key, message));
+}
+
+}  // namespace fsi::config
