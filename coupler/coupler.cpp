@@ -1,0 +1,134 @@
+#include "coupler/coupler.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "common/core/failure.hpp"
+
+namespace fsi::coupler {
+
+namespace {
+
+constexpr std::size_t most_points_shown = 256;
+
+}  // namespace
+
+Coupler::Coupler(const CouplerOptions& options, std::span<const wire::Hello> hellos)
+    : options_(options), agreement_(options.time, options.start) {
+  for (InterfacePair& pair : match_interfaces(hellos)) {
+    if (participants_.empty()) participants_.push_back(pair.fluid);
+    if (std::ranges::find(participants_, pair.solid) == participants_.end())
+      participants_.push_back(pair.solid);
+    interfaces_.emplace_back(std::move(pair), options.projection,
+                             options.multirate ? options.robin_order + 1 : 1);
+  }
+  bids_.resize(participants_.size());
+  answers_.resize(2 * interfaces_.size());
+  moment_.t = options.start;
+}
+
+std::span<const wire::ProjectedInterface> Coupler::step(std::span<const wire::PredictedInterface> predicted) {
+  if (begun_) {
+    moment_ = {.step = moment_.step + 1, .t = next_.plan.t_next, .dt = next_.plan.dt};
+    output_ = next_.plan.output;
+    at_end_ = next_.plan.end;
+  } else {
+    output_ = agreement_.output_at_start();
+  }
+  begun_ = true;
+  project_interface(predicted);
+  finished_ = at_end_ || !stop_reason_.empty();
+  if (finished_) {
+    next_ = {.plan = {.dt = 0, .t_next = moment_.t, .output = false, .end = true},
+             .limited_by = {},
+             .reason = {},
+             .substeps = {}};
+  } else {
+    agree_on_time_step(predicted);
+  }
+  answer();
+  checkpoint_ = false;
+  return answers_;
+}
+
+const wire::PredictedInterface& Coupler::find(std::span<const wire::PredictedInterface> predicted,
+                                              const std::string& from, const std::string& interface) const {
+  const auto state = std::ranges::find_if(predicted, [&](const wire::PredictedInterface& each) {
+    return each.from == from && each.interface == interface && each.step == moment_.step;
+  });
+  if (state != predicted.end()) return *state;
+  throw PeerLost(fmt::format("no predicted state of step {} from \"{}\" for interface \"{}\"", moment_.step,
+                             from, interface));
+}
+
+void Coupler::project_interface(std::span<const wire::PredictedInterface> predicted) {
+  for (InterfaceExchange& interface : interfaces_) {
+    const InterfacePair& pair = interface.pair();
+    interface.project_interface(moment_, find(predicted, pair.fluid, pair.name),
+                                find(predicted, pair.solid, pair.name));
+  }
+}
+
+void Coupler::agree_on_time_step(std::span<const wire::PredictedInterface> predicted) {
+  for (std::size_t k = 0; k < participants_.size(); ++k) {
+    const auto state = std::ranges::find(predicted, participants_[k], &wire::PredictedInterface::from);
+    bids_[k] = {.from = participants_[k],
+                .dt = state->dt_bid,
+                .reason = state->dt_reason,
+                .may_substep = options_.multirate && k > 0};
+  }
+  next_ = agreement_.agree(bids_);
+}
+
+std::int32_t Coupler::substeps_of(const std::string& participant) const {
+  const auto k =
+      static_cast<std::size_t>(std::ranges::find(participants_, participant) - participants_.begin());
+  return k < next_.substeps.size() ? next_.substeps[k] : 1;
+}
+
+void Coupler::answer() {
+  for (std::size_t k = 0; k < interfaces_.size(); ++k) {
+    const InterfaceExchange& interface = interfaces_[k];
+    wire::ProjectedInterface& to_fluid = answers_[2 * k];
+    interface.fill_state(to_fluid);
+    interface.fill_motion(next_.plan.dt, to_fluid);
+    to_fluid.to = interface.pair().fluid;
+    to_fluid.step = moment_.step;
+    to_fluid.t = moment_.t;
+    to_fluid.dt_next = next_.plan.dt;
+    to_fluid.t_next = next_.plan.t_next;
+    to_fluid.write_output = output_ || finished_;
+    to_fluid.write_checkpoint = checkpoint_;
+    to_fluid.stop = finished_;
+    to_fluid.stop_reason = stop_reason_;
+
+    wire::ProjectedInterface& to_solid = answers_[2 * k + 1];
+    to_solid = to_fluid;
+    to_solid.to = interface.pair().solid;
+    to_solid.substeps_next = substeps_of(to_solid.to);
+    interface.fill_robin(to_solid);
+  }
+}
+
+std::vector<InterfaceReport> Coupler::reports() const {
+  std::vector<InterfaceReport> reports;
+  for (const InterfaceExchange& interface : interfaces_) reports.push_back(interface.report());
+  return reports;
+}
+
+std::vector<wire::Telemetry::Interface> Coupler::profiles() const {
+  std::vector<wire::Telemetry::Interface> profiles;
+  for (const InterfaceExchange& interface : interfaces_)
+    profiles.push_back(interface.profile(most_points_shown));
+  return profiles;
+}
+
+std::size_t Coupler::points() const {
+  std::size_t sum = 0;
+  for (const InterfaceExchange& interface : interfaces_) sum += interface.points();
+  return sum;
+}
+
+}  // namespace fsi::coupler

@@ -1,0 +1,79 @@
+#pragma once
+/// The middle of Procedure 1: from the predicted states of all programs to the projected states, the next
+/// time step and the commanded motion. Knows no bus, no gas law, no solid law and no grid.
+///
+///     Coupler coupler(options, hellos);
+///     for k = 0, 1, ...:  answers = coupler.step(predicted states of exchange k)      until
+///     coupler.finished()
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "common/wire/messages.hpp"
+#include "coupler/interface_exchange.hpp"
+#include "coupler/time_step.hpp"
+
+namespace fsi::coupler {
+
+struct CouplerOptions {
+  TimeSchedule::Options time;
+  double start = 0;        ///< time of the first exchange
+  bool multirate = false;  ///< solids may take substeps inside the step of the gas
+  int robin_order = 2;     ///< extrapolation of the Robin data in time: 1 linear, 2 quadratic
+  Projection projection = Projection::simplified;
+};
+
+class Coupler {
+ public:
+  /// @throws UserMistake when the interfaces of gas and solids do not meet; PeerLost when a hello makes no
+  /// sense
+  Coupler(const CouplerOptions& options, std::span<const wire::Hello> hellos);
+
+  /// One exchange: projects every interface, agrees on the next step, commands the motion. Two answers per
+  /// interface, to the gas and to the solid; they hold until the next call.
+  /// @throws NumbersBroke naming step, t, program, interface, point and quantity
+  std::span<const wire::ProjectedInterface> step(std::span<const wire::PredictedInterface> predicted);
+
+  /// The run ends with the next exchange.
+  void request_stop(const std::string& reason) { stop_reason_ = reason; }
+  /// Everybody writes a checkpoint at the next exchange.
+  void request_checkpoint() { checkpoint_ = true; }
+
+  bool finished() const { return finished_; }
+  /// Exchanges made so far are 0 .. step_number().
+  std::uint64_t step_number() const { return moment_.step; }
+  /// Time of the last exchange, and the size of the step that led to it (0 at the first).
+  double t() const { return moment_.t; }
+  double dt() const { return moment_.dt; }
+  /// The step agreed on in the last exchange.
+  const AgreedStep& next() const { return next_; }
+  /// What the last exchange did, one per interface.
+  std::vector<InterfaceReport> reports() const;
+  /// For the monitor: values along each interface at the last exchange.
+  std::vector<wire::Telemetry::Interface> profiles() const;
+  /// Points of all interfaces.
+  std::size_t points() const;
+
+ private:
+  const wire::PredictedInterface& find(std::span<const wire::PredictedInterface> predicted,
+                                       const std::string& from, const std::string& interface) const;
+  void project_interface(std::span<const wire::PredictedInterface> predicted);
+  void agree_on_time_step(std::span<const wire::PredictedInterface> predicted);
+  void answer();
+  std::int32_t substeps_of(const std::string& participant) const;
+
+  CouplerOptions options_;
+  TimeStepAgreement agreement_;
+  std::vector<InterfaceExchange> interfaces_;
+  std::vector<std::string> participants_;  ///< the gas first
+  std::vector<Bid> bids_;                  ///< of the participants
+  std::vector<wire::ProjectedInterface> answers_;
+  Moment moment_;
+  AgreedStep next_;
+  bool begun_ = false, finished_ = false, output_ = false, checkpoint_ = false, at_end_ = false;
+  std::string stop_reason_;
+};
+
+}  // namespace fsi::coupler

@@ -1,0 +1,261 @@
+#include "coupler/interface_exchange.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <stdexcept>
+#include <utility>
+
+#include "common/core/failure.hpp"
+#include "common/core/types.hpp"
+
+namespace fsi::coupler {
+
+namespace {
+
+Vec2 vector_at(std::span<const double> values, std::size_t k) {
+  return {values[k], values[values.size() / 2 + k]};
+}
+
+Curve curve_of(const InterfacePair& pair) {
+  try {
+    return {pair.x, pair.n0};
+  } catch (const std::invalid_argument& problem) {
+    throw PeerLost(fmt::format("interface \"{}\", solid \"{}\": {}", pair.name, pair.solid, problem.what()));
+  }
+}
+
+/// Throws unless `values` holds `expected` finite numbers.
+void check_values(const Moment& moment, const wire::PredictedInterface& state, const char* quantity,
+                  std::span<const double> values, std::size_t expected, std::size_t points) {
+  if (values.size() != expected) {
+    throw PeerLost(fmt::format("\"{}\" sent {} numbers for {} of interface \"{}\", not {}", state.from,
+                               values.size(), quantity, state.interface, expected));
+  }
+  for (std::size_t k = 0; k < expected; ++k) {
+    if (std::isfinite(values[k])) continue;
+    throw NumbersBroke(fmt::format("step {}, t = {:.6g}: \"{}\" at interface \"{}\", point {}: {} is {}",
+                                   moment.step, moment.t, state.from, state.interface, k % points, quantity,
+                                   values[k]));
+  }
+}
+
+[[noreturn]] void throw_broken(const Moment& moment, const InterfacePair& pair, const std::string& who,
+                               std::size_t k, const std::string& what) {
+  throw NumbersBroke(fmt::format("step {}, t = {:.6g}: \"{}\" at interface \"{}\", point {}: {}", moment.step,
+                                 moment.t, who, pair.name, k, what));
+}
+
+}  // namespace
+
+InterfaceExchange::InterfaceExchange(InterfacePair pair, Projection projection, int robin_levels)
+    : pair_(std::move(pair)),
+      projection_(projection),
+      curve_(curve_of(pair_)),
+      motion_(curve_.n),
+      levels_(static_cast<std::size_t>(robin_levels)),
+      n_(2 * curve_.n),
+      ds_(curve_.n),
+      v_(2 * curve_.n),
+      gas_(curve_.n),
+      solid_v_n_(curve_.n) {
+  for (Level& level : levels_) {
+    level.v_n.resize(curve_.n);
+    level.w_n.resize(curve_.n);
+  }
+  report_.name = pair_.name;
+}
+
+void InterfaceExchange::check(const Moment& moment, const wire::PredictedInterface& gas,
+                              const wire::PredictedInterface& solid) const {
+  const std::size_t n = curve_.n;
+  check_values(moment, gas, "the position", gas.x, 2 * n, n);
+  check_values(moment, gas, "the velocity", gas.v, 2 * n, n);
+  check_values(moment, gas, "the pressure", gas.p, n, n);
+  check_values(moment, gas, "the impedance", gas.z_f, n, n);
+  check_values(moment, solid, "the position", solid.x, 2 * n, n);
+  check_values(moment, solid, "the velocity", solid.v, 2 * n, n);
+  for (std::size_t k = 0; k < n; ++k) {
+    if (!(gas.z_f[k] > 0))
+      throw_broken(moment, pair_, gas.from, k, fmt::format("the impedance is {}", gas.z_f[k]));
+  }
+  if (!solid.fixed.empty() && solid.fixed.size() != n) {
+    throw PeerLost(fmt::format("\"{}\" sent {} marks of clamped points for interface \"{}\", not {}",
+                               solid.from, solid.fixed.size(), pair_.name, n));
+  }
+  if (solid.modal.modes > 0) {
+    const auto k = static_cast<std::size_t>(solid.modal.modes);
+    check_values(moment, solid, "the mass matrix", solid.modal.M, k * k, k * k);
+    check_values(moment, solid, "the mode vectors", solid.modal.N, k * n, n);
+    check_values(moment, solid, "the modal velocity", solid.modal.q_dot, k, k);
+    check_values(moment, solid, "the modal load", solid.modal.f_own, k, k);
+    return;
+  }
+  check_values(moment, solid, "the traction", solid.w, 2 * n, n);
+  check_values(moment, solid, "the impedance matrix", solid.Z, 3 * n, n);
+  if (!(solid.z_p > 0)) {
+    throw PeerLost(fmt::format("\"{}\" sent the impedance z_p = {} for interface \"{}\"", solid.from,
+                               solid.z_p, pair_.name));
+  }
+}
+
+void InterfaceExchange::project_interface(const Moment& moment, const wire::PredictedInterface& gas,
+                                          const wire::PredictedInterface& solid) {
+  check(moment, gas, solid);
+  x_gas_ = gas.x;
+  x_solid_ = solid.x;
+  z_f_ = gas.z_f;
+  p_e_ = gas.p_e;
+  unit_normals(curve_, x_gas_, n_);
+  point_lengths(curve_, x_gas_, ds_);
+  for (std::size_t k = 0; k < curve_.n; ++k) {
+    const GasPoint<2> point{.v = vector_at(gas.v, k), .p = gas.p[k], .p_e = gas.p_e, .z_f = gas.z_f[k]};
+    gas_[k] = normal_side<2>(point, vector_at(n_, k));
+    solid_v_n_[k] = vector_at(n_, k).dot(vector_at(solid.v, k));
+  }
+  std::ranges::rotate(levels_, levels_.end() - 1);
+  known_ = std::min(known_ + 1, levels_.size());
+  levels_.front().t = moment.t;
+  if (solid.modal.modes > 0) {
+    project_modal(moment, solid.modal);
+  } else {
+    project_deformable(moment, solid);
+  }
+  remember(moment, solid);
+  measure(gas, solid);
+}
+
+void InterfaceExchange::project_deformable(const Moment& moment, const wire::PredictedInterface& solid) {
+  const std::size_t n = curve_.n;
+  Level& now = levels_.front();
+  for (std::size_t k = 0; k < n; ++k) {
+    const Vec2 normal = vector_at(n_, k);
+    SolidPoint<2> point{
+        .v = vector_at(solid.v, k), .w = vector_at(solid.w, k), .Z = Mat2::Zero(), .z_p = solid.z_p};
+    point.Z << solid.Z[k], solid.Z[n + k], solid.Z[n + k], solid.Z[2 * n + k];
+    if (!(point.Z(0, 0) > 0 && point.Z.determinant() > 0)) {
+      throw_broken(moment, pair_, solid.from, k,
+                   "the impedance matrix is not positive: the solid is no longer hyperbolic");
+    }
+    const bool fixed = !solid.fixed.empty() && solid.fixed[k] != 0;
+    NormalState state;
+    if (fixed && projection_ != Projection::traditional) {
+      state = at_wall(solid_v_n_[k], gas_[k]);
+    } else {
+      state = project<2>(point, gas_[k], normal, projection_);
+    }
+    now.v_n[k] = state.v_n;
+    now.w_n[k] = state.w_n;
+  }
+}
+
+void InterfaceExchange::project_modal(const Moment& moment, const wire::ModalResponse& modal) {
+  const auto k = static_cast<Eigen::Index>(modal.modes);
+  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  const Eigen::MatrixXd N =
+      Eigen::Map<const RowMajor>(modal.N.data(), k, static_cast<Eigen::Index>(curve_.n));
+  if (!modal_) {
+    modal_.emplace(Eigen::Map<const Eigen::VectorXd>(modal.q_dot.data(), k));
+  } else {
+    const Eigen::MatrixXd M = Eigen::Map<const RowMajor>(modal.M.data(), k, k);
+    const Eigen::VectorXd f_own = Eigen::Map<const Eigen::VectorXd>(modal.f_own.data(), k);
+    modal_->advance(M, f_own, modal_load(N, gas_, ds_), moment.dt);
+  }
+  const Eigen::VectorXd v_n = N.transpose() * modal_->q_dot();
+  Level& now = levels_.front();
+  for (std::size_t i = 0; i < curve_.n; ++i) {
+    const NormalState state = at_wall(v_n(static_cast<Eigen::Index>(i)), gas_[i]);
+    now.v_n[i] = state.v_n;
+    now.w_n[i] = state.w_n;
+  }
+}
+
+/// The solid keeps its own tangential velocity: a gas without viscosity cannot change it.
+void InterfaceExchange::remember(const Moment& moment, const wire::PredictedInterface& solid) {
+  const std::size_t n = curve_.n;
+  const Level& now = levels_.front();
+  for (std::size_t k = 0; k < n; ++k) {
+    if (!std::isfinite(now.v_n[k]) || !std::isfinite(now.w_n[k])) {
+      throw_broken(moment, pair_, "coupler", k, "the projected state is not finite");
+    }
+    const double correction = now.v_n[k] - solid_v_n_[k];
+    v_[k] = solid.v[k] + correction * n_[k];
+    v_[n + k] = solid.v[n + k] + correction * n_[n + k];
+  }
+  motion_.take(v_, moment.dt);
+}
+
+void InterfaceExchange::measure(const wire::PredictedInterface& gas, const wire::PredictedInterface& solid) {
+  report_ = {.name = pair_.name};
+  const Level& now = levels_.front();
+  for (std::size_t k = 0; k < curve_.n; ++k) {
+    const Vec2 normal = vector_at(n_, k);
+    const bool fixed = !solid.fixed.empty() && solid.fixed[k] != 0;
+    if (!fixed)
+      report_.velocity_jump = std::max(report_.velocity_jump, std::abs(gas_[k].v_n - solid_v_n_[k]));
+    if (!solid.w.empty()) {
+      const Vec2 jump = vector_at(solid.w, k) - gas_[k].w_n * normal;
+      report_.traction_jump = std::max(report_.traction_jump, jump.norm());
+    }
+    report_.gap = std::max(report_.gap, std::abs(normal.dot(vector_at(gas.x, k) - vector_at(solid.x, k))));
+    report_.power += ds_[k] * now.w_n[k] * now.v_n[k];
+  }
+}
+
+void InterfaceExchange::fill_state(wire::ProjectedInterface& answer) const {
+  const Level& now = levels_.front();
+  answer.interface = pair_.name;
+  answer.n = n_;
+  answer.v_n = now.v_n;
+  answer.w_n = now.w_n;
+  answer.v = v_;
+  answer.a.assign(motion_.a().begin(), motion_.a().end());
+  answer.z_f = z_f_;
+}
+
+void InterfaceExchange::fill_robin(wire::ProjectedInterface& answer) const {
+  const std::size_t n = curve_.n;
+  answer.robin_t.resize(known_);
+  answer.robin_r.resize(known_ * n);
+  for (std::size_t level = 0; level < known_; ++level) {
+    const Level& then = levels_[level];
+    answer.robin_t[level] = then.t;
+    // The newest z_f for every level: with the z_f of its own time each r_k would belong to another
+    // condition.
+    for (std::size_t k = 0; k < n; ++k) answer.robin_r[level * n + k] = then.w_n[k] + z_f_[k] * then.v_n[k];
+  }
+}
+
+void InterfaceExchange::fill_motion(double dt, wire::ProjectedInterface& answer) const {
+  answer.x_next.resize(2 * curve_.n);
+  if (dt > 0) {
+    motion_.command(x_solid_, dt, answer.x_next);
+  } else {
+    answer.x_next = x_gas_;
+  }
+}
+
+wire::Telemetry::Interface InterfaceExchange::profile(std::size_t most) const {
+  wire::Telemetry::Interface profile;
+  profile.name = report_.name;
+  profile.velocity_jump = report_.velocity_jump;
+  profile.traction_jump = report_.traction_jump;
+  profile.gap = report_.gap;
+  profile.power = report_.power;
+  std::vector<double> s(curve_.n);
+  arclength(x_gas_, s);
+  const std::size_t every = (curve_.n + most - 1) / most;
+  const Level& now = levels_.front();
+  for (std::size_t k = 0; k < curve_.n; k += every) {
+    profile.s.push_back(s[k]);
+    profile.p_predicted.push_back(p_e_ - gas_[k].w_n);
+    profile.p_projected.push_back(p_e_ - now.w_n[k]);
+    profile.v_predicted.push_back(solid_v_n_[k]);
+    profile.v_projected.push_back(now.v_n[k]);
+  }
+  return profile;
+}
+
+}  // namespace fsi::coupler

@@ -1,0 +1,85 @@
+#pragma once
+/// One interface through the whole run: takes the predicted states of gas and solid, projects them, remembers
+/// what the substeps and the motion need.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/wire/messages.hpp"
+#include "coupler/interface_motion.hpp"
+#include "coupler/matching.hpp"
+#include "coupler/modal.hpp"
+#include "coupler/projection.hpp"
+
+namespace fsi::coupler {
+
+/// What one step did to one interface: largest values over its points, before the projection.
+struct InterfaceReport {
+  std::string name;
+  double velocity_jump = 0;  ///< |n.v_f - n.v_s|, clamped points left out
+  double traction_jump = 0;  ///< |w_s - (p_e - p) n|, zero for solids that have no traction
+  double gap = 0;            ///< |n.(x_gas - x_solid)|
+  double power = 0;          ///< of the gas on the solid, the integral of w_n v_n, after the projection
+};
+
+/// Where and when an exchange happens, for messages.
+struct Moment {
+  std::uint64_t step = 0;
+  double t = 0;
+  double dt = 0;  ///< size of the step that led here, 0 at the first exchange
+};
+
+class InterfaceExchange {
+ public:
+  /// @param robin_levels times t_k at which Robin data is kept, 1 to 3
+  /// @throws PeerLost when the solid's reference normals are of no use
+  InterfaceExchange(InterfacePair pair, Projection projection, int robin_levels);
+
+  const InterfacePair& pair() const { return pair_; }
+  std::size_t points() const { return curve_.n; }
+
+  /// Projects the predicted states. @throws NumbersBroke naming step, t, program, interface, point and
+  /// quantity
+  void project_interface(const Moment& moment, const wire::PredictedInterface& gas,
+                         const wire::PredictedInterface& solid);
+  /// Everything about the state just projected, as both sides get it.
+  void fill_state(wire::ProjectedInterface& answer) const;
+  /// Robin data of the gas characteristic for the solid's substeps.
+  void fill_robin(wire::ProjectedInterface& answer) const;
+  /// Position commanded for a next step of size `dt`.
+  void fill_motion(double dt, wire::ProjectedInterface& answer) const;
+
+  const InterfaceReport& report() const { return report_; }
+  /// Predicted and projected values along the interface, at most `most` points.
+  wire::Telemetry::Interface profile(std::size_t most) const;
+
+ private:
+  struct Level {  ///< projected state at one time
+    double t = 0;
+    std::vector<double> v_n, w_n;
+  };
+
+  void check(const Moment& moment, const wire::PredictedInterface& gas,
+             const wire::PredictedInterface& solid) const;
+  void project_deformable(const Moment& moment, const wire::PredictedInterface& solid);
+  void project_modal(const Moment& moment, const wire::ModalResponse& modal);
+  void remember(const Moment& moment, const wire::PredictedInterface& solid);
+  void measure(const wire::PredictedInterface& gas, const wire::PredictedInterface& solid);
+
+  InterfacePair pair_;
+  Projection projection_;
+  Curve curve_;
+  InterfaceMotion motion_;
+  std::optional<ModalMotion> modal_;
+  std::vector<Level> levels_;  ///< newest first
+  std::size_t known_ = 0;      ///< levels that are filled
+  std::vector<double> n_, ds_, v_, z_f_, x_solid_, x_gas_;
+  std::vector<NormalSide> gas_;    ///< predicted gas
+  std::vector<double> solid_v_n_;  ///< predicted normal velocity of the solid
+  double p_e_ = 0;
+  InterfaceReport report_;
+};
+
+}  // namespace fsi::coupler

@@ -1,0 +1,87 @@
+#include "coupler/interface_motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "common/core/types.hpp"
+
+namespace fsi::coupler {
+
+namespace {
+
+/// Points that lie closer than this part of the curve's length are one.
+constexpr double coincident = 1e-9;
+
+Vec2 point(std::span<const double> x, std::size_t k) {
+  return {x[k], x[x.size() / 2 + k]};
+}
+
+/// Derivative of the position with respect to the index at point k.
+Vec2 tangent(std::span<const double> x, bool closed, std::size_t k) {
+  const std::size_t last = x.size() / 2 - 1;
+  if (k > 0 && k < last) return 0.5 * (point(x, k + 1) - point(x, k - 1));
+  if (closed) return 0.5 * (point(x, 1) - point(x, last - 1));
+  if (last == 1) return point(x, 1) - point(x, 0);
+  if (k == 0) return 2.0 * point(x, 1) - 1.5 * point(x, 0) - 0.5 * point(x, 2);
+  return 1.5 * point(x, last) - 2.0 * point(x, last - 1) + 0.5 * point(x, last - 2);
+}
+
+double length(std::span<const double> x) {
+  double sum = 0;
+  for (std::size_t k = 1; k < x.size() / 2; ++k) sum += (point(x, k) - point(x, k - 1)).norm();
+  return sum;
+}
+
+}  // namespace
+
+Curve::Curve(std::span<const double> x, std::span<const double> n0) : n(x.size() / 2) {
+  if (n < 2 || x.size() != 2 * n) throw std::invalid_argument("an interface needs at least two points");
+  if (n0.size() != x.size())
+    throw std::invalid_argument("the solid says no normals of its reference boundary");
+  closed = n > 3 && (point(x, 0) - point(x, n - 1)).norm() < coincident * length(x);
+  double agreement = 0;
+  for (std::size_t k = 0; k < n; ++k) {
+    const Vec2 t = tangent(x, closed, k).normalized();
+    agreement += Vec2(t.y(), -t.x()).dot(point(n0, k)) / static_cast<double>(n);
+  }
+  if (!(std::abs(agreement) > 0.5)) {
+    throw std::invalid_argument("the solid's reference normals do not stand on the interface curve");
+  }
+  sign = agreement > 0 ? 1 : -1;
+}
+
+void unit_normals(const Curve& curve, std::span<const double> x, std::span<double> n) {
+  for (std::size_t k = 0; k < curve.n; ++k) {
+    const Vec2 t = tangent(x, curve.closed, k).normalized();
+    n[k] = curve.sign * t.y();
+    n[curve.n + k] = -curve.sign * t.x();
+  }
+}
+
+void point_lengths(const Curve& curve, std::span<const double> x, std::span<double> ds) {
+  std::ranges::fill(ds, 0.0);
+  for (std::size_t k = 1; k < curve.n; ++k) {
+    const double half = 0.5 * (point(x, k) - point(x, k - 1)).norm();
+    ds[k - 1] += half;
+    ds[k] += half;
+  }
+}
+
+void arclength(std::span<const double> x, std::span<double> s) {
+  s[0] = 0;
+  for (std::size_t k = 1; k < x.size() / 2; ++k) s[k] = s[k - 1] + (point(x, k) - point(x, k - 1)).norm();
+}
+
+void InterfaceMotion::take(std::span<const double> v, double dt) {
+  for (std::size_t k = 0; k < v_.size(); ++k) {
+    a_[k] = dt > 0 ? (v[k] - v_[k]) / dt : 0.0;
+    v_[k] = v[k];
+  }
+}
+
+void InterfaceMotion::command(std::span<const double> x_solid, double dt, std::span<double> x_next) const {
+  for (std::size_t k = 0; k < v_.size(); ++k) x_next[k] = x_solid[k] + dt * (v_[k] + 0.5 * dt * a_[k]);
+}
+
+}  // namespace fsi::coupler

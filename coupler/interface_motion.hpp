@@ -1,0 +1,50 @@
+#pragma once
+/// Geometry and motion of one interface: its normals, the lengths that belong to its points, and where it
+/// goes next. Arrays are component-major over the n points: component c of point k is at [c * n + k].
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace fsi::coupler {
+
+/// Order of the points along an interface curve.
+struct Curve {
+  std::size_t n = 0;
+  bool closed = false;  ///< the last point is the first one again
+  double sign =
+      1;  ///< +1: turning the direction of increasing index by -90 degrees gives the normal, -1: by +90
+
+  /// From the initial positions `x` and the reference normals `n0` of the solid.
+  /// @throws std::invalid_argument where fewer than two points or normals without a clear side are given
+  Curve(std::span<const double> x, std::span<const double> n0);
+};
+
+/// Unit normals, solid -> gas, from central differences along the curve; one-sided of second order at open
+/// ends.
+void unit_normals(const Curve& curve, std::span<const double> x, std::span<double> n);
+
+/// Length of interface that belongs to each point: half of the adjoining segments (the trapezoidal rule). The
+/// two copies of the point that closes a curve have half of its length each.
+void point_lengths(const Curve& curve, std::span<const double> x, std::span<double> ds);
+
+/// Length from point 0 along the curve.
+void arclength(std::span<const double> x, std::span<double> s);
+
+/// Velocity and acceleration of the interface points, and the position they are commanded to.
+class InterfaceMotion {
+ public:
+  explicit InterfaceMotion(std::size_t points) : v_(2 * points), a_(2 * points) {}
+
+  /// Projected velocity at the end of a step of size `dt` (0: the first exchange, no acceleration yet).
+  void take(std::span<const double> v, double dt);
+  /// Position after the next step, x_s + dt v + dt^2/2 a. It starts from the solid's own position, so that
+  /// what the gas and the solid differ by now is gone after the step.
+  void command(std::span<const double> x_solid, double dt, std::span<double> x_next) const;
+  std::span<const double> a() const { return a_; }
+
+ private:
+  std::vector<double> v_, a_;
+};
+
+}  // namespace fsi::coupler

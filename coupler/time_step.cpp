@@ -1,0 +1,74 @@
+#include "coupler/time_step.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "common/core/failure.hpp"
+
+namespace fsi::coupler {
+
+namespace {
+
+constexpr double most_substeps = 10000;
+constexpr double rounding = 1e-9;  // a step that exceeds a bid by rounding needs no further substep
+
+/// Smallest bid of those that cannot substep; of all when nobody else sets a limit.
+const Bid* smallest(std::span<const Bid> bids) {
+  const Bid* smallest_bid = nullptr;
+  for (const bool substepping : {false, true}) {
+    for (const Bid& bid : bids) {
+      if (bid.may_substep != substepping || std::isinf(bid.dt)) continue;
+      if (smallest_bid == nullptr || bid.dt < smallest_bid->dt) smallest_bid = &bid;
+    }
+    if (smallest_bid != nullptr) break;
+  }
+  return smallest_bid;
+}
+
+std::int32_t substeps_of(const Bid& bid, double dt, double t) {
+  if (!bid.may_substep) return 1;
+  const double count = std::max(1.0, std::ceil(dt / bid.dt * (1 - rounding)));
+  if (!(count <= most_substeps)) {
+    throw NumbersBroke(
+        fmt::format("t = {:.6g}: the time step of \"{}\" has collapsed to {:.3g}, {:.0f} substeps ({})", t,
+                    bid.from, bid.dt, count, bid.reason));
+  }
+  return static_cast<std::int32_t>(count);
+}
+
+}  // namespace
+
+TimeStepAgreement::TimeStepAgreement(TimeSchedule::Options options, double start)
+    : schedule_(options), growth_(options.growth), dt_max_(options.dt_max), t_(start) {}
+
+AgreedStep TimeStepAgreement::agree(std::span<const Bid> bids) {
+  for (const Bid& bid : bids) {
+    if (bid.dt > 0) continue;
+    throw NumbersBroke(
+        fmt::format("t = {:.6g}: the time step of \"{}\" is {:.3g} ({})", t_, bid.from, bid.dt, bid.reason));
+  }
+  const Bid* first = smallest(bids);
+  AgreedStep step;
+  double limit = std::numeric_limits<double>::infinity();
+  const auto lower = [&](double dt, const std::string& by, const std::string& reason) {
+    if (dt >= limit) return;
+    limit = dt;
+    step.limited_by = by;
+    step.reason = reason;
+  };
+  if (first != nullptr) lower(first->dt, first->from, first->reason);
+  if (allowed_ > 0) lower(growth_ * allowed_, "time.growth", "growth from one step to the next");
+  if (dt_max_ > 0) lower(dt_max_, "time.dt", "largest step of the case");
+  step.plan =
+      schedule_.plan(t_, first != nullptr ? first->dt : std::numeric_limits<double>::infinity(), step.reason);
+  allowed_ = std::isinf(limit) ? step.plan.dt : limit;
+  if (step.plan.dt < 0.5 * limit) lower(step.plan.dt, "output.times", "output time");
+  for (const Bid& bid : bids) step.substeps.push_back(substeps_of(bid, step.plan.dt, t_));
+  t_ = step.plan.t_next;
+  return step;
+}
+
+}  // namespace fsi::coupler

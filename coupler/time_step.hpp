@@ -1,0 +1,48 @@
+#pragma once
+/// One time step for everybody: the minimum of the bids, or with multirate a macro step that suits the gas,
+/// in which each solid takes as many equal substeps as it needs.
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "common/core/time_schedule.hpp"
+
+namespace fsi::coupler {
+
+/// Largest step one program can take.
+struct Bid {
+  std::string from;          ///< participant's name
+  double dt = 0;             ///< safety factor included; infinite: no limit
+  std::string reason;        ///< what limits it, for people
+  bool may_substep = false;  ///< a solid under multirate: it can take substeps inside a larger step
+};
+
+/// What everybody does next.
+struct AgreedStep {
+  PlannedStep plan;
+  std::string limited_by;              ///< the program or setting that limits the step
+  std::string reason;                  ///< what limits that program, for people
+  std::vector<std::int32_t> substeps;  ///< for each bid: equal steps it takes inside the agreed one
+};
+
+class TimeStepAgreement {
+ public:
+  /// @param start time of the first exchange
+  TimeStepAgreement(TimeSchedule::Options options, double start);
+
+  /// The step from now on; `t()` becomes the time after it.
+  /// @throws NumbersBroke when a bid is no positive number, vanishes, or needs more than 10000 substeps
+  AgreedStep agree(std::span<const Bid> bids);
+  double t() const { return t_; }
+  bool output_at_start() const { return schedule_.output_at_start(); }
+
+ private:
+  TimeSchedule schedule_;
+  double growth_, dt_max_;
+  double t_;
+  double allowed_ = 0;  ///< last limit, before the step was shortened to hit a time
+};
+
+}  // namespace fsi::coupler
