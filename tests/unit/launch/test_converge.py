@@ -1,0 +1,36 @@
+#!/usr/bin/python3
+"""Rates of convergence recover the order of made-up errors."""
+
+import unittest
+
+import launcher  # noqa: F401  the path of the modules
+
+from fsi_launch import converge
+
+
+class Rates(unittest.TestCase):
+    LEVELS = [2, 4, 8, 16]
+
+    def test_power_law_is_recovered(self):
+        errors = [3e-2 * j**-1.9 for j in self.LEVELS]
+        self.assertAlmostEqual(converge.fitted_rate(self.LEVELS, errors), 1.9)
+        for rate in converge.pairwise_rates(self.LEVELS, errors):
+            self.assertAlmostEqual(rate, 1.9)
+
+    def test_unequal_levels(self):
+        levels = [3, 4, 10]
+        self.assertAlmostEqual(converge.pairwise_rates(levels, [j**-2.0 for j in levels])[1], 2.0)
+
+    def test_missing_and_zero_errors_give_no_rate(self):
+        self.assertEqual(converge.pairwise_rates([2, 4, 8], [1e-3, None, 0.0]), [None, None])
+        self.assertIsNone(converge.fitted_rate([2, 4], [1e-3, None]))
+
+    def test_table_as_text_and_markdown(self):
+        runs = [{"errors": {"rho": j**-2.0}, "steps": 10 * j, "wall_s": 1.0} for j in (2, 4)]
+        result = converge.table([2, 4], runs, ["rho"])
+        self.assertIn("1/40  6.25e-02  2.00", converge.as_text(result))
+        self.assertTrue(converge.as_markdown(result).startswith("| h | rho | rate | steps | wall [s] |\n|---|"))
+
+
+if __name__ == "__main__":
+    unittest.main()

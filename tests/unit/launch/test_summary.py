@@ -1,0 +1,75 @@
+#!/usr/bin/python3
+"""summary.json is merged from what the programs leave, and the case's expectations are held against it."""
+
+import json
+import unittest
+
+from launcher import InScratch
+
+from fsi_launch import summary
+from fsi_launch.case import Case
+
+
+def piston():
+    return Case(name="piston", text="", fluid=True, solids={"solid": "linear_elastic"}, reference="none", expect=[])
+
+
+class Summary(InScratch):
+    def part(self, name, **content):
+        (self.folder / "parts").mkdir(exist_ok=True)
+        (self.folder / "parts" / f"{name}.json").write_text(json.dumps({"participant": name} | content))
+
+    def merged(self, status="completed"):
+        return summary.merge(self.folder, piston(), status, "", 1.0)
+
+    def test_coupler_tells_time_and_steps(self):
+        self.part("fluid", steps=9, t=0.7)
+        self.part("coupler", steps=10, t=0.8, dt_min=0.05, dt_max=0.1, interface={"max_gap": 1e-6})
+        merged = self.merged()
+        self.assertEqual((merged["t"], merged["steps"], merged["dt"]), (0.8, 10, {"min": 0.05, "max": 0.1}))
+        self.assertEqual(merged["interface"], {"max_gap": 1e-6})
+
+    def test_errors_of_all_programs_in_the_papers_order(self):
+        self.part("solid", errors={"P_bar": 3e-5, "u_bar": 1e-4})
+        self.part("fluid", errors={"T": 1e-6, "rho": 2e-5})
+        self.assertEqual(list(self.merged()["errors"]), ["rho", "T", "u_bar", "P_bar"])
+
+    def test_counters_add_up(self):
+        self.part("solid", counters={"floors": 2})
+        self.part("fluid", counters={"floors": 3, "first_order_fallbacks": 1})
+        self.assertEqual(self.merged()["counters"], {"first_order_fallbacks": 1, "floors": 5})
+
+    def test_program_that_left_nothing_is_lost(self):
+        self.part("coupler", steps=3, t=0.1)
+        merged = self.merged("failed")
+        self.assertEqual(merged["participants"]["solid"]["status"], "lost")
+        self.assertIn("piston failed", summary.describe(merged, self.folder))
+
+    def test_run_without_any_part_still_has_a_summary(self):
+        merged = self.merged("failed")
+        summary.write(self.folder, merged)
+        self.assertEqual(json.loads((self.folder / "summary.json").read_text())["status"], "failed")
+
+
+class Expectations(unittest.TestCase):
+    def missed(self, entry, **content):
+        return summary.missed_expectations(content, [entry])
+
+    def test_bounds(self):
+        self.assertEqual(self.missed({"quantity": "errors.rho", "max": 1e-4}, errors={"rho": 9e-5}), [])
+        missed = self.missed({"quantity": "errors.rho", "max": 1e-4}, errors={"rho": 2e-4})
+        self.assertEqual(missed, ["expectation missed: errors.rho = 0.0002, must be at most 0.0001"])
+        self.assertEqual(len(self.missed({"quantity": "t", "min": 1.0, "max": 2.0}, t=0.5)), 1)
+
+    def test_word(self):
+        self.assertEqual(self.missed({"quantity": "status", "equals": "completed"}, status="completed"), [])
+        self.assertEqual(len(self.missed({"quantity": "status", "equals": "completed"}, status="failed")), 1)
+
+    def test_missing_or_not_finite_is_missed(self):
+        self.assertEqual(len(self.missed({"quantity": "errors.rho", "max": 1})), 1)
+        self.assertEqual(len(self.missed({"quantity": "errors.rho", "max": 1}, errors={"rho": None})), 1)
+        self.assertEqual(len(self.missed({"quantity": "errors.rho", "max": 1}, errors={"rho": float("nan")})), 1)
+
+
+if __name__ == "__main__":
+    unittest.main()
