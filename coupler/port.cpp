@@ -1,0 +1,150 @@
+#include "coupler/port.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "common/core/log.hpp"
+
+namespace fsi::coupler {
+
+namespace {
+
+bus::CouplerSession join(const Setup& setup) {
+  const Case& problem = setup.problem;
+  std::vector<bus::Expected> who{{.role = "fluid", .name = "fluid"}};
+  for (const SolidSpec& solid : problem.solids) who.push_back({.role = "solid", .name = solid.name});
+  return {bus::BusOptions{.run = setup.run,
+                          .peer_timeout_s = problem.time.peer_timeout,
+                          .throw_if_interrupted = throw_if_interrupted},
+          std::move(who), problem.digest};
+}
+
+CouplerOptions options_of(const Case& problem) {
+  const TimeSpec& time = problem.time;
+  return {.time = {.end = time.end,
+                   .output_times = problem.output.times,
+                   .growth = time.growth,
+                   .dt_max = time.dt.value_or(0)},
+          .start = 0,
+          .multirate = time.multirate,
+          .robin_order = time.robin_order,
+          .projection = projection_named(problem.interface.projection)};
+}
+
+/// The coupler of a run; when the interfaces do not fit, everybody is told why before the run ends.
+Coupler coupler_of(const Case& problem, bus::CouplerSession& session) {
+  try {
+    return {options_of(problem), session.hellos()};
+  } catch (const Failure& failure) {
+    session.abort(failure.code(), failure.what());
+    throw;
+  }
+}
+
+std::vector<std::string> columns_of(const Case& problem) {
+  std::vector<std::string> columns{"step", "t [time]", "dt [time]"};
+  for (const SolidSpec& solid : problem.solids) {
+    for (const char* quantity : {"velocity_jump [length/time]", "traction_jump [force/area]", "gap [length]",
+                                 "power [power/depth]"}) {
+      columns.push_back(fmt::format("{}.{}", solid.name, quantity));
+    }
+  }
+  return columns;
+}
+
+}  // namespace
+
+CoupledRun::CoupledRun(const Setup& setup, io::Part& part)
+    : setup_(setup),
+      part_(part),
+      session_(join(setup)),
+      coupler_(coupler_of(setup.problem, session_)),
+      table_(setup.run_dir + "/interface.csv", columns_of(setup.problem)),
+      progress_(setup.problem.time.end) {
+  part_.points = coupler_.points();
+  part_.interface = io::InterfaceExtremes{};
+}
+
+void CoupledRun::run() {
+  try {
+    loop();
+    session_.leave();
+  } catch (const Failure& failure) {
+    session_.abort(failure.code(), failure.what());
+    throw;
+  } catch (const std::exception& error) {
+    session_.abort(ExitCode::expectation_missed, error.what());
+    throw;
+  }
+}
+
+void CoupledRun::loop() {
+  for (std::uint64_t step = 0; !coupler_.finished(); ++step) {
+    obey_requests();
+    const auto predicted = session_.gather(step);
+    part_.wait_s += watch_.lap();
+    session_.scatter(coupler_.step(predicted));
+    record();
+    part_.compute_s += watch_.lap();
+    show();
+    throw_if_interrupted();
+  }
+}
+
+void CoupledRun::obey_requests() {
+  bool paused = false;
+  do {
+    for (const wire::Control& control : session_.controls()) {
+      log_info(fmt::format("request: {}", control.command));
+      if (control.command == "pause") paused = true;
+      if (control.command == "resume") paused = false;
+      if (control.command == "checkpoint") coupler_.request_checkpoint();
+      if (control.command == "stop") {
+        paused = false;
+        part_.status = "stopped";
+        part_.reason = "stopped on request";
+        coupler_.request_stop(part_.reason);
+      }
+    }
+    if (paused) session_.idle(0.1);
+  } while (paused);
+}
+
+void CoupledRun::record() {
+  if (coupler_.dt() > 0) {
+    count_step(part_, coupler_.t(), coupler_.dt());
+    ++part_.substeps;
+  }
+  std::vector<double> row{static_cast<double>(coupler_.step_number()), coupler_.t(), coupler_.dt()};
+  io::InterfaceExtremes& extremes = *part_.interface;
+  const std::vector<InterfaceReport> reports = coupler_.reports();
+  for (const SolidSpec& solid : setup_.problem.solids) {
+    const auto report = std::ranges::find(reports, solid.name, &InterfaceReport::name);
+    if (report == reports.end()) continue;
+    row.insert(row.end(), {report->velocity_jump, report->traction_jump, report->gap, report->power});
+    extremes.max_velocity_jump = std::max(extremes.max_velocity_jump, report->velocity_jump);
+    extremes.max_traction_jump = std::max(extremes.max_traction_jump, report->traction_jump);
+    extremes.max_gap = std::max(extremes.max_gap, report->gap);
+  }
+  table_.row(row);
+}
+
+void CoupledRun::show() {
+  const AgreedStep& next = coupler_.next();
+  progress_.show(coupler_.step_number(), coupler_.t(), next.plan.dt, next.limited_by);
+  if (!session_.telemetry_due()) return;
+  wire::Telemetry telemetry;
+  telemetry.state = "computing";
+  telemetry.step = coupler_.step_number();
+  telemetry.t = coupler_.t();
+  telemetry.t_end = setup_.problem.time.end;
+  telemetry.dt = next.plan.dt;
+  telemetry.dt_reason = fmt::format("{}: {}", next.limited_by, next.reason);
+  telemetry.compute_s = part_.compute_s;
+  telemetry.wait_s = part_.wait_s;
+  telemetry.interfaces = coupler_.profiles();
+  session_.publish(telemetry);
+}
+
+}  // namespace fsi::coupler

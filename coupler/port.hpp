@@ -1,0 +1,40 @@
+#pragma once
+/// The coupler's port: the case turned into options, the exchanges turned into tables, progress and
+/// telemetry.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "common/bus/coupler_session.hpp"
+#include "common/io/csv_writer.hpp"
+#include "common/program/program.hpp"
+#include "coupler/coupler.hpp"
+
+namespace fsi::coupler {
+
+/// A coupled run from hello to the last exchange.
+class CoupledRun {
+ public:
+  /// Waits until everybody has joined. @throws UserMistake when the interfaces do not meet
+  CoupledRun(const Setup& setup, io::Part& part);
+
+  /// Exchanges until the end of the case. Whatever fails, everybody else is told.
+  void run();
+
+ private:
+  void loop();
+  void obey_requests();
+  void record();
+  void show();
+
+  const Setup& setup_;
+  io::Part& part_;
+  bus::CouplerSession session_;
+  Coupler coupler_;
+  io::CsvWriter table_;
+  ProgressLines progress_;
+  Stopwatch watch_;
+};
+
+}  // namespace fsi::coupler
