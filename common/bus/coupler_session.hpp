@@ -54,7 +54,6 @@ class CouplerSession {
   /// Waits until all that was sent has arrived, then leaves. The destructor does the same.
   void leave() noexcept;
 
-  /// Round trip here: from `scatter` to the last answer of the following `gather`.
   Statistics statistics() const;
 
  private:

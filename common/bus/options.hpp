@@ -10,15 +10,17 @@ namespace fsi::bus {
 
 /// How a program takes part in a run.
 struct BusOptions {
-  std::string run;  ///< identity of the run; programs of different runs never see each other
-  double peer_timeout_s =
-      4;  ///< a peer whose liveliness lease expired (stopped, starved) has this long to return [s]
-  double hello_timeout_s = 20;  ///< everybody must have joined within this time [s]
-  double step_timeout_s =
-      600;  ///< a living peer may take this long for one step; then it counts as stuck [s]
+  /// Identity of the run; programs of different runs never see each other.
+  std::string run;
+  /// A peer whose liveliness lease expired (stopped, starved) has this long to return [s].
+  double peer_timeout_s = 4;
+  /// Everybody must have joined within this time [s].
+  double hello_timeout_s = 20;
+  /// A living solver may take this long for one step; then it counts as stuck [s].
+  double step_timeout_s = 600;
   /// Called at least every 100 ms while waiting; ends the wait by throwing (`fsi::throw_if_interrupted`
   /// fits). May be empty.
-  std::function<void()> throw_if_interrupted;
+  std::function<void()> throw_if_interrupted = {};
 };
 
 /// Exchange of one program with the others since it joined.
@@ -27,9 +29,11 @@ struct Statistics {
   std::uint64_t bytes = 0;     ///< payload of their arrays [byte]
   std::uint64_t stale = 0;     ///< messages of another run or an older step, ignored
   double wait_s = 0;           ///< time spent waiting for the others [s]
-  double round_trip_p50_us =
-      0;  ///< solver: from `publish` to the answer, other programs' work included; median [us]
-  double round_trip_p99_us = 0;  ///< the same, 99 % are faster; both over the last 1024 steps [us]
+  /// Solver: from `publish` to the answer; coupler: from `scatter` to the last answer; the others' work
+  /// included. Median over the last 1024 steps [us].
+  double round_trip_p50_us = 0;
+  /// The same: 99 % are faster [us].
+  double round_trip_p99_us = 0;
 };
 
 /// What on this machine makes the bus slow, one line with its remedy each. Empty: nothing.

@@ -1,0 +1,94 @@
+#include "common/bus/configuration.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <fstream>
+
+#include "common/bus/options.hpp"
+
+namespace fsi::bus {
+
+namespace {
+
+/// Domains whose ports lie below Linux's ephemeral range (32768 and up): nobody's outgoing connection takes
+/// them.
+constexpr std::uint32_t domains = 100;
+/// Smaller receive buffers lose packets of samples of about 1 MB.
+constexpr long comfortable_rmem = 1 << 20;
+
+std::string escaped(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '$':
+        result += "_";
+        break;  // Cyclone expands ${VARIABLES}
+      default:
+        result += c;
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+std::string configuration_xml(const std::string& run, double participant_lease_s) {
+  std::string xml = fmt::format(R"(<CycloneDDS><Domain Id="any">
+  <General>
+    <Interfaces><NetworkInterface name="lo"/></Interfaces>
+    <AllowMulticast>false</AllowMulticast>
+    <MaxMessageSize>65500B</MaxMessageSize>
+    <FragmentSize>65000B</FragmentSize>
+  </General>
+  <Discovery>
+    <Tag>{}</Tag>
+    <ParticipantIndex>auto</ParticipantIndex>
+    <MaxAutoParticipantIndex>31</MaxAutoParticipantIndex>
+    <Peers><Peer Address="127.0.0.1"/></Peers>
+    <LeaseDuration>{}s</LeaseDuration>
+  </Discovery>
+  <Internal>
+    <Watermarks><WhcHigh>64MB</WhcHigh><WhcHighInit>64MB</WhcHighInit></Watermarks>
+    <SocketReceiveBufferSize min="default" max="8MB"/>
+    <NackDelay>1ms</NackDelay>
+    <HeartbeatInterval min="1ms" minsched="2ms">10ms</HeartbeatInterval>
+  </Internal>
+</Domain></CycloneDDS>)",
+                                escaped(run), participant_lease_s);
+  const char* environment =
+      std::getenv("CYCLONEDDS_URI");  // NOLINT(concurrency-mt-unsafe): nobody sets it here
+  if (environment != nullptr && *environment != '\0') xml += std::string(",") + environment;
+  return xml;
+}
+
+std::uint32_t domain_of(const std::string& run) {
+  std::uint32_t hash = 2166136261U;  // FNV-1a
+  for (const char c : run) hash = (hash ^ static_cast<unsigned char>(c)) * 16777619U;
+  return 1 + hash % domains;
+}
+
+std::vector<std::string> start_up_warnings() {
+  std::vector<std::string> warnings;
+  long rmem = 0;
+  std::ifstream file("/proc/sys/net/core/rmem_max");
+  if (file >> rmem && rmem < comfortable_rmem) {
+    warnings.push_back(
+        fmt::format("net.core.rmem_max is {}: interfaces of more than about 2000 points may lose packets and "
+                    "wait 0.2 s for them; "
+                    "as root: sysctl -w net.core.rmem_max=8388608",
+                    rmem));
+  }
+  return warnings;
+}
+
+}  // namespace fsi::bus

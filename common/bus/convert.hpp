@@ -1,0 +1,47 @@
+#pragma once
+/// Between the plain structures of common/wire and the generated IDL types.
+///
+/// Outgoing samples borrow: their strings and sequences point into the plain structure, so nothing is copied
+/// before serialisation; the structure must outlive the sample. Incoming samples are copied into plain
+/// structures whose vectors keep their memory from step to step.
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "amp_fsi.h"
+#include "common/wire/messages.hpp"
+
+namespace fsi::bus {
+
+/// A sample with sequences of structures, together with the memory those sequences point to.
+template <class T, class Part>
+struct Borrowed {
+  T sample{};
+  std::vector<Part> parts;
+};
+
+Borrowed<amp_fsi_Hello, amp_fsi_InterfaceInfo> borrow(const wire::Hello& hello);
+Borrowed<amp_fsi_Telemetry, amp_fsi_InterfaceTelemetry> borrow(const wire::Telemetry& telemetry);
+amp_fsi_PredictedInterface borrow(const wire::PredictedInterface& predicted);
+amp_fsi_ProjectedInterface borrow(const wire::ProjectedInterface& projected);
+amp_fsi_Abort borrow(const wire::Abort& abort);
+amp_fsi_Control borrow(const wire::Control& control);
+/// A string for an outgoing sample.
+char* borrow(const std::string& text);
+
+void copy(const amp_fsi_Hello& from, wire::Hello& to);
+void copy(const amp_fsi_Telemetry& from, wire::Telemetry& to);
+void copy(const amp_fsi_PredictedInterface& from, wire::PredictedInterface& to);
+void copy(const amp_fsi_ProjectedInterface& from, wire::ProjectedInterface& to);
+void copy(const amp_fsi_Abort& from, wire::Abort& to);
+void copy(const amp_fsi_Control& from, wire::Control& to);
+
+/// True when an incoming string is `text`.
+bool same(const char* incoming, const std::string& text);
+
+/// Bytes of all arrays of a message.
+std::size_t payload(const wire::PredictedInterface& predicted);
+std::size_t payload(const wire::ProjectedInterface& projected);
+
+}  // namespace fsi::bus

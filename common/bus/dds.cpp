@@ -1,0 +1,189 @@
+#include "common/bus/dds.hpp"
+
+#include <fmt/format.h>
+
+#include <cctype>
+#include <cstdlib>
+#include <map>
+#include <mutex>
+
+#include "common/bus/configuration.hpp"
+#include "common/bus/options.hpp"
+#include "common/core/failure.hpp"
+
+namespace fsi::bus {
+
+namespace {
+
+/// Writers prove every third of this that they live.
+constexpr dds_duration_t liveliness_lease = DDS_MSECS(300);
+constexpr int lock_step_depth = 8;
+constexpr int lasting_depth = 64;
+
+/// The latest line of Cyclone's log. A flood of malformed packets costs no more than this.
+class LastLine {
+ public:
+  static LastLine& instance() {
+    static LastLine line;
+    return line;
+  }
+  std::string get() {
+    const std::lock_guard lock(mutex_);
+    return text_;
+  }
+
+ private:
+  LastLine() { dds_set_log_sink(&LastLine::keep, this); }
+  static void keep(void* self, const dds_log_data_t* data) {
+    auto& line = *static_cast<LastLine*>(self);
+    std::string text(data->message, data->size);
+    while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back())) != 0) text.pop_back();
+    const std::lock_guard lock(line.mutex_);
+    line.text_ = std::move(text);
+  }
+
+  std::mutex mutex_;
+  std::string text_;
+};
+
+/// The domains this process is in; a domain is configured once per process.
+struct OpenDomain {
+  std::string run;
+  std::weak_ptr<const Entity> entity;
+};
+
+}  // namespace
+
+dds_return_t checked(dds_return_t result, const std::string& doing) {
+  if (result >= 0) return result;
+  throw Failure(ExitCode::expectation_missed,
+                fmt::format("bus: {}: {}{}", doing, dds_strretcode(result),
+                            last_log_line().empty() ? "" : " (" + last_log_line() + ")"));
+}
+
+std::string last_log_line() {
+  return LastLine::instance().get();
+}
+
+std::shared_ptr<const Entity> join_domain(const std::string& run, double participant_lease_s) {
+  static std::mutex mutex;
+  static std::map<std::uint32_t, OpenDomain> open;
+  const std::lock_guard lock(mutex);
+  LastLine::instance();
+  OpenDomain& domain = open[domain_of(run)];
+  if (auto entity = domain.entity.lock()) {
+    if (domain.run == run) return entity;
+    throw Failure(ExitCode::expectation_missed,
+                  fmt::format("bus: runs '{}' and '{}' share a domain and cannot live in one process", run,
+                              domain.run));
+  }
+  const dds_entity_t handle =
+      dds_create_domain(domain_of(run), configuration_xml(run, participant_lease_s).c_str());
+  auto entity =
+      std::make_shared<const Entity>(handle, fmt::format("domain {} of run '{}'", domain_of(run), run));
+  domain = {run, entity};
+  return entity;
+}
+
+Entity create_participant(const std::string& run) {
+  const dds_entity_t handle = dds_create_participant(domain_of(run), nullptr, nullptr);
+  if (handle < 0) {
+    throw PeerLost(
+        fmt::format("cannot join run '{}' on the bus: {} ({}). Domain {} of this machine may be full (32 "
+                    "programs): end other runs or choose another run name",
+                    run, dds_strretcode(handle), last_log_line(), domain_of(run)));
+  }
+  return {handle, "participant"};
+}
+
+Qos writer_qos(Delivery delivery) {
+  Qos qos = reader_qos(delivery);
+  dds_qset_liveliness(qos.get(), DDS_LIVELINESS_AUTOMATIC, liveliness_lease);
+  dds_qset_writer_data_lifecycle(qos.get(), false);
+  return qos;
+}
+
+Qos reader_qos(Delivery delivery) {
+  Qos qos(dds_create_qos(), &dds_delete_qos);
+  dds_qset_ignorelocal(qos.get(), DDS_IGNORELOCAL_PARTICIPANT);
+  switch (delivery) {
+    case Delivery::lock_step:
+      dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, DDS_SECS(1));
+      dds_qset_durability(qos.get(), DDS_DURABILITY_VOLATILE);
+      dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, lock_step_depth);
+      break;
+    case Delivery::lasting:
+      dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, DDS_SECS(1));
+      dds_qset_durability(qos.get(), DDS_DURABILITY_TRANSIENT_LOCAL);
+      dds_qset_durability_service(qos.get(), 0, DDS_HISTORY_KEEP_LAST, lasting_depth, DDS_LENGTH_UNLIMITED,
+                                  DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED);
+      dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, lasting_depth);
+      break;
+    case Delivery::listening:
+      dds_qset_reliability(qos.get(), DDS_RELIABILITY_BEST_EFFORT, 0);
+      dds_qset_durability(qos.get(), DDS_DURABILITY_VOLATILE);
+      dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, 1);
+      break;
+  }
+  return qos;
+}
+
+std::string policy_name(std::uint32_t policy) {
+  switch (policy) {
+    case DDS_TYPE_CONSISTENCY_ENFORCEMENT_QOS_POLICY_ID:
+      return "the message type (another version of amp_fsi.idl)";
+    case DDS_DATA_REPRESENTATION_QOS_POLICY_ID:
+      return "the data representation";
+    case DDS_RELIABILITY_QOS_POLICY_ID:
+      return "reliability";
+    case DDS_DURABILITY_QOS_POLICY_ID:
+      return "durability";
+    case DDS_LIVELINESS_QOS_POLICY_ID:
+      return "liveliness";
+    default:
+      return fmt::format("QoS policy {}", policy);
+  }
+}
+
+std::string topic_name(const std::string& kind, const std::vector<std::string>& parts) {
+  std::string name = "amp_fsi/" + kind;
+  for (const std::string& part : parts) {
+    name += '/';
+    for (const char c : part) {
+      const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-';
+      name += plain ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
+    }
+  }
+  return name;
+}
+
+template <>
+const dds_topic_descriptor_t& descriptor<amp_fsi_Hello>() {
+  return amp_fsi_Hello_desc;
+}
+template <>
+const dds_topic_descriptor_t& descriptor<amp_fsi_Welcome>() {
+  return amp_fsi_Welcome_desc;
+}
+template <>
+const dds_topic_descriptor_t& descriptor<amp_fsi_PredictedInterface>() {
+  return amp_fsi_PredictedInterface_desc;
+}
+template <>
+const dds_topic_descriptor_t& descriptor<amp_fsi_ProjectedInterface>() {
+  return amp_fsi_ProjectedInterface_desc;
+}
+template <>
+const dds_topic_descriptor_t& descriptor<amp_fsi_Abort>() {
+  return amp_fsi_Abort_desc;
+}
+template <>
+const dds_topic_descriptor_t& descriptor<amp_fsi_Control>() {
+  return amp_fsi_Control_desc;
+}
+template <>
+const dds_topic_descriptor_t& descriptor<amp_fsi_Telemetry>() {
+  return amp_fsi_Telemetry_desc;
+}
+
+}  // namespace fsi::bus

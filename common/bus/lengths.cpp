@@ -1,0 +1,82 @@
+#include "common/bus/lengths.hpp"
+
+#include <fmt/format.h>
+
+#include <string>
+#include <utility>
+
+#include "common/core/failure.hpp"
+
+namespace fsi::bus {
+
+namespace {
+
+constexpr std::int32_t most_dimensions = 3;
+constexpr std::int32_t most_modes = 64;
+
+/// Compares lengths, remembering whose message it is.
+class Lengths {
+ public:
+  Lengths(std::string from, std::string interface)
+      : from_(std::move(from)), interface_(std::move(interface)) {}
+
+  template <class Vector>
+  void check(const char* array, const Vector& values, std::size_t expected) const {
+    if (values.empty() || values.size() == expected) return;
+    throw PeerLost(fmt::format("{} sent {} values of {} instead of {} for interface '{}'", from_,
+                               values.size(), array, expected, interface_));
+  }
+  void check_count(const char* what, std::int32_t count, std::int32_t lowest, std::int32_t highest) const {
+    if (count >= lowest && count <= highest) return;
+    throw PeerLost(fmt::format("{} sent {} = {} for interface '{}', not {} to {}", from_, what, count,
+                               interface_, lowest, highest));
+  }
+
+ private:
+  std::string from_, interface_;
+};
+
+}  // namespace
+
+InterfaceSize size_of(const wire::InterfaceInfo& info, const std::string& from) {
+  const Lengths lengths(from, info.name);
+  lengths.check_count("dimension", info.dimension, 1, most_dimensions);
+  const auto dimension = static_cast<std::size_t>(info.dimension);
+  const InterfaceSize size{.points = info.x.size() / dimension, .dimension = dimension};
+  lengths.check("x", info.x, size.points * dimension);
+  lengths.check("n", info.n, size.points * dimension);
+  return size;
+}
+
+void check_lengths(const wire::PredictedInterface& m, InterfaceSize size) {
+  const Lengths lengths(m.from, m.interface);
+  const std::size_t vectors = size.dimension * size.points;
+  lengths.check("x", m.x, vectors);
+  lengths.check("v", m.v, vectors);
+  lengths.check("w", m.w, vectors);
+  lengths.check("p", m.p, size.points);
+  lengths.check("z_f", m.z_f, size.points);
+  lengths.check("Z", m.Z, size.points * size.dimension * (size.dimension + 1) / 2);
+  lengths.check("fixed", m.fixed, size.points);
+  lengths.check_count("modal.modes", m.modal.modes, 0, most_modes);
+  const auto modes = static_cast<std::size_t>(m.modal.modes);
+  lengths.check("modal.M", m.modal.M, modes * modes);
+  lengths.check("modal.N", m.modal.N, modes * size.points);
+  lengths.check("modal.q_dot", m.modal.q_dot, modes);
+  lengths.check("modal.f_own", m.modal.f_own, modes);
+}
+
+void check_lengths(const wire::ProjectedInterface& m, InterfaceSize size) {
+  const Lengths lengths("coupler", m.interface);
+  const std::size_t vectors = size.dimension * size.points;
+  lengths.check("n", m.n, vectors);
+  lengths.check("v_n", m.v_n, size.points);
+  lengths.check("w_n", m.w_n, size.points);
+  lengths.check("v", m.v, vectors);
+  lengths.check("a", m.a, vectors);
+  lengths.check("z_f", m.z_f, size.points);
+  lengths.check("robin_r", m.robin_r, m.robin_t.size() * size.points);
+  lengths.check("x_next", m.x_next, vectors);
+}
+
+}  // namespace fsi::bus

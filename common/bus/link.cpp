@@ -1,0 +1,127 @@
+#include "common/bus/link.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "common/bus/convert.hpp"
+
+namespace fsi::bus {
+
+namespace {
+
+/// An Abort must not be lost, but a dead peer must not hold up the end either [s].
+constexpr double abort_patience_s = 0.5;
+/// Cyclone forgets a silent participant after this time [s]; it must outlive `peer_timeout`.
+constexpr double shortest_participant_lease_s = 10;
+
+ExitCode exit_code_of(std::int32_t number) {
+  constexpr std::array known = {ExitCode::user_mistake,  ExitCode::numbers_broke, ExitCode::peer_lost,
+                                ExitCode::output_failed, ExitCode::interrupted,   ExitCode::terminated};
+  const auto* found = std::ranges::find(known, static_cast<ExitCode>(number));
+  return found == known.end() ? ExitCode::expectation_missed : *found;
+}
+
+}  // namespace
+
+double since(Clock::time_point moment) {
+  return std::chrono::duration<double>(Clock::now() - moment).count();
+}
+
+void RoundTrips::add(double seconds) {
+  if (seconds_.size() < kept) {
+    seconds_.reserve(kept);
+    seconds_.push_back(seconds);
+  } else {
+    seconds_[next_] = seconds;
+    next_ = (next_ + 1) % kept;
+  }
+}
+
+double RoundTrips::quantile_us(double fraction) const {
+  if (seconds_.empty()) return 0;
+  std::vector<double> sorted = seconds_;
+  const auto rank = static_cast<std::ptrdiff_t>(fraction * static_cast<double>(sorted.size() - 1));
+  std::nth_element(sorted.begin(), sorted.begin() + rank, sorted.end());
+  return 1e6 * sorted[static_cast<std::size_t>(rank)];
+}
+
+Link::Link(BusOptions options, std::string role, std::string name)
+    : options_(std::move(options)),
+      role_(std::move(role)),
+      name_(std::move(name)),
+      domain_(join_domain(options_.run, std::max(shortest_participant_lease_s, 2 * options_.peer_timeout_s))),
+      participant_(create_participant(options_.run)),
+      waitset_(participant_),
+      abort_reader_(participant_, abort_topic, Delivery::lasting),
+      abort_writer_(participant_, abort_topic, Delivery::lasting),
+      telemetry_writer_(participant_, telemetry_topic, Delivery::listening) {
+  waitset_.attach(abort_reader_.condition());
+}
+
+void Link::sleep(double seconds) {
+  const auto start = Clock::now();
+  waitset_.wait(std::min(seconds, slice_s));
+  statistics_.wait_s += since(start);
+  check_aborts();
+  if (options_.throw_if_interrupted) options_.throw_if_interrupted();
+}
+
+void Link::check_aborts() {
+  wire::Abort heard;
+  abort_reader_.take([&](const amp_fsi_Abort& sample) {
+    if (abort_heard_ || !same(sample.run, options_.run)) return;
+    copy(sample, heard);
+    abort_heard_ = true;
+  });
+  if (!heard.from.empty()) throw Failure(exit_code_of(heard.exit_code), heard.from + ": " + heard.reason);
+}
+
+bool Link::time_to_check() {
+  if (since(last_check_) < slice_s) return false;
+  last_check_ = Clock::now();
+  return true;
+}
+
+void Link::publish(wire::Telemetry telemetry) {
+  last_telemetry_ = Clock::now();
+  const Statistics now = statistics();
+  telemetry.run = options_.run;
+  telemetry.from = name_;
+  telemetry.role = role_;
+  telemetry.messages = now.messages;
+  telemetry.bytes = now.bytes;
+  telemetry.round_trip_p50_us = now.round_trip_p50_us;
+  telemetry.round_trip_p99_us = now.round_trip_p99_us;
+  telemetry_writer_.write(borrow(telemetry).sample);
+}
+
+void Link::abort(ExitCode code, const std::string& reason) noexcept {
+  if (abort_heard_) return;
+  try {
+    const wire::Abort message{
+        .run = options_.run, .from = name_, .exit_code = static_cast<std::int32_t>(code), .reason = reason};
+    abort_writer_.write(borrow(message));
+    abort_writer_.arrived(abort_patience_s);
+  } catch (const std::exception&) {  // the program ends anyway; its own failure is the one to report
+    return;
+  }
+}
+
+Statistics Link::statistics() const {
+  Statistics result = statistics_;
+  result.round_trip_p50_us = round_trips_.quantile_us(0.5);
+  result.round_trip_p99_us = round_trips_.quantile_us(0.99);
+  return result;
+}
+
+void check_compatible(const std::string& topic, std::uint32_t policy) {
+  if (policy == 0) return;
+  throw PeerLost(
+      fmt::format("another program speaks '{}' differently: {} does not fit; build all programs of a run "
+                  "from one version",
+                  topic, policy_name(policy)));
+}
+
+}  // namespace fsi::bus

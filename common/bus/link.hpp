@@ -1,0 +1,89 @@
+#pragma once
+/// What every seat at the bus has: domain, waiting, aborts, telemetry, statistics.
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common/bus/dds.hpp"
+#include "common/bus/options.hpp"
+#include "common/core/failure.hpp"
+#include "common/wire/messages.hpp"
+
+namespace fsi::bus {
+
+using Clock = std::chrono::steady_clock;
+
+/// Seconds since a moment.
+double since(Clock::time_point moment);
+
+/// Topics everybody knows.
+inline constexpr const char* hello_topic = "amp_fsi/hello";
+inline constexpr const char* welcome_topic = "amp_fsi/welcome";
+inline constexpr const char* abort_topic = "amp_fsi/abort";
+inline constexpr const char* control_topic = "amp_fsi/control";
+inline constexpr const char* telemetry_topic = "amp_fsi/telemetry";
+
+/// Times of the latest round trips.
+class RoundTrips {
+ public:
+  void add(double seconds);
+  /// Value below which `fraction` of the latest ones lie [us]; 0 without any.
+  double quantile_us(double fraction) const;
+
+ private:
+  static constexpr std::size_t kept = 1024;
+  std::vector<double> seconds_;
+  std::size_t next_ = 0;
+};
+
+/// One program's connection. Not for use by several threads at once.
+class Link {
+ public:
+  /// Longest sleep without looking at signals, aborts and peers [s].
+  static constexpr double slice_s = 0.1;
+
+  Link(BusOptions options, std::string role, std::string name);
+
+  /// Sleeps until an attached reader has something or `slice_s` has passed, then throws what ends the run.
+  void sleep() { sleep(slice_s); }
+  void sleep(double seconds);
+  /// Throws another program's Abort as a Failure with its code and reason.
+  void check_aborts();
+  /// True once per `slice_s`: time to look after the peers.
+  bool time_to_check();
+
+  bool telemetry_due() const { return since(last_telemetry_) > slice_s; }
+  void publish(wire::Telemetry telemetry);
+  void abort(ExitCode code, const std::string& reason) noexcept;
+
+  const Entity& participant() const { return participant_; }
+  Waitset& waitset() { return waitset_; }
+  const BusOptions& options() const { return options_; }
+  const std::string& name() const { return name_; }
+  Statistics& counters() { return statistics_; }
+  RoundTrips& round_trips() { return round_trips_; }
+  Statistics statistics() const;
+
+ private:
+  BusOptions options_;
+  std::string role_, name_;
+  std::shared_ptr<const Entity> domain_;
+  Entity participant_;
+  Waitset waitset_;
+  Reader<amp_fsi_Abort> abort_reader_;
+  Writer<amp_fsi_Abort> abort_writer_;
+  Writer<amp_fsi_Telemetry> telemetry_writer_;
+  bool abort_heard_ = false;
+  Clock::time_point last_telemetry_{}, last_check_{};
+  Statistics statistics_;
+  RoundTrips round_trips_;
+};
+
+/// One sentence for a reader or writer of `topic` that met an incompatible counterpart.
+/// @throws PeerLost when `policy` is not 0
+void check_compatible(const std::string& topic, std::uint32_t policy);
+
+}  // namespace fsi::bus

@@ -1,0 +1,88 @@
+#include "common/bus/listener.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "common/bus/convert.hpp"
+#include "common/bus/dds.hpp"
+#include "common/bus/link.hpp"
+#include "common/core/failure.hpp"
+
+namespace fsi::bus {
+
+namespace {
+
+constexpr double participant_lease_s = 10;
+
+}  // namespace
+
+struct Listener::Implementation {
+  explicit Implementation(const std::string& run_id)
+      : run(run_id),
+        domain(join_domain(run, participant_lease_s)),
+        participant(create_participant(run)),
+        waitset(participant),
+        telemetry_reader(participant, telemetry_topic, Delivery::listening),
+        abort_reader(participant, abort_topic, Delivery::listening) {
+    waitset.attach(telemetry_reader.condition());
+    waitset.attach(abort_reader.condition());
+  }
+
+  std::vector<wire::Telemetry> wait(double seconds) {
+    waitset.wait(seconds);
+    std::vector<wire::Telemetry> heard;
+    telemetry_reader.take([&](const amp_fsi_Telemetry& sample) {
+      if (same(sample.run, run)) copy(sample, heard.emplace_back());
+    });
+    abort_reader.take([&](const amp_fsi_Abort& sample) {
+      if (same(sample.run, run) && !abort) copy(sample, abort.emplace());
+    });
+    return heard;
+  }
+
+  std::string run;
+  std::shared_ptr<const Entity> domain;
+  Entity participant;
+  Waitset waitset;
+  Reader<amp_fsi_Telemetry> telemetry_reader;
+  Reader<amp_fsi_Abort> abort_reader;
+  std::optional<wire::Abort> abort;
+};
+
+Listener::Listener(const std::string& run) : implementation_(std::make_unique<Implementation>(run)) {}
+Listener::Listener(Listener&&) noexcept = default;
+Listener& Listener::operator=(Listener&&) noexcept = default;
+Listener::~Listener() = default;
+
+std::vector<wire::Telemetry> Listener::wait(double seconds) {
+  return implementation_->wait(seconds);
+}
+
+const std::optional<wire::Abort>& Listener::aborted() const {
+  return implementation_->abort;
+}
+
+int Listener::programs() const {
+  return implementation_->telemetry_reader.alive();
+}
+
+void send_control(const std::string& run, const std::string& command, double timeout_s) {
+  const auto domain = join_domain(run, participant_lease_s);
+  const Entity participant = create_participant(run);
+  Waitset waitset(participant);
+  Writer<amp_fsi_Control> writer(participant, control_topic, Delivery::lasting);
+  writer.announce_matches(waitset);
+  const auto start = Clock::now();
+  while (writer.matched() == 0) {
+    if (since(start) > timeout_s)
+      throw PeerLost(fmt::format("nobody of run '{}' takes requests; is it running?", run));
+    waitset.wait(timeout_s - since(start));
+  }
+  const wire::Control control{.run = run, .command = command};
+  writer.write(borrow(control));
+  if (!writer.arrived(timeout_s))
+    throw PeerLost(fmt::format("run '{}' did not take '{}' within {} s", run, command, timeout_s));
+}
+
+}  // namespace fsi::bus

@@ -1,0 +1,69 @@
+#include "common/bus/peer.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <array>
+#include <fstream>
+#include <sstream>
+
+#include "common/core/failure.hpp"
+
+namespace fsi::bus {
+
+namespace {
+
+/// Start time of a living process in clock ticks since boot: with the pid it identifies the process for good.
+/// 0 when there is none or only a zombie is left.
+std::uint64_t start_time(int pid) {
+  std::ifstream file(fmt::format("/proc/{}/stat", pid));
+  std::string line;
+  if (!std::getline(file, line)) return 0;
+  const auto name_end = line.rfind(')');  // the name may hold blanks and brackets
+  if (name_end == std::string::npos) return 0;
+  std::istringstream fields(line.substr(name_end + 1));
+  std::string state;
+  fields >> state;
+  if (state == "Z" || state == "X") return 0;
+  constexpr int between_state_and_start = 18;
+  std::string skipped;
+  for (int k = 0; k < between_state_and_start; ++k) fields >> skipped;
+  std::uint64_t ticks = 0;
+  fields >> ticks;
+  return ticks;
+}
+
+}  // namespace
+
+std::string host_name() {
+  std::array<char, 256> name{};
+  gethostname(name.data(), name.size() - 1);
+  return name.data();
+}
+
+Peer::Peer(std::string label, const std::string& host, int pid) : label_(std::move(label)), pid_(pid) {
+  if (host == host_name()) born_ = start_time(pid);
+}
+
+void Peer::check_process() const {
+  if (born_ != 0 && start_time(pid_) != born_)
+    throw PeerLost(fmt::format("{} (pid {}) has died", label_, pid_));
+}
+
+void Peer::check(int matched, int alive, double timeout_s) {
+  check_process();
+  if (matched == 0)
+    throw PeerLost(fmt::format("{} (pid {}) has left the run without saying why", label_, pid_));
+  if (alive > 0) {
+    silent_since_.reset();
+    return;
+  }
+  const auto now = std::chrono::steady_clock::now();
+  if (!silent_since_) silent_since_ = now;
+  if (std::chrono::duration<double>(now - *silent_since_).count() > timeout_s) {
+    throw PeerLost(fmt::format("{} (pid {}) has been silent for {} s (time.peer_timeout); is it stopped?",
+                               label_, pid_, timeout_s));
+  }
+}
+
+}  // namespace fsi::bus

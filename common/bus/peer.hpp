@@ -1,0 +1,35 @@
+#pragma once
+/// Whether another program of the run is still there.
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+namespace fsi::bus {
+
+/// Name of this machine.
+std::string host_name();
+
+/// Watches one program. A dead process counts at once; an expired liveliness lease only starts a clock,
+/// because a busy machine or a Ctrl-Z recovers from it.
+class Peer {
+ public:
+  /// `label` names it in messages: solid 'beam'.
+  Peer(std::string label, const std::string& host, int pid);
+
+  /// `matched` and `alive` are the writers of this program that can be heard, and those whose lease holds.
+  /// @throws PeerLost it died, left, or has been silent for longer than `timeout_s`
+  void check(int matched, int alive, double timeout_s);
+  /// Only whether its process lives, for a program whose writers are not known yet.
+  void check_process() const;
+  const std::string& label() const { return label_; }
+
+ private:
+  std::string label_;
+  int pid_;
+  std::uint64_t born_ = 0;  ///< start time of the process; 0: not visible from here, only liveliness tells
+  std::optional<std::chrono::steady_clock::time_point> silent_since_;
+};
+
+}  // namespace fsi::bus

@@ -1,0 +1,58 @@
+#include "common/bus/solo_session.hpp"
+
+#include "common/bus/convert.hpp"
+#include "common/bus/link.hpp"
+
+namespace fsi::bus {
+
+struct SoloSession::Implementation {
+  Implementation(BusOptions options, const std::string& role, const std::string& name)
+      : link(std::move(options), role, name),
+        control_reader(link.participant(), control_topic, Delivery::lasting) {
+    link.waitset().attach(control_reader.condition());
+  }
+
+  void drain() {
+    control_reader.take([&](const amp_fsi_Control& sample) {
+      if (same(sample.run, link.options().run)) copy(sample, requests.emplace_back());
+    });
+  }
+
+  void idle(double seconds) {
+    const auto start = Clock::now();
+    for (drain(); requests.empty() && since(start) < seconds; drain()) link.sleep(seconds - since(start));
+  }
+
+  Link link;
+  Reader<amp_fsi_Control> control_reader;
+  std::vector<wire::Control> requests;
+};
+
+SoloSession::SoloSession(BusOptions options, const std::string& role, const std::string& name)
+    : implementation_(std::make_unique<Implementation>(std::move(options), role, name)) {}
+SoloSession::SoloSession(SoloSession&&) noexcept = default;
+SoloSession& SoloSession::operator=(SoloSession&&) noexcept = default;
+SoloSession::~SoloSession() = default;
+
+std::vector<wire::Control> SoloSession::controls() {
+  implementation_->drain();
+  return std::exchange(implementation_->requests, {});
+}
+
+void SoloSession::idle(double seconds) {
+  implementation_->idle(seconds);
+}
+
+bool SoloSession::telemetry_due() const {
+  return implementation_->link.telemetry_due();
+}
+
+void SoloSession::publish(const wire::Telemetry& telemetry) {
+  implementation_->link.publish(telemetry);
+}
+
+void SoloSession::abort(ExitCode code, const std::string& reason) noexcept {
+  implementation_->link.abort(code, reason);
+}
+
+}  // namespace fsi::bus

@@ -1,0 +1,242 @@
+#include "common/bus/solver_session.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <deque>
+#include <optional>
+
+#include "common/bus/convert.hpp"
+#include "common/bus/lengths.hpp"
+#include "common/bus/link.hpp"
+#include "common/bus/peer.hpp"
+
+namespace fsi::bus {
+
+namespace {
+
+/// The coupler notices first who is missing and says so; only then does a solver give up on it [s].
+constexpr double later_than_coupler_s = 2;
+constexpr double leave_patience_s = 1;
+
+/// One interface: what goes out and what comes in.
+struct Channel {
+  Channel(const Entity& participant, const wire::Hello& self, const wire::InterfaceInfo& info)
+      : interface(info.name),
+        size(size_of(info, self.name)),
+        predicted_topic(topic_name("predicted", {self.name, info.name})),
+        projected_topic(topic_name("projected", {self.name, info.name})),
+        writer(participant, predicted_topic, Delivery::lock_step),
+        reader(participant, projected_topic, Delivery::lock_step) {}
+
+  bool matched() const {
+    const bool heard = writer.matched() > 0,
+               hears = reader.matched() > 0;  // ask both: asking resets the wake-up
+    return heard && hears;
+  }
+
+  std::string interface;
+  InterfaceSize size;
+  std::string predicted_topic, projected_topic;
+  Writer<amp_fsi_PredictedInterface> writer;
+  Reader<amp_fsi_ProjectedInterface> reader;
+  wire::ProjectedInterface incoming;
+  bool fresh = false;         ///< `incoming` has not been handed out yet
+  std::uint64_t awaited = 0;  ///< older steps are stale
+};
+
+}  // namespace
+
+struct SolverSession::Implementation {
+  Implementation(BusOptions options, wire::Hello hello)
+      : self(std::move(hello)),
+        link(std::move(options), self.role, self.name),
+        hello_writer(link.participant(), hello_topic, Delivery::lasting),
+        welcome_reader(link.participant(), welcome_topic, Delivery::lasting) {
+    self.run = link.options().run;
+    self.host = host_name();
+    self.pid = getpid();
+    link.waitset().attach(welcome_reader.condition());
+    try {
+      open_channels();
+      hello_writer.write(borrow(self).sample);
+      wait_for_welcome();
+    } catch (const Failure& failure) {
+      link.abort(failure.code(), failure.what());
+      throw;
+    }
+  }
+
+  void open_channels() {
+    for (const wire::InterfaceInfo& info : self.interfaces) {
+      Channel& channel = channels.emplace_back(link.participant(), self, info);
+      link.waitset().attach(channel.reader.condition());
+      channel.reader.announce_matches(link.waitset());
+      channel.writer.announce_matches(link.waitset());
+    }
+  }
+
+  void wait_for_welcome() {
+    const auto start = Clock::now();
+    while (!all_matched() || !complete) {
+      link.sleep();
+      drain();
+      check_counterparts();
+      if (coupler) coupler->check_process();
+      if (since(start) > link.options().hello_timeout_s + later_than_coupler_s) {
+        throw PeerLost(fmt::format("{} waited {:.0f} s for run '{}' to begin, but the coupler {}", self.name,
+                                   since(start), self.run, coupler ? "let nobody begin" : "is missing"));
+      }
+    }
+    for (const Channel& channel : channels) {
+      channel.reader.ignore_matches();
+      channel.writer.ignore_matches();
+    }
+  }
+
+  bool all_matched() const {
+    return std::ranges::count_if(channels, &Channel::matched) == std::ssize(channels);
+  }
+
+  void check_counterparts() const {
+    check_compatible(hello_topic, hello_writer.incompatible_policy());
+    check_compatible(welcome_topic, welcome_reader.incompatible_policy());
+    for (const Channel& channel : channels) {
+      check_compatible(channel.predicted_topic, channel.writer.incompatible_policy());
+      check_compatible(channel.projected_topic, channel.reader.incompatible_policy());
+    }
+  }
+
+  /// Takes in everything that has arrived.
+  void drain() {
+    welcome_reader.take([&](const amp_fsi_Welcome& sample) {
+      if (!same(sample.run, self.run)) return;
+      if (sample.protocol != self.protocol) {
+        throw PeerLost(fmt::format("the coupler speaks protocol {}, {} speaks {}", sample.protocol, self.name,
+                                   self.protocol));
+      }
+      if (!coupler) coupler.emplace("coupler", sample.host, sample.pid);
+      complete = sample.complete;
+    });
+    for (Channel& channel : channels) {
+      channel.reader.take([&](const amp_fsi_ProjectedInterface& sample) { accept(channel, sample); });
+    }
+  }
+
+  void accept(Channel& channel, const amp_fsi_ProjectedInterface& sample) {
+    const bool ours = same(sample.run, self.run) && same(sample.to, self.name) &&
+                      same(sample.interface_name, channel.interface);
+    if (!ours || sample.step < channel.awaited) {
+      ++link.counters().stale;
+      return;
+    }
+    copy(sample, channel.incoming);
+    check_lengths(channel.incoming, channel.size);
+    channel.fresh = true;
+    ++link.counters().messages;
+    link.counters().bytes += payload(channel.incoming);
+  }
+
+  Channel& channel_of(const std::string& interface) {
+    const auto found = std::ranges::find(channels, interface, &Channel::interface);
+    if (found != channels.end()) return *found;
+    throw Failure(ExitCode::expectation_missed,
+                  fmt::format("bus: {} has no interface '{}' in its hello", self.name, interface));
+  }
+
+  /// Anything older than `step` is stale from now on, also what has already come in.
+  void expect(Channel& channel, std::uint64_t step) {
+    channel.awaited = step;
+    if (!channel.fresh || channel.incoming.step >= step) return;
+    channel.fresh = false;
+    ++link.counters().stale;
+  }
+
+  void publish(const wire::PredictedInterface& predicted) {
+    Channel& channel = channel_of(predicted.interface);
+    amp_fsi_PredictedInterface sample = borrow(predicted);
+    sample.run = borrow(self.run);
+    sample.from = borrow(self.name);
+    expect(channel, predicted.step);
+    sent_at = Clock::now();
+    channel.writer.write(sample);
+    ++link.counters().messages;
+    link.counters().bytes += payload(predicted);
+  }
+
+  const wire::ProjectedInterface& receive(const std::string& interface, std::uint64_t step) {
+    Channel& channel = channel_of(interface);
+    expect(channel, step);
+    drain();
+    while (!channel.fresh) {
+      link.sleep();
+      drain();
+      if (!channel.fresh && link.time_to_check()) {
+        coupler->check(welcome_reader.matched(), welcome_reader.alive(), link.options().peer_timeout_s);
+      }
+    }
+    if (channel.incoming.step != step) {
+      throw PeerLost(fmt::format("the coupler answered step {} of interface '{}' while {} waited for step {}",
+                                 channel.incoming.step, interface, self.name, step));
+    }
+    channel.fresh = false;
+    channel.awaited = step + 1;
+    if (sent_at) link.round_trips().add(since(*sent_at));
+    sent_at.reset();
+    return channel.incoming;
+  }
+
+  void leave() {
+    hello_writer.arrived(leave_patience_s);
+    for (const Channel& channel : channels) channel.writer.arrived(leave_patience_s);
+  }
+
+  wire::Hello self;
+  Link link;
+  Writer<amp_fsi_Hello> hello_writer;
+  Reader<amp_fsi_Welcome> welcome_reader;
+  std::deque<Channel> channels;
+  std::optional<Peer> coupler;
+  bool complete = false;
+  std::optional<Clock::time_point> sent_at;  ///< last publish not answered yet
+};
+
+SolverSession::SolverSession(BusOptions options, wire::Hello self)
+    : implementation_(std::make_unique<Implementation>(std::move(options), std::move(self))) {}
+SolverSession::SolverSession(SolverSession&&) noexcept = default;
+SolverSession& SolverSession::operator=(SolverSession&&) noexcept = default;
+SolverSession::~SolverSession() {
+  leave();
+}
+
+void SolverSession::publish(const wire::PredictedInterface& predicted) {
+  implementation_->publish(predicted);
+}
+
+const wire::ProjectedInterface& SolverSession::receive(const std::string& interface, std::uint64_t step) {
+  return implementation_->receive(interface, step);
+}
+
+bool SolverSession::telemetry_due() const {
+  return implementation_->link.telemetry_due();
+}
+
+void SolverSession::publish(const wire::Telemetry& telemetry) {
+  implementation_->link.publish(telemetry);
+}
+
+void SolverSession::abort(ExitCode code, const std::string& reason) noexcept {
+  implementation_->link.abort(code, reason);
+}
+
+void SolverSession::leave() noexcept {
+  if (implementation_) implementation_->leave();
+  implementation_.reset();
+}
+
+Statistics SolverSession::statistics() const {
+  return implementation_->link.statistics();
+}
+
+}  // namespace fsi::bus
