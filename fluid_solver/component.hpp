@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -11,11 +12,12 @@
 #include "common/core/types.hpp"
 #include "common/grid/moving_grid.hpp"
 #include "fluid_solver/gas_options.hpp"
-#include "fluid_solver/kernels/workspace.hpp"
+#include "fluid_solver/kernels/sweep.hpp"
 
 namespace fsi::fluid {
 
-/// Projected values of one interface side, n points; vectors component-major (component c of point k at [c * n + k]).
+/// Projected values of one interface side, n points; vectors component-major (component c of point k at [c *
+/// n + k]).
 struct InterfaceValues {
   Side side = Side::left;
   std::span<const double> n;    ///< unit normal from the solid into the gas, 2 n
@@ -31,38 +33,66 @@ struct CheckpointArray {
   std::span<double> values;
 };
 
-/// Motion of a wall that goes with the grid, from the positions of its points at the last three levels.
+/// Motion of a side that goes with the grid, from the positions of its points at the last three levels.
 struct WallMotion {
+  std::vector<double> normal;        ///< unit normal into the grid, 2 n
   std::vector<double> velocity;      ///< at the newest level, 2 n
-  std::vector<double> acceleration;  ///< 2 n
+  std::vector<double> acceleration;  ///< over the last two steps, 2 n
   std::vector<double> mid_velocity;  ///< mean over the last step, 2 n
+};
+
+/// Largest of a rate over the grid, and where.
+struct FastestPoint {
+  double rate = 0;
+  int i = 0, j = 0;
+};
+
+/// Counted since the start.
+struct Counters {
+  double first_order = 0;  ///< points advanced with first-order states
+  double floors = 0;       ///< points whose pressure was lifted to the floor
+  double steps = 0;
 };
 
 class Component {
  public:
-  Component(grid::MovingGrid grid, std::array<Boundary, 4> boundaries);
+  Component(grid::MovingGrid grid, const GasOptions& options, std::array<Boundary, 4> boundaries);
 
   const grid::MovingGrid& grid() const { return grid_; }
+  /// Primitive state: planes rho, v1, v2, p.
   ConstFieldView state() const { return state_.view(); }
   FieldView state() { return state_.view(); }
-  const std::array<Boundary, 4>& boundaries() const { return boundaries_; }
   const Boundary& boundary(Side side) const { return boundaries_[static_cast<std::size_t>(side)]; }
   const WallMotion& wall(Side side) const { return walls_[static_cast<std::size_t>(side)]; }
+  const Counters& counters() const { return counters_; }
+  /// True on a rectangular grid at rest with equal spacings along the axes.
+  bool cartesian() const { return spacing_.has_value(); }
 
+  /// Sets every point, ghosts included. @throws UserMistake at a density or pressure that is not positive
+  void fill(const StateField& initial, double t);
   void move(double t_new, double dt, std::span<const grid::SideCommand> commands);
-  /// One step of the sweep: state() becomes the predicted state.
-  void advance(double dt, const GasOptions& options);
-  /// Fills the wave rates of all rows from the present state.
-  void measure_rates(const GasOptions& options);
+  /// One step: state() becomes the predicted state at t, with ghosts out of date. @throws NumbersBroke
+  void advance(double t, double dt);
+  /// Largest |Lambda| of (44), real part weighted as in (45).
+  FastestPoint fastest_point() const;
   std::vector<CheckpointArray> checkpoint_arrays();
 
  private:
   grid::MovingGrid grid_;
   std::array<Boundary, 4> boundaries_;
-  Field state_;  ///< rho, v1, v2, p
-  Field next_;
-  Workspace workspace_;
+  std::optional<Spacing> spacing_;
+  Scheme scheme_;
+  Field state_, next_;
+  mutable Workspace workspace_;  ///< scratch, no part of the state
   std::array<WallMotion, 4> walls_;
+  std::vector<double> row_rates_;  ///< largest wave rate of each row's inner points, kept from the sweep
+  double last_dt_ = 0;             ///< of the last motion
+  Counters counters_;
+
+  StepGrid step_grid() const { return {grid_.x_old(), grid_.x(), spacing_}; }
+  void measure_normals();
+  FastestPoint fastest_in(int j, Range range) const;
+  [[noreturn]] void report_broken(double t) const;
 };
 
 }  // namespace fsi::fluid

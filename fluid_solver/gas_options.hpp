@@ -21,8 +21,8 @@ enum class Riemann { roe, hllc };
 enum class Limiter { none, minmod, mc, van_leer };
 
 struct GasOptions {
-  double gamma = 1.4;                 ///< ratio of specific heats [-]
-  double p_e = 0;                     ///< pressure at which an interface carries no load [pressure]
+  double gamma = 1.4;  ///< ratio of specific heats [-]
+  double p_e = 0;      ///< pressure at which an interface carries no load [pressure]
   Riemann riemann = Riemann::roe;
   Limiter limiter = Limiter::minmod;  ///< none: centred slopes
   double entropy_fix = 0.1;           ///< width of the sonic-point fix, as part of the sound speed [-]

@@ -1,7 +1,8 @@
 #pragma once
 /// The gas solver: Euler equations on mapped, moving component grids, advanced one step at a time.
 ///
-///     receive projected values -> apply_fluid_bcs -> move_grids -> advance_fluid -> interface_state -> publish
+///     receive projected values -> apply_fluid_bcs -> move_grids -> advance_fluid -> interface_state ->
+///     publish
 ///
 /// One component grid now; everything that belongs to one grid lives in Component.
 
@@ -24,7 +25,8 @@ struct TimeStep {
   std::string reason;  ///< for people: which grid, point and position
 };
 
-/// The gas along an interface side, n points; vectors component-major (component c of point k at [c * n + k]).
+/// The gas along an interface side, n points; vectors component-major (component c of point k at [c * n +
+/// k]).
 struct GasInterface {
   std::vector<double> x;    ///< positions, 2 n
   std::vector<double> v;    ///< velocity, 2 n
@@ -41,7 +43,7 @@ struct Totals {
 struct Health {
   double min_rho = 0, min_p = 0;
   std::uint64_t first_order_fallbacks = 0;  ///< points advanced with first-order states, since the start
-  std::uint64_t floors = 0;                 ///< points whose pressure was lifted to the floor, since the start
+  std::uint64_t floors = 0;  ///< points whose pressure was lifted to the floor, since the start
 };
 
 /// Largest errors over all grid points; T = p / rho.
@@ -61,7 +63,8 @@ class GasSolver {
   TimeStep compute_time_step() const;
   /// Moves the grid to t_new = t + dt; interface sides go where they are told.
   void move_grids(double t_new, double dt, std::span<const grid::SideCommand> commands = {});
-  /// Predicted state at t, all points, boundary points included, without interface conditions; the grid was moved before.
+  /// Predicted state at t, all points, boundary points included, without interface conditions; the grid was
+  /// moved before.
   /// @throws NumbersBroke at a density or pressure that is no longer a number or not positive
   void advance_fluid(double t, double dt);
   /// The gas along a side, for the projection.
@@ -85,7 +88,8 @@ class GasSolver {
   std::size_t points() const { return component_.grid().layout().points(); }
   double time() const { return t_; }
 
-  /// Everything besides the grid that a restart needs, under fixed names, to be written or overwritten in place.
+  /// Everything besides the grid that a restart needs, under fixed names, to be written or overwritten in
+  /// place.
   std::vector<CheckpointArray> checkpoint_arrays();
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
-/// Rows of scratch memory for the sweep, allocated once. Row k holds the points -2 <= i < n1 + 2 of one grid row, each row on
-/// cache lines of its own.
+/// Rows of scratch memory for the sweep, allocated once. Row k holds the points -2 <= i < n1 + 2 of one grid
+/// row, each row on cache lines of its own.
 
 #include "common/core/field.hpp"
 

@@ -1,0 +1,203 @@
+#include "fluid_solver/boundary_conditions.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "common/core/failure.hpp"
+#include "fluid_solver/ghost_lines.hpp"
+
+namespace fsi::fluid {
+
+namespace {
+
+template <class Kind>
+bool is(const Boundary& boundary) {
+  return std::holds_alternative<Kind>(boundary);
+}
+
+bool is_mirror(const Boundary& boundary) {
+  return is<Symmetry>(boundary) || is<Periodic>(boundary);
+}
+
+class BoundaryConditions {
+ public:
+  BoundaryConditions(Component& component, const BoundaryTask& task)
+      : component_(component),
+        task_(task),
+        q_(component.state()),
+        x_(component.grid().x()),
+        layout_(q_.layout) {}
+
+  void apply() {
+    each<Interface>([this](const SidePoints& side) { set_interface(side); });
+    each<SlipWall>([this](const SidePoints& side) { set_slip_wall(side); });
+    each<Symmetry>([this](const SidePoints& side) { set_symmetry(side); });
+    each<Inflow>([this](const SidePoints& side) { set_inflow(side); });
+    each<Dirichlet>([this](const SidePoints& side) { set_dirichlet(side); });
+    each<Periodic>([this](const SidePoints& side) { set_periodic(side); });
+    mirror(0);
+    for (const Side side : all_sides) ghosts(SidePoints(layout_, side));
+    for (const Side side : {Side::left, Side::right}) {
+      for (const Side other : {Side::bottom, Side::top}) corner(side, other);
+    }
+    each<Dirichlet>([this](const SidePoints& side) { set_dirichlet(side); });
+    mirror(Layout::ghosts);
+  }
+
+  /// Ghosts of the mirror sides, `reach` points beyond the ends of each side.
+  void mirror(int reach) {
+    each<Symmetry>([&](const SidePoints& side) { symmetry_ghosts(q_, x_, side, -reach, side.n() + reach); });
+    each<Periodic>([&](const SidePoints& side) { periodic_ghosts(q_, side, -reach, side.n() + reach); });
+  }
+
+ private:
+  Component& component_;
+  const BoundaryTask& task_;
+  FieldView q_;
+  ConstFieldView x_;
+  Layout layout_;
+
+  bool limited() const { return task_.options.limiter != Limiter::none; }
+
+  template <class Kind, class Action>
+  void each(const Action& action) const {
+    for (const Side side : all_sides) {
+      if (is<Kind>(component_.boundary(side))) action(SidePoints(layout_, side));
+    }
+  }
+
+  const InterfaceValues& values_of(Side side) const {
+    const auto found = std::ranges::find(task_.interfaces, side, &InterfaceValues::side);
+    if (found == task_.interfaces.end()) {
+      throw std::logic_error(fmt::format("no interface values for side \"{}\"", name_of(side)));
+    }
+    return *found;
+  }
+
+  Wall wall_of(const SidePoints& side) const {
+    const auto [first, last] = side.neighbours();
+    Wall wall;
+    if (is<Interface>(component_.boundary(side.side()))) {
+      const InterfaceValues& values = values_of(side.side());
+      wall = {.n = values.n, .v = values.v, .a = values.a};
+    } else {
+      const WallMotion& motion = component_.wall(side.side());
+      wall = {.n = motion.normal, .v = motion.velocity, .a = motion.acceleration};
+    }
+    wall.closed = is<Periodic>(component_.boundary(first));
+    wall.mirrored_first = is_mirror(component_.boundary(first));
+    wall.mirrored_last = is_mirror(component_.boundary(last));
+    return wall;
+  }
+
+  /// n.v := v_n^I, p := p_e - w_n^I, and the density at constant entropy.
+  void set_interface(const SidePoints& side) {
+    const InterfaceValues& values = values_of(side.side());
+    const auto n = static_cast<std::size_t>(side.n());
+    for (std::size_t k = 0; k < n; ++k) {
+      const auto at = side.at(static_cast<int>(k), 0);
+      const Vec2 normal(values.n[k], values.n[n + k]);
+      const double p_I = task_.options.p_e - values.w_n[k];
+      if (!(p_I > 0 && std::isfinite(p_I) && std::isfinite(values.v_n[k]))) {
+        throw NumbersBroke(fmt::format(
+            "t = {:.6g}, grid \"{}\", interface point {} at ({:.6g}, {:.6g}): p^I = {:.3g}, v_n^I = {:.3g}",
+            task_.t, component_.grid().name(), k, x_(0, at.i, at.j), x_(1, at.i, at.j), p_I, values.v_n[k]));
+      }
+      StateVector state = load(q_, at);
+      const Vec2 v = state.segment<2>(1);
+      state.segment<2>(1) = v + (values.v_n[k] - normal.dot(v)) * normal;
+      state[0] *= std::pow(p_I / state[3], 1 / task_.options.gamma);
+      state[3] = p_I;
+      store(q_, at, state);
+    }
+  }
+
+  /// n.v := that of the wall; pressure and density follow along the simple wave that makes this change of
+  /// velocity.
+  void set_slip_wall(const SidePoints& side) {
+    const WallMotion& wall = component_.wall(side.side());
+    const auto n = static_cast<std::size_t>(side.n());
+    const double gamma = task_.options.gamma;
+    for (std::size_t k = 0; k < n; ++k) {
+      const auto at = side.at(static_cast<int>(k), 0);
+      const Vec2 normal(wall.normal[k], wall.normal[n + k]);
+      StateVector state = load(q_, at);
+      const double change =
+          normal.dot(Vec2(wall.velocity[k], wall.velocity[n + k]) - Vec2(state.segment<2>(1)));
+      const double a = std::sqrt(gamma * state[3] / state[0]);
+      const double a_ratio = std::max(1 + 0.5 * (gamma - 1) * change / a, 0.1);
+      state.segment<2>(1) += change * normal;
+      state[0] *= std::pow(a_ratio, 2 / (gamma - 1));
+      state[3] *= std::pow(a_ratio, 2 * gamma / (gamma - 1));
+      store(q_, at, state);
+    }
+  }
+
+  void set_symmetry(const SidePoints& side) {
+    const Vec2 normal = straight_normal(x_, side);
+    for (int k = 0; k < side.n(); ++k) {
+      StateVector state = load(q_, side.at(k, 0));
+      state.segment<2>(1) -= normal.dot(Vec2(state.segment<2>(1))) * normal;
+      store(q_, side.at(k, 0), state);
+    }
+  }
+
+  void set_inflow(const SidePoints& side) {
+    const StateField& given = std::get<Inflow>(component_.boundary(side.side())).state;
+    for (int k = 0; k < side.n(); ++k) {
+      const Vec2 place = position(x_, side, k, 0);
+      store(q_, side.at(k, 0), to_vector(given(place[0], place[1], task_.t)));
+    }
+  }
+
+  void set_dirichlet(const SidePoints& side) {
+    given_lines(q_, x_, side, std::get<Dirichlet>(component_.boundary(side.side())).state, task_.t);
+  }
+
+  /// The last point is the first of the next period.
+  void set_periodic(const SidePoints& side) {
+    if (!at_upper_end(side.side())) return;
+    for (int k = 0; k < side.n(); ++k) store(q_, side.at(k, 0), load(q_, side.at(k, side.depth())));
+  }
+
+  void ghosts(const SidePoints& side) {
+    const Boundary& boundary = component_.boundary(side.side());
+    if (is<Interface>(boundary) || is<SlipWall>(boundary))
+      wall_ghosts(q_, x_, side, wall_of(side), limited());
+    if (is<Inflow>(boundary)) extrapolated_ghosts(q_, side, limited());
+    if (is<Outflow>(boundary))
+      outflow_ghosts(q_, x_, side, component_.wall(side.side()).velocity, task_.options);
+  }
+
+  /// Where two sides meet that are no mirrors: q(-a, -b) = q(-a, 0) + q(0, -b) - q(0, 0).
+  void corner(Side side, Side other) {
+    if (is_mirror(component_.boundary(side)) || is_mirror(component_.boundary(other))) return;
+    const int i0 = at_upper_end(side) ? layout_.n1 - 1 : 0, j0 = at_upper_end(other) ? layout_.n2 - 1 : 0;
+    const int out1 = at_upper_end(side) ? 1 : -1, out2 = at_upper_end(other) ? 1 : -1;
+    const StateVector q0 = load(q_, {i0, j0});
+    for (int a = 1; a <= Layout::ghosts; ++a) {
+      for (int b = 1; b <= Layout::ghosts; ++b) {
+        const int i = i0 + a * out1, j = j0 + b * out2;
+        const StateVector value = load(q_, {i, j0}) + load(q_, {i0, j}) - q0;
+        store(q_, {i, j}, value[0] > 0 && value[3] > 0 ? value : q0);
+      }
+    }
+  }
+};
+
+}  // namespace
+
+void apply_boundary_conditions(Component& component, const BoundaryTask& task) {
+  BoundaryConditions(component, task).apply();
+}
+
+void mirror_ghosts(Component& component) {
+  const GasOptions options;
+  const BoundaryTask task{.t = 0, .options = options, .interfaces = {}};
+  BoundaryConditions(component, task).mirror(Layout::ghosts);
+}
+
+}  // namespace fsi::fluid

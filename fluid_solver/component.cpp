@@ -1,0 +1,217 @@
+#include "fluid_solver/component.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "common/core/failure.hpp"
+#include "fluid_solver/ghost_lines.hpp"
+#include "fluid_solver/kernels/rates.hpp"
+#include "fluid_solver/time_step.hpp"
+
+namespace fsi::fluid {
+
+namespace {
+
+/// The lowest pressure the update may leave, as part of the largest initial one.
+constexpr double floor_part = 1e-10;
+
+/// Spacings of a grid at rest whose points, ghosts included, lie on an unrotated lattice up to round-off.
+std::optional<Spacing> lattice_of(const grid::MovingGrid& grid) {
+  if (grid.moves()) return std::nullopt;
+  const ConstFieldView x = grid.x();
+  const Layout& shape = grid.layout();
+  const double dx = (x(0, shape.n1 - 1, 0) - x(0, 0, 0)) / (shape.n1 - 1);
+  const double dy = (x(1, 0, shape.n2 - 1) - x(1, 0, 0)) / (shape.n2 - 1);
+  const double tolerance = 1e-11 * (std::fabs(dx) + std::fabs(dy));
+  for (int j = -Layout::ghosts; j < shape.n2 + Layout::ghosts; ++j) {
+    for (int i = -Layout::ghosts; i < shape.n1 + Layout::ghosts; ++i) {
+      if (std::fabs(x(0, i, j) - x(0, 0, 0) - i * dx) > tolerance ||
+          std::fabs(x(1, i, j) - x(1, 0, 0) - j * dy) > tolerance) {
+        return std::nullopt;
+      }
+    }
+  }
+  return Spacing{dx, dy};
+}
+
+AnyRiemann riemann_of(const GasOptions& options) {
+  if (options.riemann == Riemann::hllc) return RiemannHllc{options.gamma};
+  return RiemannRoe{options.gamma, options.entropy_fix};
+}
+
+AnyLimiter limiter_of(Limiter limiter) {
+  switch (limiter) {
+    case Limiter::none:
+      return LimiterNone{};
+    case Limiter::mc:
+      return LimiterMc{};
+    case Limiter::van_leer:
+      return LimiterVanLeer{};
+    default:
+      return LimiterMinmod{};
+  }
+}
+
+}  // namespace
+
+Component::Component(grid::MovingGrid grid, const GasOptions& options, std::array<Boundary, 4> boundaries)
+    : grid_(std::move(grid)),
+      boundaries_(std::move(boundaries)),
+      spacing_(lattice_of(grid_)),
+      scheme_{.gamma = options.gamma,
+              .p_floor = 0,
+              .riemann = riemann_of(options),
+              .limiter = limiter_of(options.limiter),
+              .viscosity = {.shock = options.shock_viscosity, .linear = options.linear_diffusion}},
+      state_(grid_.layout(), 4),
+      next_(grid_.layout(), 4),
+      workspace_(grid_.layout().n1, sweep_rows),
+      row_rates_(static_cast<std::size_t>(grid_.layout().n2)) {
+  for (const Side side : all_sides) {
+    const auto size = 2 * static_cast<std::size_t>(grid_.side_size(side));
+    WallMotion& wall = walls_[static_cast<std::size_t>(side)];
+    for (auto* values : {&wall.normal, &wall.velocity, &wall.acceleration, &wall.mid_velocity})
+      values->assign(size, 0.0);
+  }
+  measure_normals();
+}
+
+void Component::fill(const StateField& initial, double t) {
+  const ConstFieldView x = grid_.x();
+  const Layout& shape = grid_.layout();
+  const FieldView q = state_.view();
+  double p_most = 0;
+  for (int j = -Layout::ghosts; j < shape.n2 + Layout::ghosts; ++j) {
+    for (int i = -Layout::ghosts; i < shape.n1 + Layout::ghosts; ++i) {
+      const State s = initial(x(0, i, j), x(1, i, j), t);
+      const bool inside = i >= 0 && i < shape.n1 && j >= 0 && j < shape.n2;
+      if (inside && !(s.rho > 0 && s.p > 0 && std::isfinite(s.rho + s.p + s.v1 + s.v2))) {
+        throw UserMistake(fmt::format(
+            "grid \"{}\": initial state at ({:.6g}, {:.6g}): rho = {:.3g}, v = ({:.3g}, {:.3g}), p = {:.3g}; "
+            "density and pressure must be positive",
+            grid_.name(), x(0, i, j), x(1, i, j), s.rho, s.v1, s.v2, s.p));
+      }
+      if (inside) p_most = std::max(p_most, s.p);
+      store(q, {i, j}, to_vector(s));
+    }
+  }
+  scheme_.p_floor = floor_part * p_most;
+  for (int j = 1; j < shape.n2 - 1; ++j) {
+    row_rates_[static_cast<std::size_t>(j)] = fastest_in(j, {1, shape.n1 - 1}).rate;
+  }
+}
+
+void Component::move(double t_new, double dt, std::span<const grid::SideCommand> commands) {
+  grid_.move(t_new, commands);
+  for (const Side side : all_sides) {
+    WallMotion& wall = walls_[static_cast<std::size_t>(side)];
+    const SidePoints points(grid_.layout(), side);
+    const auto n = static_cast<std::size_t>(points.n());
+    for (std::size_t k = 0; k < n; ++k) {
+      const Vec2 step = position(grid_.x(), points, static_cast<int>(k), 0) -
+                        position(grid_.x_old(), points, static_cast<int>(k), 0);
+      for (std::size_t c = 0; c < 2; ++c) {
+        const double mean = step[static_cast<int>(c)] / dt, before = wall.mid_velocity[c * n + k];
+        const double acceleration = last_dt_ > 0 ? (mean - before) / (0.5 * (dt + last_dt_)) : 0.0;
+        wall.mid_velocity[c * n + k] = mean;
+        wall.acceleration[c * n + k] = acceleration;
+        wall.velocity[c * n + k] = mean + 0.5 * dt * acceleration;
+      }
+    }
+  }
+  last_dt_ = dt;
+  measure_normals();
+}
+
+void Component::measure_normals() {
+  for (const Side side : all_sides) {
+    WallMotion& wall = walls_[static_cast<std::size_t>(side)];
+    const SidePoints points(grid_.layout(), side);
+    const auto n = static_cast<std::size_t>(points.n());
+    for (std::size_t k = 0; k < n; ++k) {
+      const Vec2 normal = inward_normal(grid_.x(), points, static_cast<int>(k));
+      wall.normal[k] = normal[0];
+      wall.normal[n + k] = normal[1];
+    }
+  }
+}
+
+void Component::advance(double t, double dt) {
+  const SweepCounts counts =
+      sweep(state_.view(), next_.view(), step_grid(), dt, scheme_, {workspace_, row_rates_});
+  std::swap(state_, next_);
+  counters_.first_order += counts.first_order;
+  counters_.floors += counts.floors;
+  counters_.steps += 1;
+  if (counts.broken > 0) report_broken(t);
+}
+
+void Component::report_broken(double t) const {
+  const Layout& shape = grid_.layout();
+  const ConstFieldView q = state_.view(), x = grid_.x();
+  for (int j = 0; j < shape.n2; ++j) {
+    for (int i = 0; i < shape.n1; ++i) {
+      const double rho = q(0, i, j), p = q(3, i, j);
+      if (rho > 0 && std::fabs(p) < 1e300) continue;
+      throw NumbersBroke(
+          fmt::format("t = {:.6g}, grid \"{}\", point ({}, {}) at ({:.6g}, {:.6g}): rho = {:.3g}, p = {:.3g}",
+                      t, grid_.name(), i, j, x(0, i, j), x(1, i, j), rho, p));
+    }
+  }
+  throw NumbersBroke(fmt::format("t = {:.6g}, grid \"{}\": the state is no longer finite", t, grid_.name()));
+}
+
+FastestPoint Component::fastest_in(int j, Range range) const {
+  double *rate = workspace_.row(0), *diffusion = workspace_.row(1);
+  wave_rate_row(state_.view(), step_grid(), last_dt_, scheme_.gamma, j, rate, range);
+  if (scheme_.viscosity.any()) {
+    diffusion_rate_row(state_.view(), step_grid(), scheme_.viscosity, j, diffusion, range);
+    for (int i = range.first; i < range.last; ++i)
+      rate[i] = 1 / largest_stable_step({diffusion[i], rate[i], 0});
+  }
+  const double* fastest = std::max_element(rate + range.first, rate + range.last);
+  return {.rate = *fastest, .i = static_cast<int>(fastest - rate), .j = j};
+}
+
+FastestPoint Component::fastest_point() const {
+  const int n1 = grid_.layout().n1, n2 = grid_.layout().n2;
+  FastestPoint fastest;
+  const auto compare = [&fastest](const FastestPoint& other) {
+    if (!(other.rate <= fastest.rate)) fastest = other;
+  };
+  if (scheme_.viscosity.any()) {
+    for (int j = 0; j < n2; ++j) compare(fastest_in(j, {0, n1}));
+    return fastest;
+  }
+  const auto inner = std::max_element(row_rates_.begin() + 1, row_rates_.end() - 1);
+  compare(fastest_in(static_cast<int>(inner - row_rates_.begin()), {1, n1 - 1}));
+  for (const int j : {0, n2 - 1}) compare(fastest_in(j, {0, n1}));
+  for (int j = 1; j < n2 - 1; ++j) {
+    compare(fastest_in(j, {0, 1}));
+    compare(fastest_in(j, {n1 - 1, n1}));
+  }
+  return fastest;
+}
+
+std::vector<CheckpointArray> Component::checkpoint_arrays() {
+  std::vector<CheckpointArray> arrays{{"state", state_.values()},
+                                      {"rates", row_rates_},
+                                      {"last_dt", {&last_dt_, 1}},
+                                      {"p_floor", {&scheme_.p_floor, 1}},
+                                      {"first_order", {&counters_.first_order, 1}},
+                                      {"floors", {&counters_.floors, 1}},
+                                      {"steps", {&counters_.steps, 1}}};
+  for (const Side side : all_sides) {
+    WallMotion& wall = walls_[static_cast<std::size_t>(side)];
+    arrays.push_back({fmt::format("normal_{}", name_of(side)), wall.normal});
+    arrays.push_back({fmt::format("velocity_{}", name_of(side)), wall.velocity});
+    arrays.push_back({fmt::format("acceleration_{}", name_of(side)), wall.acceleration});
+    arrays.push_back({fmt::format("mid_velocity_{}", name_of(side)), wall.mid_velocity});
+  }
+  return arrays;
+}
+
+}  // namespace fsi::fluid

@@ -1,0 +1,175 @@
+#include "fluid_solver/kernels/sweep.hpp"
+
+#include <utility>
+
+#include "fluid_solver/kernels/rates.hpp"
+
+namespace fsi::fluid {
+
+namespace {
+
+/// Hands out rows of the workspace in turn.
+class Rows {
+ public:
+  explicit Rows(Workspace& work) : work_(work) {}
+  double* next() { return work_.row(next_++); }
+  StateRow<double> state() { return {next(), next(), next(), next()}; }
+  FluxRow flux() { return {next(), next(), next(), next()}; }
+  CornerRow corners() { return {next(), next(), next(), next()}; }
+  FaceRow faces() { return {next(), next(), next(), next()}; }
+  MetricRow metric() { return {next(), next(), next(), next(), next(), next(), next()}; }
+
+ private:
+  Workspace& work_;
+  int next_ = 0;
+};
+
+double sum(const double* values, Range range) {
+  double total = 0;
+#pragma omp simd reduction(+ : total)
+  for (int i = range.first; i < range.last; ++i) total += values[i];
+  return total;
+}
+
+/// What is given to a sweep.
+struct Task {
+  ConstFieldView q;
+  FieldView q_new;
+  const StepGrid& grid;
+  double dt;
+  const Scheme& scheme;
+};
+
+/// The rows of a sweep and what it does with them.
+template <class Limiter, class Riemann, bool mapped>
+class Sweep {
+ public:
+  Sweep(const Task& task, const Riemann& solve, const SweepOutput& output)
+      : task_(task),
+        solve_(solve),
+        rows_(output.work),
+        row_rates_(output.row_rates),
+        viscous_(task.scheme.viscosity.any()) {}
+
+  SweepCounts run() {
+    const int n2 = task_.q.layout.n2;
+    for (int r = -1; r <= n2; ++r) {
+      predict(r);
+      if (r > -1) flux_between(r);
+      if (r > 0) update(r - 1);
+      if (r == n2) break;
+      if constexpr (mapped) next_corners(r);
+      if (r > -1) flux_along(r);
+      std::swap(predicted_.upper, upper_before_);
+      std::swap(kappa_, kappa_before_);
+      std::swap(lower_, upper_);
+    }
+    return counts_;
+  }
+
+ private:
+  Task task_;
+  Riemann solve_;
+  Rows rows_;
+  std::span<double> row_rates_;
+  bool viscous_;
+  Range points_{0, task_.q.layout.n1};
+  Range around_{-1, task_.q.layout.n1 + 1};  ///< with one ghost point at each end
+  Range faces_along_{-1, task_.q.layout.n1};
+  PredictedRows predicted_{rows_.state(), rows_.state(), rows_.state(), rows_.state(), rows_.next()};
+  StateRow<double> upper_before_ = rows_.state();  ///< of row r - 1
+  FluxRow along_ = rows_.flux(), lower_ = rows_.flux(), upper_ = rows_.flux();
+  MetricRow metric_ = rows_.metric();
+  CornerRow below_ = rows_.corners(), above_ = rows_.corners();  ///< between rows r - 2, r - 1 and r - 1, r
+  FaceRow face_ = rows_.faces();
+  double *volume_old_ = rows_.next(), *volume_ = rows_.next();
+  double *kappa_ = rows_.next(), *kappa_before_ = rows_.next();
+  double* rate_ = rows_.next();
+  SweepCounts counts_;
+
+  auto metric() const {
+    if constexpr (mapped) {
+      return MappedMetric{metric_};
+    } else {
+      return CartesianMetric{task_.dt / task_.grid.cartesian->dx, task_.dt / task_.grid.cartesian->dy};
+    }
+  }
+
+  void predict(int r) {
+    if constexpr (mapped) {
+      metric_row(PointRows(task_.grid.x_old, r), PointRows(task_.grid.x, r), task_.dt, metric_, around_);
+    }
+    const StateRows states(task_.q, r);
+    predict_row<Limiter>(states, metric(), task_.scheme.gamma, predicted_, around_);
+    if (r >= 0 && r < task_.q.layout.n2) counts_.first_order += sum(predicted_.first_order, points_);
+    if (viscous_) viscosity_row(states, metric(), task_.scheme.viscosity, task_.dt, kappa_, around_);
+  }
+
+  /// Corners between rows r and r + 1 become those above.
+  void next_corners(int r) {
+    std::swap(below_, above_);
+    const StepGrid& grid = task_.grid;
+    corner_row(PointRow(grid.x_old, r), PointRow(grid.x_old, r + 1), above_.x_old, above_.y_old,
+               faces_along_);
+    corner_row(PointRow(grid.x, r), PointRow(grid.x, r + 1), above_.x, above_.y, faces_along_);
+  }
+
+  /// Fluxes between rows r - 1 and r.
+  void flux_between(int r) {
+    if constexpr (mapped) {
+      face_row_2(above_, task_.dt, face_, points_);
+      flux_row(upper_before_, predicted_.lower, solve_, face_, upper_, points_);
+    } else {
+      flux_row(upper_before_.exchanged(), predicted_.lower.exchanged(), solve_, metric().dt_dy,
+               upper_.exchanged(), points_);
+    }
+    if (viscous_) {
+      const StateRow<const double> before(task_.q, r - 1), after(task_.q, r);
+      add_viscous_flux_row({before, after, kappa_before_, kappa_}, task_.scheme.gamma, upper_, points_);
+    }
+  }
+
+  /// Fluxes between the points of row r.
+  void flux_along(int r) {
+    const StateRow<const double> after = predicted_.left;
+    if constexpr (mapped) {
+      face_row_1(below_, above_, task_.dt, face_, faces_along_);
+      flux_row(predicted_.right, after.shifted(1), solve_, face_, along_, faces_along_);
+    } else {
+      flux_row(predicted_.right, after.shifted(1), solve_, metric().dt_dx, along_, faces_along_);
+    }
+    if (viscous_) {
+      const StateRow<const double> here(task_.q, r);
+      add_viscous_flux_row({here, here.shifted(1), kappa_, kappa_ + 1}, task_.scheme.gamma, along_,
+                           faces_along_);
+    }
+  }
+
+  void update(int r) {
+    if constexpr (mapped) volume_row(below_, above_, volume_old_, volume_, points_);
+    const UpdateCounts counts = update_row<mapped>(
+        StateRow<const double>(task_.q, r), {along_, lower_, upper_}, {volume_old_, volume_},
+        {task_.scheme.gamma, task_.scheme.p_floor}, StateRow<double>(task_.q_new, r), points_);
+    counts_.floors += counts.floors;
+    counts_.broken += counts.broken;
+    if (r == 0 || r == task_.q.layout.n2 - 1) return;
+    const Range inner{points_.first + 1, points_.last - 1};
+    wave_rate_row(task_.q_new, task_.grid, task_.dt, task_.scheme.gamma, r, rate_, inner);
+    row_rates_[static_cast<std::size_t>(r)] = largest(rate_, inner);
+  }
+};
+
+}  // namespace
+
+SweepCounts sweep(ConstFieldView q, FieldView q_new, const StepGrid& grid, double dt, const Scheme& scheme,
+                  const SweepOutput& output) {
+  const Task task{q, q_new, grid, dt, scheme};
+  return std::visit(
+      [&]<class Riemann, class Limiter>(const Riemann& solve, const Limiter&) {
+        return grid.cartesian ? Sweep<Limiter, Riemann, false>(task, solve, output).run()
+                              : Sweep<Limiter, Riemann, true>(task, solve, output).run();
+      },
+      scheme.riemann, scheme.limiter);
+}
+
+}  // namespace fsi::fluid

@@ -1,0 +1,60 @@
+#pragma once
+/// One step of the unsplit MUSCL-Hancock scheme on one component grid, streamed row by row through a few rows
+/// of scratch memory.
+///
+///     predict row r -> fluxes between rows r - 1 and r -> update row r - 1 -> fluxes along row r
+///
+/// One Riemann problem per face and step.
+
+#include <optional>
+#include <span>
+
+#include "fluid_solver/kernels/any_riemann.hpp"
+#include "fluid_solver/kernels/limiter.hpp"
+#include "fluid_solver/kernels/rows.hpp"
+#include "fluid_solver/kernels/viscous_rows.hpp"
+#include "fluid_solver/kernels/workspace.hpp"
+
+namespace fsi::fluid {
+
+/// Equal spacings of a Cartesian grid at rest.
+struct Spacing {
+  double dx, dy;
+};
+
+/// A grid during one step: vertices before and after, or just two spacings.
+struct StepGrid {
+  ConstFieldView x_old, x;
+  std::optional<Spacing> cartesian;
+};
+
+/// What the kernels need to know of the gas and the scheme.
+struct Scheme {
+  double gamma = 1.4;
+  double p_floor = 0;
+  AnyRiemann riemann;
+  AnyLimiter limiter;
+  Viscosity viscosity;
+};
+
+struct SweepCounts {
+  double first_order = 0;  ///< points advanced with first-order states
+  double floors = 0;       ///< points whose pressure was lifted to the floor
+  double broken = 0;       ///< points whose density is not positive or whose state is not finite
+};
+
+/// Rows of scratch memory a sweep needs.
+inline constexpr int sweep_rows = 60;
+
+/// What a sweep writes besides the new state.
+struct SweepOutput {
+  Workspace& work;  ///< scratch, sweep_rows rows
+  std::span<double>
+      row_rates;  ///< n2: largest wave rate of the inner points of each row, for the next time step
+};
+
+/// Advances all points, boundary points included, from q (ghosts set) to q_new by dt.
+SweepCounts sweep(ConstFieldView q, FieldView q_new, const StepGrid& grid, double dt, const Scheme& scheme,
+                  const SweepOutput& output);
+
+}  // namespace fsi::fluid

@@ -1,0 +1,159 @@
+/// What one wants to know of a gas: totals, errors, health, values at a point.
+
+#include <algorithm>
+#include <cmath>
+
+#include "fluid_solver/gas_solver.hpp"
+
+namespace fsi::fluid {
+
+namespace {
+
+/// Corner of the control volumes between points i, i + 1 and j, j + 1; outside the grid's boundary it is
+/// pulled back onto it.
+Vec2 clipped_corner(const grid::MovingGrid& grid, int i, int j) {
+  const Layout& shape = grid.layout();
+  const auto clip = [&grid](int k, int n, int direction) {
+    return grid.periodic(direction) ? k : std::clamp(k, 0, n - 1);
+  };
+  Vec2 sum = Vec2::Zero();
+  for (const int b : {0, 1}) {
+    for (const int a : {0, 1}) {
+      const int k = clip(i + a, shape.n1, 0), l = clip(j + b, shape.n2, 1);
+      sum += Vec2(grid.x()(0, k, l), grid.x()(1, k, l));
+    }
+  }
+  return 0.25 * sum;
+}
+
+/// Area of the control volume of a point, cut at the boundary.
+double clipped_volume(const grid::MovingGrid& grid, int i, int j) {
+  const Vec2 up = clipped_corner(grid, i, j) - clipped_corner(grid, i - 1, j - 1);
+  const Vec2 across = clipped_corner(grid, i - 1, j) - clipped_corner(grid, i, j - 1);
+  return 0.5 * (up[0] * across[1] - up[1] * across[0]);
+}
+
+/// Cell of the grid that holds a point, and where in it.
+struct Place {
+  int i, j;
+  double r, s;
+};
+
+/// Parameters of a point in the bilinear cell (i, j), by Newton; they may lie outside [0, 1].
+Place place_in_cell(ConstFieldView x, int i, int j, const Vec2& point) {
+  const auto vertex = [&](int a, int b) { return Vec2(x(0, i + a, j + b), x(1, i + a, j + b)); };
+  const Vec2 o = vertex(0, 0), e = vertex(1, 0) - o, f = vertex(0, 1) - o, d = vertex(1, 1) - o - e - f;
+  double r = 0.5, s = 0.5;
+  for (int step = 0; step < 12; ++step) {
+    const Vec2 miss = point - (o + r * e + s * f + r * s * d), x_r = e + s * d, x_s = f + r * d;
+    const double det = x_r[0] * x_s[1] - x_r[1] * x_s[0];
+    r = std::clamp(r + (miss[0] * x_s[1] - miss[1] * x_s[0]) / det, -2.0, 3.0);
+    s = std::clamp(s + (x_r[0] * miss[1] - x_r[1] * miss[0]) / det, -2.0, 3.0);
+  }
+  return {i, j, r, s};
+}
+
+constexpr double edge_tolerance =
+    1e-9;  ///< a point on the edge between two cells, up to round-off, belongs to either
+
+bool inside(const Place& place) {
+  return std::min({place.r, place.s, 1 - place.r, 1 - place.s}) > -edge_tolerance;
+}
+
+/// Searches all cells whose vertices surround the point; grids may be curved, so no walk can be trusted.
+std::optional<Place> find_cell(ConstFieldView x, const Vec2& point) {
+  for (int j = 0; j < x.layout.n2 - 1; ++j) {
+    for (int i = 0; i < x.layout.n1 - 1; ++i) {
+      bool surrounded = true;
+      for (const int c : {0, 1}) {
+        const auto [low, high] =
+            std::minmax({x(c, i, j), x(c, i + 1, j), x(c, i, j + 1), x(c, i + 1, j + 1)});
+        const double margin = edge_tolerance * (high - low);
+        surrounded = surrounded && point[c] >= low - margin && point[c] <= high + margin;
+      }
+      if (!surrounded) continue;
+      if (const Place place = place_in_cell(x, i, j, point); inside(place)) return place;
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+Totals GasSolver::totals() const {
+  const grid::MovingGrid& grid = component_.grid();
+  const ConstFieldView q = component_.state(), x = grid.x();
+  Totals totals;
+  for (int j = 0; j < grid.layout().n2 - (grid.periodic(1) ? 1 : 0); ++j) {
+    for (int i = 0; i < grid.layout().n1 - (grid.periodic(0) ? 1 : 0); ++i) {
+      const double mass = clipped_volume(grid, i, j) * q(0, i, j), v1 = q(1, i, j), v2 = q(2, i, j);
+      totals.mass += mass;
+      totals.momentum1 += mass * v1;
+      totals.momentum2 += mass * v2;
+      totals.energy += mass * (q(3, i, j) / ((options_.gamma - 1) * q(0, i, j)) + 0.5 * (v1 * v1 + v2 * v2));
+      totals.angular_momentum += mass * (x(0, i, j) * v2 - x(1, i, j) * v1);
+    }
+  }
+  return totals;
+}
+
+Health GasSolver::health() const {
+  const ConstFieldView q = component_.state();
+  Health health{.min_rho = q(0, 0, 0),
+                .min_p = q(3, 0, 0),
+                .first_order_fallbacks = static_cast<std::uint64_t>(component_.counters().first_order),
+                .floors = static_cast<std::uint64_t>(component_.counters().floors)};
+  for (int j = 0; j < q.layout.n2; ++j) {
+    const double *rho = q.row(0, j), *p = q.row(3, j);
+    health.min_rho = std::min(health.min_rho, *std::min_element(rho, rho + q.layout.n1));
+    health.min_p = std::min(health.min_p, *std::min_element(p, p + q.layout.n1));
+  }
+  return health;
+}
+
+GasErrors GasSolver::errors(const StateField& exact, double t) const {
+  const ConstFieldView q = component_.state(), x = component_.grid().x();
+  GasErrors errors;
+  const auto raise = [](double& most, double value) {
+    if (!(value <= most)) most = value;
+  };
+  for (int j = 0; j < q.layout.n2; ++j) {
+    for (int i = 0; i < q.layout.n1; ++i) {
+      const State s = exact(x(0, i, j), x(1, i, j), t);
+      raise(errors.rho, std::fabs(q(0, i, j) - s.rho));
+      raise(errors.v1, std::fabs(q(1, i, j) - s.v1));
+      raise(errors.v2, std::fabs(q(2, i, j) - s.v2));
+      raise(errors.T, std::fabs(q(3, i, j) / q(0, i, j) - s.p / s.rho));
+    }
+  }
+  return errors;
+}
+
+std::optional<State> GasSolver::probe(double x, double y) const {
+  const std::optional<Place> place = find_cell(component_.grid().x(), Vec2(x, y));
+  if (!place) return std::nullopt;
+  const ConstFieldView q = component_.state();
+  const auto [i, j, r, s] = *place;
+  const auto value = [&, i = i, j = j, r = r, s = s](int k) {
+    return (1 - s) * ((1 - r) * q(k, i, j) + r * q(k, i + 1, j)) +
+           s * ((1 - r) * q(k, i, j + 1) + r * q(k, i + 1, j + 1));
+  };
+  return State{.rho = value(0), .v1 = value(1), .v2 = value(2), .p = value(3)};
+}
+
+Field GasSolver::conserved() const {
+  const ConstFieldView q = component_.state();
+  Field conserved(q.layout, 4);
+  for (int j = -Layout::ghosts; j < q.layout.n2 + Layout::ghosts; ++j) {
+    for (int i = -Layout::ghosts; i < q.layout.n1 + Layout::ghosts; ++i) {
+      const double rho = q(0, i, j), v1 = q(1, i, j), v2 = q(2, i, j);
+      conserved(0, i, j) = rho;
+      conserved(1, i, j) = rho * v1;
+      conserved(2, i, j) = rho * v2;
+      conserved(3, i, j) = q(3, i, j) / (options_.gamma - 1) + 0.5 * rho * (v1 * v1 + v2 * v2);
+    }
+  }
+  return conserved;
+}
+
+}  // namespace fsi::fluid

@@ -1,0 +1,69 @@
+#pragma once
+/// Walking along a side of a grid and away from it.
+
+#include <array>
+
+#include "common/core/field.hpp"
+#include "common/core/types.hpp"
+
+namespace fsi::fluid {
+
+/// Point k of a side, m lines into the grid (m < 0: ghost lines).
+///
+///     m  2  .  .  .  .
+///        1  .  .  .  .
+///        0  o--o--o--o   side, k = 0 .. n - 1
+///       -1  .  .  .  .
+class SidePoints {
+ public:
+  SidePoints(const Layout& layout, Side side)
+      : layout_(layout), side_(side), n_(direction_of(side) == 0 ? layout.n2 : layout.n1) {}
+
+  struct Index {
+    int i, j;
+  };
+  Index at(int k, int m) const {
+    switch (side_) {
+      case Side::left:
+        return {m, k};
+      case Side::right:
+        return {layout_.n1 - 1 - m, k};
+      case Side::bottom:
+        return {k, m};
+      default:
+        return {k, layout_.n2 - 1 - m};
+    }
+  }
+  int n() const { return n_; }
+  Side side() const { return side_; }
+  /// Number of the last line away from the side.
+  int depth() const { return (direction_of(side_) == 0 ? layout_.n1 : layout_.n2) - 1; }
+  /// The sides this one meets at k = 0 and at k = n - 1.
+  std::array<Side, 2> neighbours() const {
+    return direction_of(side_) == 0 ? std::array{Side::bottom, Side::top}
+                                    : std::array{Side::left, Side::right};
+  }
+
+ private:
+  Layout layout_;
+  Side side_;
+  int n_;
+};
+
+/// Position of point k, m lines into the grid.
+inline Vec2 position(ConstFieldView x, const SidePoints& side, int k, int m) {
+  const auto [i, j] = side.at(k, m);
+  return {x(0, i, j), x(1, i, j)};
+}
+
+/// Derivative of a function of k along a side with points 0 <= k < n: central, at open ends one-sided and
+/// second order. `open_first`, `open_last`: whether value(-1), value(n) must not be asked.
+template <class Value>
+auto along_side(const Value& value, int k, int n, bool open_first, bool open_last) {
+  using Result = decltype(value(k));
+  if (k == 0 && open_first) return Result(-1.5 * value(0) + 2.0 * value(1) - 0.5 * value(2));
+  if (k == n - 1 && open_last) return Result(1.5 * value(n - 1) - 2.0 * value(n - 2) + 0.5 * value(n - 3));
+  return Result(0.5 * (value(k + 1) - value(k - 1)));
+}
+
+}  // namespace fsi::fluid
