@@ -107,11 +107,19 @@ def _is_consequence(ending):
     return ending.ours or ending.code in (PEER_LOST, INTERRUPTED, TERMINATED)
 
 
-def root_cause(endings):
-    """The ending that made the others fail, or None when all went well."""
+def _is_echo(reason, name, names):
+    """True if a program only repeats what another one said when it ended the run: "solid: step 12, ..."."""
+    return any(reason.startswith(f"{other}: ") for other in names if other != name)
+
+
+def root_cause(endings, reasons=None):
+    """The ending that made the others fail, or None when all went well. `reasons` is what each program left."""
+    reasons = reasons or {}
     failures = [ending for ending in endings if ending.code != 0]
-    causes = [ending for ending in failures if not _is_consequence(ending)]
-    return next(iter(causes or failures), None)
+    causes = [ending for ending in failures if not _is_consequence(ending)] or failures
+    names = {ending.name for ending in endings}
+    own = [ending for ending in causes if not _is_echo(reasons.get(ending.name, ""), ending.name, names)]
+    return next(iter(own or causes), None)
 
 
 def _explain(ending, case, directory):
@@ -124,10 +132,17 @@ def _explain(ending, case, directory):
         return PEER_LOST, f"lost {label}: ended by {name}" + (f"; its last words: {words}" if words else "")
     if ending.ours:
         return PEER_LOST, f"lost {label}: it did not end by itself"
-    part = summary.read_parts(directory, [ending.name]).get(ending.name, {})
-    reason = part.get("reason") or _last_line(directory, ending.name) or f"exit code {ending.code}"
+    reason = _reasons(case, directory).get(ending.name) or _last_line(directory, ending.name)
     code = ending.code if ending.code in range(1, 6) else PEER_LOST
-    return code, f"{ending.name}: {reason}"
+    if _is_echo(reason, ending.name, case.participants()):
+        return code, reason
+    return code, f"{ending.name}: {reason or f'exit code {ending.code}'}"
+
+
+def _reasons(case, directory):
+    """{participant: the reason it left for ending badly}"""
+    return {name: part["reason"] for name, part in summary.read_parts(directory, case.participants()).items()
+            if part.get("reason")}
 
 
 def _judge(outcome, case, directory):
@@ -136,7 +151,7 @@ def _judge(outcome, case, directory):
         return INTERRUPTED, "failed", "interrupted (Ctrl-C)"
     if outcome.signal:
         return TERMINATED, "failed", f"ended on request ({signal.Signals(outcome.signal).name})"
-    if cause := root_cause(outcome.endings):
+    if cause := root_cause(outcome.endings, _reasons(case, directory)):
         code, reason = _explain(cause, case, directory)
         return code, "failed", reason
     for part in summary.read_parts(directory, case.participants()).values():

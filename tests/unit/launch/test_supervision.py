@@ -52,6 +52,11 @@ class Supervision(InScratch):
         _, outcome, _ = self.supervise(a=exits(4, 0.1), b=exits(3, 0.5))
         self.assertEqual(root_cause(outcome.endings).name, "b")
 
+    def test_who_repeats_the_reason_of_another_is_not_the_cause(self):
+        _, outcome, _ = self.supervise(a=exits(3, 0.1), b=exits(3, 0.5))
+        reasons = {"a": "b: step 412: det F = -0.02", "b": "step 412: det F = -0.02"}
+        self.assertEqual(root_cause(outcome.endings, reasons).name, "b")
+
     def test_program_that_does_not_notice_is_ended_within_five_seconds(self):
         endings, _, seconds = self.supervise(a=exits(3), b=SLEEP, c=DEAF)
         self.assertTrue(endings["b"].ours and endings["c"].ours)

@@ -1,0 +1,190 @@
+/// Three processes at the bus: they exchange, and when one is killed, stopped or watched the others know what
+/// to do.
+
+#include "tests/programs/bus/processes.hpp"
+
+#include <thread>
+
+#include "common/bus/listener.hpp"
+#include "tests/unit/bus/seats.hpp"
+
+namespace fsi::bus::test {
+namespace {
+
+constexpr std::uint64_t endless = ~std::uint64_t{0};
+
+/// A solver that answers at once. Says "begun" after its first step.
+void solve(const BusOptions& options, const wire::Hello& self, std::uint64_t steps, std::size_t points,
+           const Process::Say& say) {
+  SolverSession session(options, self);
+  wire::PredictedInterface state = predicted(0, points);
+  for (std::uint64_t step = 0; step < steps; ++step) {
+    state.step = step;
+    state.v.front() = state.v.back() = static_cast<double>(step);
+    session.publish(state);
+    const auto& answer = session.receive("beam", step);
+    EXPECT_EQ(answer.v_n.size(), points);
+    EXPECT_EQ(answer.v_n.back(), -static_cast<double>(step));
+    if (step == 0) say("begun");
+    if (session.telemetry_due()) session.publish(wire::Telemetry{});
+  }
+}
+
+void couple(const BusOptions& options, std::uint64_t steps, std::size_t points, const Process::Say& say) {
+  CouplerSession session(options, gas_and_solid(), "one case");
+  std::vector<wire::ProjectedInterface> answers = {projected("fluid", 0, points),
+                                                   projected("beam", 0, points)};
+  try {
+    for (std::uint64_t step = 0; step < steps; ++step) {
+      for (const wire::PredictedInterface& state : session.gather(step)) {
+        EXPECT_EQ(state.v.size(), 2 * points);
+        EXPECT_EQ(state.v.back(), static_cast<double>(step));
+      }
+      for (wire::ProjectedInterface& answer : answers) {
+        answer.step = step;
+        answer.v_n.back() = -static_cast<double>(step);
+      }
+      session.scatter(answers);
+      if (step == 0) say("begun");
+    }
+  } catch (const Failure& failure) {
+    session.abort(failure.code(), failure.what());
+    throw;
+  }
+}
+
+/// Gas, solid and coupler of one run, each a process.
+struct Run {
+  explicit Run(const BusOptions& options, std::uint64_t steps = endless, std::size_t points = 3)
+      : fluid([=](const auto& say) { solve(options, gas(points), steps, points, say); }),
+        beam([=](const auto& say) { solve(options, solid(points), steps, points, say); }),
+        coupler([=](const auto& say) { couple(options, steps, points, say); }) {}
+
+  void wait_until_begun() {
+    for (Process* process : {&fluid, &beam, &coupler}) ASSERT_EQ(process->hear(), "begun");
+  }
+
+  Process fluid, beam, coupler;
+};
+
+class Exchanging : public testing::TestWithParam<std::size_t> {};
+
+TEST_P(Exchanging, ThousandStepsArriveCompleteAndInOrder) {
+  Run run(options(own_run()), 1000, GetParam());
+  for (Process* process : {&run.fluid, &run.beam, &run.coupler})
+    EXPECT_EQ(process->end(100), 0) << process->hear();
+}
+INSTANTIATE_TEST_SUITE_P(Points, Exchanging, testing::Values(100, 1000, 10000));
+
+/// Each program in turn is killed; the two others must name it.
+class Killing : public testing::TestWithParam<const char*> {};
+
+TEST_P(Killing, NamesTheVictimWithinTwoSecondsAndEndsTheOthersWithCode4) {
+  Run run(options(own_run()));
+  run.wait_until_begun();
+  const std::string victim_name = GetParam();
+  Process& victim = victim_name == "fluid" ? run.fluid : victim_name == "beam" ? run.beam : run.coupler;
+  victim.send(SIGKILL);
+  for (Process* process : {&run.fluid, &run.beam, &run.coupler}) {
+    if (process == &victim) continue;
+    // Twice the two seconds asked for: the machine may be busy with other tests.
+    EXPECT_EQ(process->end(4), 4);
+    const std::string reason = process->hear();
+    EXPECT_TRUE(says(reason, victim_name)) << reason;
+    EXPECT_TRUE(says(reason, fmt::format("pid {}", victim.pid()))) << reason;
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Programs, Killing, testing::Values("fluid", "beam", "coupler"));
+
+TEST(Stopping, ShortStopOnlyDelaysTheRun) {
+  Run run(options(own_run()), 3000);
+  run.wait_until_begun();
+  run.beam.send(SIGSTOP);
+  usleep(1500000);  // five leases, less than the peer timeout
+  run.beam.send(SIGCONT);
+  for (Process* process : {&run.fluid, &run.beam, &run.coupler})
+    EXPECT_EQ(process->end(60), 0) << process->hear();
+}
+
+TEST(Stopping, LongStopIsASilentPeer) {
+  BusOptions impatient = options(own_run());
+  impatient.peer_timeout_s = 1;
+  Run run(impatient);
+  run.wait_until_begun();
+  run.beam.send(SIGSTOP);
+  for (Process* process : {&run.fluid, &run.coupler}) {
+    EXPECT_EQ(process->end(20), 4);
+    const std::string reason = process->hear();
+    EXPECT_TRUE(says(reason, "solid 'beam'") && says(reason, "silent for 1 s")) << reason;
+  }
+}
+
+TEST(Watching, FrozenMonitorDoesNotHoldUpTheRun) {
+  const std::string run_id = own_run();
+  Process monitor([=](const auto& say) {
+    Listener listener(run_id);
+    while (listener.wait(1).empty()) {
+    }
+    say("listening");
+    while (true) listener.wait(1);
+  });
+  Run run(options(run_id), 2000, 1000);
+  ASSERT_EQ(monitor.hear(), "listening");
+  monitor.send(SIGSTOP);
+  for (Process* process : {&run.fluid, &run.beam, &run.coupler})
+    EXPECT_EQ(process->end(100), 0) << process->hear();
+}
+
+TEST(SideBySide, RunsInOneDomainDoNotSeeEachOther) {
+  const std::string one = own_run();
+  std::string other;
+  for (int k = 0; domain_of(other) != domain_of(one) || other.empty(); ++k)
+    other = fmt::format("{}/{}", one, k);
+  Run first(options(one), 500), second(options(other), 500);
+  Process lonely([=](const auto&) { EXPECT_THROW(send_control(one + ".", "stop", 0.3), PeerLost); });
+  for (Process* process :
+       {&first.fluid, &first.beam, &first.coupler, &second.fluid, &second.beam, &second.coupler}) {
+    EXPECT_EQ(process->end(60), 0) << process->hear();
+  }
+  EXPECT_EQ(lonely.end(20), 0);
+}
+
+TEST(Interrupting, WaitEndsWithTheSignalsOwnCodeAndTheOthersLearnIt) {
+  BusOptions interrupted = options(own_run());
+  interrupted.throw_if_interrupted = [start = Clock::now()] {
+    if (since(start) > 1) throw Failure(ExitCode::terminated, "ended on request (SIGTERM)");
+  };
+  Process fluid([=](const auto&) { SolverSession(options(interrupted.run), gas()).receive("beam", 0); });
+  Process coupler([=](const auto&) {
+    CouplerSession session(interrupted, {{.role = "fluid", .name = "fluid"}}, "one case");
+    try {
+      session.gather(0);
+    } catch (const Failure& failure) {
+      session.abort(failure.code(), failure.what());
+      throw;
+    }
+  });
+  EXPECT_EQ(coupler.end(10), 143);
+  EXPECT_EQ(fluid.end(10), 143);
+  EXPECT_EQ(fluid.hear(), "coupler: ended on request (SIGTERM)");
+}
+
+TEST(Crowding, FullDomainIsSaidInWords) {
+  const std::string run = own_run();
+  std::vector<std::unique_ptr<Process>> crowd;
+  for (int k = 0; k < 32; ++k) {
+    crowd.push_back(std::make_unique<Process>([=](const auto& say) {
+      const Listener listener(run);
+      say("here");
+      pause();
+    }));
+  }
+  for (const auto& one : crowd) ASSERT_EQ(one->hear(), "here");
+  Process last([=](const auto&) { const Listener listener(run); });
+  EXPECT_NE(last.end(20), 0);
+  const std::string reason = last.hear();
+  EXPECT_TRUE(says(reason, "may be full")) << reason;
+}
+
+}  // namespace
+}  // namespace fsi::bus::test

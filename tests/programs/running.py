@@ -1,0 +1,107 @@
+"""Runs `./launch/fsi` with the real programs in a scratch folder, and looks at what it starts and leaves behind."""
+
+import json
+import os
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+ROOT = Path(os.environ.get("FSI_ROOT") or Path(__file__).resolve().parents[2])
+BIN = Path(os.environ.get("FSI_BIN") or ROOT / "build" / "release" / "bin")
+FSI = ROOT / "launch" / "fsi"
+WATCHDOG = 120.0  # [s] nothing here may take longer
+
+
+def until(condition, seconds=30.0):
+    """Waits for `condition()` to hold; returns its value, false after `seconds`."""
+    end = time.monotonic() + seconds
+    while not (value := condition()) and time.monotonic() < end:
+        time.sleep(0.02)
+    return value
+
+
+def programs_of(directory):
+    """{executable: pid} of the living programs that work for the run in `directory`."""
+    found = {}
+    for entry in Path("/proc").iterdir():
+        if not entry.name.isdigit():
+            continue
+        try:
+            words = (entry / "cmdline").read_bytes().split(b"\0")
+            state = (entry / "stat").read_text().rsplit(")", 1)[1].split()[0]
+        except (OSError, IndexError):
+            continue
+        if b"--run-dir" in words and os.fsencode(directory) in words and state not in "ZX":
+            found[os.path.basename(os.fsdecode(words[0]))] = int(entry.name)
+    return found
+
+
+class Launched:
+    """A running `./launch/fsi run`; its results go to `directory`."""
+
+    def __init__(self, folder, *arguments, out="run"):
+        self.directory = folder / out
+        self.runtime = folder / "runtime"
+        self.runtime.mkdir(exist_ok=True)
+        command = [str(FSI), "run", *arguments, "--out", str(self.directory)]
+        environment = os.environ | {"FSI_BIN": str(BIN), "XDG_RUNTIME_DIR": str(self.runtime)}
+        self.process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                                        stderr=subprocess.PIPE, text=True, env=environment, cwd=folder)
+        self.stdout = self.stderr = ""
+
+    def wait(self):
+        """Exit code, once it has ended."""
+        self.stdout, self.stderr = self.process.communicate(timeout=WATCHDOG)
+        return self.process.returncode
+
+    def until_stepping(self):
+        """Waits until steps are being taken; returns the programs."""
+        table = self.directory / "interface.csv"
+        assert until(lambda: table.is_file() and table.stat().st_size > 2000), "the run does not get going"
+        return self.programs()
+
+    def programs(self):
+        return programs_of(self.directory)
+
+    def summary(self):
+        return json.loads((self.directory / "summary.json").read_text(encoding="utf-8"))
+
+    def leftovers(self):
+        """What should be gone after a run: processes and the entry in the registry."""
+        return [*programs_of(self.directory), *(path.name for path in self.runtime.rglob("*.json"))]
+
+
+class EndToEnd(unittest.TestCase):
+    """Each test gets an empty folder; runs still going on when it ends are killed."""
+
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory(prefix="fsi-test-")
+        self.addCleanup(scratch.cleanup)
+        self.folder = Path(scratch.name)
+
+    def launch(self, *arguments, out="run"):
+        run = Launched(self.folder, *arguments, out=out)
+        self.addCleanup(self._end, run)
+        return run
+
+    def complete(self, *arguments, out="run"):
+        """A run that must end well."""
+        run = self.launch(*arguments, out=out)
+        self.assertEqual(run.wait(), 0, run.stdout + run.stderr)
+        return run
+
+    def _end(self, run):
+        if run.process.poll() is None:
+            run.process.kill()
+        for pid in run.programs().values():
+            os.kill(pid, signal.SIGKILL)
+        for pipe in (run.process.stdout, run.process.stderr):
+            pipe.close()
+        run.process.wait()
+
+    def assert_nothing_left(self, run):
+        until(lambda: not run.leftovers(), 5)
+        self.assertEqual(run.leftovers(), [])

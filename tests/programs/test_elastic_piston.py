@@ -1,0 +1,56 @@
+#!/usr/bin/python3
+"""Gas, solid and coupler over the bus: the elastic piston ends well, with any law, and always with the same numbers."""
+
+import unittest
+
+from running import EndToEnd
+
+
+class ElasticPiston(EndToEnd):
+    def test_meets_what_its_case_expects(self):
+        run = self.complete("elastic_piston")
+        summary = run.summary()
+        self.assertEqual(summary["status"], "completed")
+        self.assertEqual(set(summary["participants"]), {"fluid", "solid", "coupler"})
+        self.assertTrue(all(entry["met"] for entry in summary["expectations"]) and summary["expectations"])
+        self.assert_nothing_left(run)
+
+    def test_another_law_by_one_option(self):
+        run = self.complete("elastic_piston", "--solid", "solid=neo_hookean", "--set", "grid.factor=2")
+        self.assertEqual(run.summary()["participants"]["solid"]["program"], "solid_solver_neo_hookean")
+
+    def test_missed_expectation_is_named_and_exits_1(self):
+        run = self.launch("elastic_piston", "--set", "grid.factor=2", "--set", "expect.errors.rho={max: 1e-9}")
+        self.assertEqual(run.wait(), 1, run.stderr)
+        self.assertRegex(run.stderr, r"errors\.rho = \S+, must be at most 1e-09")
+
+    def test_traditional_scheme_breaks_with_a_light_solid_and_says_what_broke(self):
+        run = self.launch("elastic_piston", "--set", "interface.projection=traditional", "--set",
+                          "parameters.density_ratio=0.01", "--set", "grid.factor=8")
+        self.assertEqual(run.wait(), 3, run.stdout + run.stderr)
+        self.assertEqual(run.summary()["status"], "failed")
+        self.assertRegex(run.summary()["reason"], r"step \d+, t = ")
+        self.assertIn(run.summary()["reason"], run.stderr)
+        self.assert_nothing_left(run)
+
+    def test_two_runs_side_by_side_give_the_same_bits(self):
+        import h5py
+        import numpy as np
+        runs = [self.launch("elastic_piston", "--set", "grid.factor=2", out=name) for name in ("a", "b")]
+        self.assertEqual([run.wait() for run in runs], [0, 0], runs[0].stderr + runs[1].stderr)
+        tables = [(run.directory / "interface.csv").read_bytes() for run in runs]
+        self.assertEqual(*tables)
+        compared = []
+        for name in ("fluid.h5", "solid_solid.h5"):
+            with h5py.File(runs[0].directory / name) as a, h5py.File(runs[1].directory / name) as b:
+                for output in a:
+                    for grid in a[output]:
+                        for field in a[output][grid]:
+                            path = f"{output}/{grid}/{field}"
+                            compared.append(path)
+                            self.assertTrue(np.array_equal(a[path], b[path]), path)
+        self.assertGreater(len(compared), 20)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,81 @@
+#!/usr/bin/python3
+"""What a run leaves in its folder: tables, fields, the ParaView index, pictures."""
+
+import json
+import math
+import os
+import subprocess
+import unittest
+import xml.etree.ElementTree
+
+from running import BIN, EndToEnd, FSI
+
+
+class Results(EndToEnd):
+    def setUp(self):
+        super().setUp()
+        self.run_ = self.complete("elastic_piston", "--set", "grid.factor=2", "--set", "output.times=[0.4, 0.8]")
+
+    def test_folder_holds_what_the_documentation_promises(self):
+        for name in ("summary.json", "case.yaml", "fluid.h5", "solid_solid.h5", "run.xmf", "interface.csv"):
+            self.assertGreater((self.run_.directory / name).stat().st_size, 0, name)
+        self.assertEqual([path.name for path in self.run_.directory.rglob("*.tmp")], [])
+
+    def test_summary_has_every_promised_number(self):
+        summary = self.run_.summary()
+        for key in ("status", "reason", "case", "t", "steps", "dt", "wall_s", "participants", "errors", "interface",
+                    "counters"):
+            self.assertIn(key, summary)
+        for part in summary["participants"].values():
+            for key in ("points", "substeps", "compute_s", "wait_s", "point_updates_per_s"):
+                self.assertTrue(math.isfinite(part[key]), key)
+        for key in ("rho", "v1", "v2", "T", "u_bar", "v_bar", "P_bar"):
+            self.assertTrue(math.isfinite(summary["errors"][key]), key)
+        for key in ("max_velocity_jump", "max_traction_jump", "max_gap"):
+            self.assertTrue(math.isfinite(summary["interface"][key]), key)
+        self.assertAlmostEqual(summary["t"], 0.8)
+
+    def test_interface_table_has_a_line_per_step(self):
+        lines = (self.run_.directory / "interface.csv").read_text().splitlines()
+        self.assertIn(len(lines) - 1, (self.run_.summary()["steps"], self.run_.summary()["steps"] + 1))
+
+    def test_output_times_are_hit_exactly(self):
+        import h5py
+        for name in ("fluid.h5", "solid_solid.h5"):
+            with h5py.File(self.run_.directory / name) as file:
+                times = [float(file[output].attrs["t"]) for output in sorted(file)]
+            self.assertEqual(times[-2:], [0.4, 0.8])
+
+    def test_paraview_index_is_well_formed_and_points_to_data_that_exist(self):
+        import h5py
+        tree = xml.etree.ElementTree.parse(self.run_.directory / "run.xmf")
+        items = [item.text.strip() for item in tree.iter("DataItem") if item.get("Format") == "HDF"]
+        self.assertGreater(len(items), 10)
+        for item in items:
+            name, path = item.split(":", 1)
+            with h5py.File(self.run_.directory / name) as file:
+                self.assertIn(path, file)
+
+    def test_resolved_case_runs_again_to_the_same_errors(self):
+        again = self.complete(str(self.run_.directory / "case.yaml"), out="again")
+        self.assertEqual(again.summary()["errors"], self.run_.summary()["errors"])
+
+    def test_pictures(self):
+        answer = subprocess.run([FSI, "plot", self.run_.directory], env=os.environ | {"FSI_BIN": str(BIN)},
+                                capture_output=True, text=True, check=False)
+        self.assertEqual(answer.returncode, 0, answer.stderr)
+        pictures = {path.stem for path in (self.run_.directory / "plots").glob("*.png")}
+        self.assertLessEqual({"grid", "lines", "interface"}, pictures)
+
+    def test_convergence_table(self):
+        answer = subprocess.run([FSI, "converge", "elastic_piston", "--levels", "1,2", "--rates", "rho,u_bar",
+                                 "--out", self.folder / "table"], env=os.environ | {"FSI_BIN": str(BIN)},
+                                capture_output=True, text=True, check=False)
+        self.assertEqual(answer.returncode, 0, answer.stderr)
+        table = json.loads((self.folder / "table" / "converge.json").read_text())
+        self.assertEqual(list(table["errors"]), ["rho", "u_bar"])
+        self.assertTrue(all(rate > 1 for rate in table["fitted"].values()))  # coarse grids: only that it falls
+
+
+if __name__ == "__main__":
+    unittest.main()
