@@ -5,7 +5,7 @@ import shutil
 import sys
 import time
 
-BAR = 24            # characters
+BAR = 24            # characters, at most
 LINE_EVERY = 5.0    # [s] between lines when the output is not a terminal
 DRAW_EVERY = 0.1    # [s] between two states of the bar
 WINDOW = 10.0       # [s] over which speed is measured
@@ -77,15 +77,17 @@ class Progress:
         state = self._state
         part = min(1.0, max(0.0, state["t"] / state["t_end"])) if state["t_end"] > 0 else 0.0
         steps, rate = self._speed()
-        words = [f"{100 * part:3.0f} %", f"t {state['t']:.4g} of {state['t_end']:.4g}", f"dt {state['dt']:.2e}"]
+        words = [f"{100 * part:3.0f} %", f"t {state['t']:.3g} of {state['t_end']:.3g}", f"dt {state['dt']:.1e}"]
         if state["limit"]:
             words[-1] += f" ({state['limit']})"
         if rate > 0:
             words += [f"{steps:.0f} steps/s", f"{clock((state['t_end'] - state['t']) / rate)} left"]
-        if self._bar:
-            full = round(BAR * part)
-            words.insert(1, "[" + "=" * full + " " * (BAR - full) + "]")
-        return "  ".join(words)
+        text = "  ".join(words)
+        if not self._bar:
+            return text
+        room = min(BAR, shutil.get_terminal_size().columns - len(text) - 5)  # brackets, spaces, a margin
+        full = round(room * part)
+        return f"[{'=' * full}{' ' * (room - full)}]  {text}" if room >= 4 else text
 
     def _draw(self):
         if self._bar:
