@@ -1,0 +1,113 @@
+#include "reference/piston_case.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "common/core/failure.hpp"
+#include "common/exact/solution.hpp"
+
+namespace fsi::reference {
+
+namespace {
+
+constexpr int default_points = 3200;
+
+const SolidSpec& only_solid(const Case& problem) {
+  if (problem.solids.size() != 1 || !problem.fluid) {
+    throw UserMistake(
+        fmt::format("{}: the one-dimensional reference needs one gas and one solid", problem.path));
+  }
+  const SolidSpec& solid = problem.solids.front();
+  const bool straight = solid.grid.kind == GridSpec::Kind::rectangle && solid.grid.rotation == 0 &&
+                        problem.fluid->grid.kind == GridSpec::Kind::rectangle &&
+                        problem.fluid->grid.rotation == 0;
+  const bool meets = problem.fluid->boundary[0].kind == BoundaryKind::interface &&
+                     solid.boundary[1].kind == BoundaryKind::interface;
+  if (!straight || !meets) {
+    throw UserMistake(
+        fmt::format("{}: the one-dimensional reference needs rectangles along x, the gas right of solid '{}'",
+                    problem.path, solid.name));
+  }
+  return solid;
+}
+
+std::function<double(double)> along_x(const std::optional<VectorExpressions>& field) {
+  if (!field) return [](double) { return 0.0; };
+  return [f = field->c1](double x) { return f(x, 0, 0); };
+}
+
+std::function<double(double)> drive_of(const SolidSpec& solid,
+                                       const std::shared_ptr<exact::Solution>& exact) {
+  const BoundarySpec& left = solid.boundary[0];
+  const double x = solid.grid.x_a;
+  if (left.from_reference && exact) return [=](double t) { return exact->solid(x, 0, t).u[0]; };
+  if (left.kind != BoundaryKind::displacement && left.kind != BoundaryKind::dirichlet) {
+    throw UserMistake(fmt::format(
+        "the one-dimensional reference needs `displacement` on the left side of solid '{}'", solid.name));
+  }
+  if (!left.vector) return [](double) { return 0.0; };
+  return [f = left.vector->c1, x](double t) { return f(x, 0, t); };
+}
+
+std::function<exact::TubeState(double)> gas_of(const FluidSpec& fluid,
+                                               const std::shared_ptr<exact::Solution>& exact) {
+  if (fluid.initial_from_reference && exact) {
+    return [exact](double x) {
+      const exact::GasState state = exact->gas(x, 0, 0);
+      return exact::TubeState{.rho = state.rho, .v = state.v1, .p = state.p};
+    };
+  }
+  if (!fluid.initial) throw UserMistake("the one-dimensional reference needs `fluid.initial`");
+  return [f = *fluid.initial](double x) {
+    return exact::TubeState{.rho = f.rho(x, 0, 0), .v = f.v1(x, 0, 0), .p = f.p(x, 0, 0)};
+  };
+}
+
+}  // namespace
+
+PistonProblem piston_from_case(const Case& problem) {
+  const SolidSpec& solid = only_solid(problem);
+  const FluidSpec& fluid = *problem.fluid;
+  std::shared_ptr<exact::Solution> exact;
+  if (problem.reference.kind != "piston_1d" && problem.reference.kind != "none") {
+    exact = exact::make_solution(problem.reference.kind, problem.reference.numbers, "");
+  }
+
+  PistonProblem piston;
+  piston.law = solid.law;
+  piston.rho_bar = solid.rho;
+  piston.lambda = solid.lambda;
+  piston.mu = solid.mu;
+  piston.x_a = solid.grid.x_a;
+  piston.x_b = solid.grid.x_b;
+  piston.x_end = fluid.grid.x_b;
+  piston.gamma = fluid.gamma;
+  piston.p_e = fluid.p_e;
+  const BoundaryKind right = fluid.boundary[1].kind;
+  piston.wall = right == BoundaryKind::slip_wall || right == BoundaryKind::symmetry;
+  piston.drive = drive_of(solid, exact);
+  piston.u_0 = along_x(solid.initial_u);
+  piston.v_0 = along_x(solid.initial_v);
+  if (solid.initial_from_reference && exact) {
+    piston.u_0 = [exact](double x) { return exact->solid(x, 0, 0).u[0]; };
+    piston.v_0 = [exact](double x) { return exact->solid(x, 0, 0).v[0]; };
+  }
+  piston.gas_0 = gas_of(fluid, exact);
+  piston.times = problem.output.times;
+  piston.times.push_back(problem.time.end);
+  piston.times.push_back(0);
+  std::ranges::sort(piston.times);
+  const auto same = [](double a, double b) { return std::fabs(a - b) <= 1e-12 * std::max(1.0, b); };
+  piston.times.erase(std::unique(piston.times.begin(), piston.times.end(), same), piston.times.end());
+  return piston;
+}
+
+int points_from_case(const Case& problem) {
+  const auto found = problem.reference.numbers.find("points");
+  return found == problem.reference.numbers.end() ? default_points : static_cast<int>(found->second);
+}
+
+}  // namespace fsi::reference
