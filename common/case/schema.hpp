@@ -70,6 +70,10 @@ struct Section {
   std::string_view default_kind = {};      ///< "": `kind` must be written
 };
 
+extern const Section grid_section;       ///< of gas and solids
+extern const Section gas_state_section;  ///< rho, v, p or T
+extern const Section fluid_section;
+extern const Section solid_section;
 /// The whole file.
 extern const Section case_file;
 

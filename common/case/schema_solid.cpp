@@ -1,0 +1,198 @@
+#include <array>
+
+#include "common/case/laws.hpp"
+#include "common/case/schema.hpp"
+
+namespace fsi::schema {
+
+namespace {
+
+using std::array;
+using std::string_view;
+constexpr array<string_view, 1> or_reference{"reference"};
+
+constexpr array traction_keys{
+    Key{.name = "value",
+        .type = Type::vector,
+        .meaning = "traction per unit current area",
+        .unit = "pressure",
+        .required = true,
+        .words = or_reference},
+};
+constexpr array displacement_keys{
+    Key{.name = "value",
+        .type = Type::vector,
+        .meaning = "displacement",
+        .unit = "length",
+        .required = true,
+        .words = or_reference},
+    Key{.name = "velocity",
+        .type = Type::vector,
+        .meaning = "its time derivative",
+        .unit = "velocity",
+        .fallback = "by differences of `value`"},
+};
+constexpr array solid_dirichlet_keys{
+    Key{.name = "state",
+        .type = Type::word,
+        .meaning = "where u, v and P come from",
+        .required = true,
+        .words = or_reference},
+};
+constexpr array solid_boundary_variants{
+    Variant{"interface", "the gas is on the other side", {}},
+    Variant{"slip_wall", "no displacement along the normal, no shear", {}},
+    Variant{"symmetry", "mirror images across a straight side", {}},
+    Variant{"traction", "the traction is imposed", traction_keys},
+    Variant{"displacement", "the displacement is imposed", displacement_keys},
+    Variant{"dirichlet", "u, v and P are imposed, ghost points too", solid_dirichlet_keys},
+    Variant{"periodic", "continues at the opposite side", {}},
+};
+constexpr array<string_view, 9> solid_boundary_words{"interface", "slip_wall",    "symmetry",
+                                                     "traction",  "displacement", "dirichlet",
+                                                     "periodic",  "free",         "clamped"};
+constexpr Section solid_boundary{
+    .title = "A side of a solid", .keys = {}, .variants = solid_boundary_variants, .default_kind = ""};
+
+constexpr string_view solid_side =
+    "a side of the solid; a bare word is its kind, with data from the reference solution; `free` is no "
+    "traction, `clamped` no displacement";
+constexpr array solid_sides{
+    Key{.name = "left",
+        .type = Type::section,
+        .meaning = solid_side,
+        .required = true,
+        .words = solid_boundary_words,
+        .section = &solid_boundary},
+    Key{.name = "right",
+        .type = Type::section,
+        .meaning = solid_side,
+        .required = true,
+        .words = solid_boundary_words,
+        .section = &solid_boundary},
+    Key{.name = "bottom",
+        .type = Type::section,
+        .meaning = solid_side,
+        .required = true,
+        .words = solid_boundary_words,
+        .section = &solid_boundary},
+    Key{.name = "top",
+        .type = Type::section,
+        .meaning = solid_side,
+        .required = true,
+        .words = solid_boundary_words,
+        .section = &solid_boundary},
+};
+constexpr Section solid_boundaries{.title = "Boundaries of a solid", .keys = solid_sides};
+
+constexpr array beta_keys{
+    Key{.name = "rate",
+        .meaning = "the part that is a rate",
+        .unit = "1/time",
+        .fallback = "0",
+        .range = not_negative},
+    Key{.name = "scaled",
+        .meaning = "the part that is a rate times the time step",
+        .fallback = "0",
+        .range = not_negative},
+};
+constexpr Section beta_section{.title = "A coefficient beta = rate dt + scaled", .keys = beta_keys};
+
+constexpr array<string_view, 2> solid_limiter_words{"none", "minmod"};
+constexpr array solid_scheme_keys{
+    Key{.name = "limiter",
+        .type = Type::word,
+        .meaning = "limiter of the slopes; none for smooth motion",
+        .fallback = "minmod",
+        .words = solid_limiter_words},
+    Key{.name = "tangential_stress",
+        .type = Type::section,
+        .meaning = "beta^P of (39)",
+        .fallback = "0",
+        .section = &beta_section},
+    Key{.name = "displacement",
+        .type = Type::section,
+        .meaning = "beta^u of (40)",
+        .fallback = "0",
+        .section = &beta_section},
+    Key{.name = "relaxation",
+        .type = Type::section,
+        .meaning = "beta^r of (41)",
+        .fallback = "0",
+        .section = &beta_section},
+    Key{.name = "bulk_diffusion",
+        .meaning = "coefficient of undivided second differences of v and P",
+        .unit = "1/time",
+        .fallback = "0",
+        .range = not_negative},
+};
+constexpr Section solid_scheme{.title = "Scheme of a solid", .keys = solid_scheme_keys};
+
+constexpr array solid_initial_keys{
+    Key{.name = "u",
+        .type = Type::vector,
+        .meaning = "displacement, of the reference position",
+        .unit = "length",
+        .fallback = "[0, 0]"},
+    Key{.name = "v",
+        .type = Type::vector,
+        .meaning = "velocity, of the reference position",
+        .unit = "velocity",
+        .fallback = "[0, 0]"},
+};
+constexpr Section solid_initial{.title = "Initial state of a solid", .keys = solid_initial_keys};
+
+constexpr array solid_keys{
+    Key{.name = "law",
+        .type = Type::word,
+        .meaning = "constitutive law; its program is solid_solver_<law>",
+        .required = true,
+        .words = law_names},
+    Key{.name = "rho",
+        .meaning = "density of the reference configuration",
+        .unit = "mass/volume",
+        .required = true,
+        .range = positive},
+    Key{.name = "lambda",
+        .meaning = "Lame constant",
+        .unit = "pressure",
+        .required = true,
+        .range = not_negative},
+    Key{.name = "mu",
+        .meaning = "Lame constant (shear modulus)",
+        .unit = "pressure",
+        .required = true,
+        .range = positive},
+    Key{.name = "grid",
+        .type = Type::section,
+        .meaning = "the reference configuration",
+        .required = true,
+        .section = &grid_section},
+    Key{.name = "boundary",
+        .type = Type::section,
+        .meaning = "its four sides",
+        .required = true,
+        .section = &solid_boundaries},
+    Key{.name = "scheme",
+        .type = Type::section,
+        .meaning = "choices of the solver",
+        .fallback = "all defaults",
+        .section = &solid_scheme},
+    Key{.name = "initial",
+        .type = Type::section,
+        .meaning = "state at t = 0",
+        .fallback = "at rest",
+        .words = or_reference,
+        .section = &solid_initial},
+    Key{.name = "body_force",
+        .type = Type::vector,
+        .meaning = "force per unit reference volume, of the reference position",
+        .unit = "force/volume",
+        .fallback = "none"},
+};
+
+}  // namespace
+
+constinit const Section solid_section{.title = "A solid", .keys = solid_keys};
+
+}  // namespace fsi::schema

@@ -1,0 +1,124 @@
+#include "common/case/summary.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "common/core/config.hpp"
+#include "common/core/failure.hpp"
+
+namespace fsi {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+template <class T>
+ordered_json or_null(const std::optional<T>& value) {
+  return value ? ordered_json(*value) : ordered_json(nullptr);
+}
+
+ordered_json time_json(const TimeSpec& time) {
+  return {{"end", time.end},
+          {"cfl", time.cfl},
+          {"growth", time.growth},
+          {"multirate", time.multirate},
+          {"robin_order", time.robin_order},
+          {"dt", or_null(time.dt)},
+          {"peer_timeout", time.peer_timeout}};
+}
+
+ordered_json expect_json(const std::vector<Expectation>& expect) {
+  ordered_json result = ordered_json::array();
+  for (const Expectation& entry : expect) {
+    result.push_back({{"quantity", entry.quantity},
+                      {"max", or_null(entry.max)},
+                      {"min", or_null(entry.min)},
+                      {"equals", or_null(entry.equals)}});
+  }
+  return result;
+}
+
+std::uint64_t points_of(const GridSpec& grid) {
+  return static_cast<std::uint64_t>(grid.n1) * static_cast<std::uint64_t>(grid.n2);
+}
+
+}  // namespace
+
+bool is_coupled(const Case& problem) {
+  return problem.fluid && !problem.solids.empty();
+}
+
+std::vector<ParticipantSummary> participants_of(const Case& problem) {
+  std::vector<ParticipantSummary> result;
+  if (problem.fluid) result.push_back({"fluid", "fluid", "fluid_solver", ""});
+  for (const SolidSpec& solid : problem.solids) {
+    result.push_back({solid.name, "solid", "solid_solver_" + solid.law, solid.law});
+  }
+  if (is_coupled(problem)) result.push_back({"coupler", "coupler", "coupler", ""});
+  return result;
+}
+
+std::string summary_as_json(const Case& problem) {
+  ordered_json participants = ordered_json::array();
+  for (const ParticipantSummary& p : participants_of(problem)) {
+    participants.push_back({{"name", p.name}, {"role", p.role}, {"executable", p.executable}});
+  }
+  ordered_json solids = ordered_json::array();
+  for (const SolidSpec& solid : problem.solids) {
+    solids.push_back({{"name", solid.name}, {"law", solid.law}, {"points", points_of(solid.grid)}});
+  }
+  const ordered_json summary = {
+      {"name", problem.name},
+      {"title", problem.title},
+      {"path", problem.path},
+      {"digest", problem.digest},
+      {"coupled", is_coupled(problem)},
+      {"fluid", problem.fluid.has_value()},
+      {"fluid_points", problem.fluid ? points_of(problem.fluid->grid) : 0},
+      {"solids", solids},
+      {"participants", participants},
+      {"parameters", problem.parameters},
+      {"grid_factor", problem.grid_factor},
+      {"time", time_json(problem.time)},
+      {"projection", problem.interface.projection},
+      {"output_times", problem.output.times},
+      {"reference", {{"kind", problem.reference.kind}, {"numbers", problem.reference.numbers}}},
+      {"expect", expect_json(problem.expect)},
+      {"resolved", problem.resolved}};
+  return summary.dump(2, ' ', false, ordered_json::error_handler_t::replace);
+}
+
+std::string summary_line(const Case& problem) {
+  std::vector<std::string> parts;
+  if (problem.fluid)
+    parts.push_back(fmt::format("gas {} x {}", problem.fluid->grid.n1, problem.fluid->grid.n2));
+  for (const SolidSpec& solid : problem.solids) {
+    parts.push_back(fmt::format("{} ({}) {} x {}", solid.name, solid.law, solid.grid.n1, solid.grid.n2));
+  }
+  return fmt::format("{}: fine; {}, t = 0 to {}", problem.path, fmt::join(parts, ", "), problem.time.end);
+}
+
+std::vector<std::pair<std::string, std::string>> list_cases(const std::string& folder) {
+  std::set<std::string> paths;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    if (entry.path().extension() == ".yaml") paths.insert(entry.path().string());
+  }
+  std::vector<std::pair<std::string, std::string>> result;
+  for (const std::string& path : paths) {
+    const std::string name = std::filesystem::path(path).stem().string();
+    try {
+      const config::Node root = config::parse_file(path);
+      const config::Node* title = root.find("title");
+      result.emplace_back(name, title != nullptr && title->is_scalar() ? title->text : "");
+    } catch (const UserMistake& mistake) {
+      result.emplace_back(name, mistake.what());
+    }
+  }
+  return result;
+}
+
+}  // namespace fsi
