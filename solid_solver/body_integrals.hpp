@@ -1,0 +1,138 @@
+#pragma once
+/// Integrals over the body and its sides, and errors against a known solution.
+
+#include <algorithm>
+#include <cmath>
+
+#include "solid_solver/interface.hpp"
+#include "solid_solver/solid_component.hpp"
+
+namespace fsi::solid {
+
+/// Integrals over the body.
+struct Totals {
+  double mass = 0;
+  Vec2 momentum = Vec2::Zero();
+  double kinetic_energy = 0;
+  double strain_energy = 0;
+  double angular_momentum = 0;  ///< about the origin of physical space
+
+  double energy() const { return kinetic_energy + strain_energy; }
+};
+
+/// Largest errors over all points and components.
+struct Errors {
+  double u = 0, v = 0, P = 0;
+};
+
+/// Integrals over one side: what the outside does to the body there.
+struct SideLoad {
+  Vec2 force = Vec2::Zero();
+  double moment = 0;  ///< about the origin
+  double power = 0;
+};
+
+inline double cross(const Vec2& a, const Vec2& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+/// Reference area / current area of a boundary element with reference normal n0, paper eq. (13): the tangent
+/// is stretched by |F t0|, and J^-1 n^T F n0 = 1 / |F t0| in the plane.
+inline double area_ratio(const Tensor2& F, const Vec2& n0) {
+  return 1.0 / std::hypot(F.a12 * n0.x() - F.a11 * n0.y(), F.a22 * n0.x() - F.a21 * n0.y());
+}
+
+/// By the trapezoidal rule in index space, second order; F by central differences.
+template <Law L>
+Totals body_totals(const SolidComponent<L>& component, const L& law, double rho) {
+  const Layout layout = component.layout();
+  const ConstFieldView x = component.grid().x();
+  Totals totals;
+  for (int j = 0; j < layout.n2; ++j) {
+    for (int i = 0; i < layout.n1; ++i) {
+      const double weight =
+          (i == 0 || i == layout.n1 - 1 ? 0.5 : 1.0) * (j == 0 || j == layout.n2 - 1 ? 0.5 : 1.0);
+      const double area = weight * component.metrics().at(i, j).jacobian, mass = rho * area;
+      const SolidState s = load(component.q(), layout.at(i, j));
+      const Vec2 position = Vec2(x(0, i, j), x(1, i, j)) + s.u;
+      totals.mass += mass;
+      totals.momentum += mass * s.v;
+      totals.kinetic_energy += 0.5 * mass * s.v.squaredNorm();
+      totals.strain_energy += area * law.psi(component.deformation_gradient(i, j));
+      totals.angular_momentum += mass * cross(position, s.v);
+    }
+  }
+  return totals;
+}
+
+template <Law L>
+Errors largest_errors(const SolidComponent<L>& component, const StateFunction& exact, double t) {
+  const Layout layout = component.layout();
+  const ConstFieldView x = component.grid().x();
+  Errors errors;
+  for (int j = 0; j < layout.n2; ++j) {
+    for (int i = 0; i < layout.n1; ++i) {
+      const SolidState s = load(component.q(), layout.at(i, j)), e = exact(x(0, i, j), x(1, i, j), t);
+      errors.u = std::max(errors.u, (s.u - e.u).lpNorm<Eigen::Infinity>());
+      errors.v = std::max(errors.v, (s.v - e.v).lpNorm<Eigen::Infinity>());
+      const Tensor2 d = minus(s.P, e.P);
+      errors.P = std::max({errors.P, std::abs(d.a11), std::abs(d.a12), std::abs(d.a21), std::abs(d.a22)});
+    }
+  }
+  return errors;
+}
+
+template <Law L>
+SideLoad load_on_side(const SolidComponent<L>& component, Side side) {
+  const Layout layout = component.layout();
+  const SideIndex line(layout, side);
+  const ConstFieldView x = component.grid().x();
+  SideLoad load_of_side;
+  for (int k = 0; k < line.n; ++k) {
+    const SideMetrics m = side_metrics(component.metrics(), layout, side, k);
+    const SolidState s = load(component.q(), line.at(k, 0));
+    const Vec2 position = Vec2(x.plane(0)[line.at(k, 0)], x.plane(1)[line.at(k, 0)]) + s.u;
+    const Vec2 force = (k == 0 || k == line.n - 1 ? 0.5 : 1.0) * m.spacing * traction_of(s.P, m.n0);
+    load_of_side.force += force;
+    load_of_side.moment += cross(position, force);
+    load_of_side.power += s.v.dot(force);
+  }
+  return load_of_side;
+}
+
+/// Fills `state` for the points of a side. Uses no ghost points, so that it may be called on a predicted
+/// state.
+template <Law L>
+void gather_interface(const SolidComponent<L>& component, const L& law, double rho, Side side,
+                      SolidInterface& state) {
+  const Layout layout = component.layout();
+  const SideIndex line(layout, side);
+  const ConstFieldView x = component.grid().x();
+  const auto n = static_cast<std::size_t>(line.n);
+  for (std::vector<double>* two : {&state.x, &state.v, &state.w}) two->resize(2 * n);
+  state.Z.resize(3 * n);
+  state.fixed.resize(n);
+  state.z_p = std::sqrt(rho * (law.lambda + 2.0 * law.mu));
+  for (std::size_t k = 0; k < n; ++k) {
+    const int point = static_cast<int>(k);
+    const GridPoint p = grid_point(layout, side, point);
+    const Vec2 n0 = side_metrics(component.metrics(), layout, side, point).n0;
+    const SolidState s = load(component.q(), line.at(point, 0));
+    const Tensor2 F = component.deformation_gradient(p.i, p.j);
+    const double eta = area_ratio(F, n0);
+    const SymmetricTensor2 Z = impedance_matrix(law.K(F), n0, rho, eta);
+    const Vec2 w = eta * traction_of(s.P, n0);
+    for (std::size_t c = 0; c < 2; ++c) {
+      const auto axis = static_cast<int>(c);
+      state.x[c * n + k] = x(axis, p.i, p.j) + s.u[axis];
+      state.v[c * n + k] = s.v[axis];
+      state.w[c * n + k] = w[axis];
+    }
+    state.Z[k] = Z.a11;
+    state.Z[n + k] = Z.a12;
+    state.Z[2 * n + k] = Z.a22;
+    state.fixed[k] = component.boundary().fixed(side, point) ? 1 : 0;
+  }
+}
+
+}  // namespace fsi::solid

@@ -1,0 +1,97 @@
+#pragma once
+/// Boundary conditions and ghost points of one component grid, in the order that is known to be stable.
+
+#include <fmt/format.h>
+
+#include <array>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "common/core/failure.hpp"
+#include "solid_solver/ghost_lines.hpp"
+#include "solid_solver/interface.hpp"
+#include "solid_solver/traction_ghost.hpp"
+
+namespace fsi::solid {
+
+/// What a boundary works on.
+struct BoundaryGrid {
+  std::string name;
+  ConstFieldView x;  ///< reference positions with ghosts
+  const ReferenceMetrics* metrics = nullptr;
+};
+
+template <Law L>
+class SolidBoundary {
+ public:
+  using Kind = Boundary::Kind;
+
+  /// @param time_scale a time over which given tractions hardly change, for their time derivative
+  /// @throws UserMistake when periodic sides do not come in pairs
+  SolidBoundary(BoundaryGrid grid, const L& law, Boundaries boundaries, Limiter limiter, double time_scale);
+
+  /// Sets the boundary points and both ghost lines of q at time t, in this order:
+  ///  1. motion that is given (interface: v := v + (v_n - n.v) n; displacement, slip, symmetry, exact);
+  ///  2. u on the first ghost line;
+  ///  3. tractions that are given, paper eq. (42), and corners where the stress follows from them;
+  ///  4. v and P on the first ghost line;
+  ///  5. traction sides: ghost u from paper eq. (43), ghost v from its time derivative, tangential stress
+  ///  from P(F);
+  ///  6. P again on the first ghost line, then the second one and the corners of the ghost frame.
+  /// @throws NumbersBroke where no displacement fits the traction
+  void apply(FieldView q, double t, std::span<const InterfaceValues> projected);
+
+  Kind kind(Side side) const { return kinds_[index(side)]; }
+  /// True when point k of a side also lies on a side whose motion is given.
+  bool fixed(Side side, int k) const;
+
+ private:
+  static std::size_t index(Side side) { return static_cast<std::size_t>(side); }
+  Layout layout() const { return grid_.x.layout; }
+  SideMetrics at(Side side, int k) const { return side_metrics(*grid_.metrics, layout(), side, k); }
+  bool loaded(Side side) const { return kind(side) == Kind::traction || kind(side) == Kind::interface; }
+  bool mirrored(Side side) const;
+  static bool end_of(const SideIndex& line, int k) { return k == 0 || k == line.n - 1; }
+  Vec2 position(std::ptrdiff_t at) const { return {grid_.x.plane(0)[at], grid_.x.plane(1)[at]}; }
+  /// Central differences along the side of u (first = plane::u1) or v over one index.
+  static Vec2 difference_along(ConstFieldView q, const SideIndex& line, int first, int k);
+  static Vec2 difference_across(ConstFieldView q, const SideIndex& line, int first, int k, double sign);
+
+  void set_motion(FieldView q, double t, std::span<const InterfaceValues> projected) const;
+  void project_velocity(FieldView q, const InterfaceValues& values) const;
+  void set_given_motion(FieldView q, Side side, double t) const;
+  void remove_normal_motion(FieldView q, Side side) const;
+  void set_exact(FieldView q, Side side, double t, int m) const;
+  void fill_line(FieldView q, double t, const GhostRange& range) const;
+  void fill_side(FieldView q, Side side, double t, const GhostRange& range) const;
+  void set_tractions(FieldView q, double t, std::span<const InterfaceValues> projected);
+  void find_traction(ConstFieldView q, Side side, double t);
+  void find_projected_traction(ConstFieldView q, const InterfaceValues& values);
+  void set_normal_stress(FieldView q, Side side) const;
+  void set_corner_stress(FieldView q) const;
+  void match_side(FieldView q, Side side, double t) const;
+  void match_point(FieldView q, Side side, int k, double t) const;
+  void match_slip_point(FieldView q, Side side, int k, double t) const;
+  void match_corners(FieldView q) const;
+  Tensor2 gradient(ConstFieldView q, Side side, int k, int first) const;
+  void set_corner_ghosts(FieldView q, Side side, int k, int first, const Tensor2& gradient) const;
+  static void set_ghost(FieldView q, const SideIndex& line, int k, int first, const Vec2& change);
+  void fill_frame(FieldView q, double t) const;
+  [[noreturn]] void broke(Side side, int k, double t) const;
+
+  static constexpr Tensor2 identity = {1.0, 0.0, 0.0, 1.0};
+
+  BoundaryGrid grid_;
+  L law_;
+  Boundaries boundaries_;
+  std::array<Kind, 4> kinds_;
+  Limiter limiter_;
+  double time_scale_;
+  std::array<std::vector<Vec2>, 4> T_, T_rate_;  ///< nominal traction n0^T P of the loaded sides and its rate
+};
+
+}  // namespace fsi::solid
+
+#include "solid_solver/solid_boundary_matching.hpp"  // IWYU pragma: export
+#include "solid_solver/solid_boundary_values.hpp"    // IWYU pragma: export

@@ -1,0 +1,258 @@
+#pragma once
+/// SolidBoundary, second half: tractions, and ghost points that make stress and displacement fit together.
+
+#include "solid_solver/solid_boundary.hpp"
+
+namespace fsi::solid {
+
+template <Law L>
+void SolidBoundary<L>::apply(FieldView q, double t, std::span<const InterfaceValues> projected) {
+  set_motion(q, t, projected);
+  fill_line(q, t, {.first_plane = plane::u1, .last_plane = plane::v2, .m = -1});
+  set_tractions(q, t, projected);
+  fill_line(q, t, {.first_plane = plane::P11, .last_plane = plane::P22, .m = -1});
+  for (const Side side : all_sides) {
+    if (loaded(side) || kind(side) == Kind::slip) match_side(q, side, t);
+  }
+  match_corners(q);
+  fill_line(q, t, {.first_plane = plane::P11, .last_plane = plane::P22, .m = -1});
+  fill_line(q, t, {.m = -2});
+  fill_frame(q, t);
+}
+
+template <Law L>
+void SolidBoundary<L>::set_tractions(FieldView q, double t, std::span<const InterfaceValues> projected) {
+  for (const Side side : all_sides) {
+    if (loaded(side)) find_traction(q, side, t);
+  }
+  for (const InterfaceValues& values : projected) find_projected_traction(q, values);
+  for (const Side side : all_sides) {
+    if (loaded(side) || kind(side) == Kind::slip || kind(side) == Kind::symmetry) set_normal_stress(q, side);
+  }
+  set_corner_stress(q);
+  for (const Side side : all_sides) {
+    if (kind(side) == Kind::dirichlet) set_exact(q, side, t, 0);
+  }
+}
+
+/// Nominal traction T = tau / eta of a side with given traction tau per unit current area, paper eq. (42),
+/// and its rate; eta = |dx_bar/ds| / |dx/ds| is Nanson's factor, paper eq. (13). An interface keeps its
+/// present T until projected values come.
+template <Law L>
+void SolidBoundary<L>::find_traction(ConstFieldView q, Side side, double t) {
+  const SideIndex line(layout(), side);
+  const VectorFunction& tau = boundaries_[index(side)].vector;
+  const double delta = 1e-3 * time_scale_;
+  for (int k = 0; k < line.n; ++k) {
+    Vec2 &T = T_[index(side)][static_cast<std::size_t>(k)],
+         &rate = T_rate_[index(side)][static_cast<std::size_t>(k)];
+    const std::ptrdiff_t a = line.at(k, 0);
+    T = rate = Vec2::Zero();
+    if (kind(side) == Kind::interface) T = traction_of(load(q, a).P, at(side, k).n0);
+    if (kind(side) == Kind::interface || !tau) continue;
+    const Vec2 x = position(a), along = difference_along(grid_.x, line, 0, k);
+    const Vec2 stretched = along + difference_along(q, line, plane::u1, k);
+    const double per_reference_area = stretched.norm() / along.norm();
+    const double its_rate =
+        stretched.dot(difference_along(q, line, plane::v1, k)) / (stretched.norm() * along.norm());
+    const Vec2 now = tau(x.x(), x.y(), t);
+    const Vec2 now_rate = (tau(x.x(), x.y(), t + delta) - tau(x.x(), x.y(), t - delta)) / (2.0 * delta);
+    T = now * per_reference_area;
+    rate = now_rate * per_reference_area + now * its_rate;
+  }
+}
+
+/// T = (w_n / eta) n.
+template <Law L>
+void SolidBoundary<L>::find_projected_traction(ConstFieldView q, const InterfaceValues& values) {
+  const SideIndex line(layout(), values.side);
+  const auto n = static_cast<std::size_t>(line.n);
+  for (std::size_t k = 0; k < n; ++k) {
+    const Vec2 along = difference_along(grid_.x, line, 0, static_cast<int>(k));
+    const Vec2 stretched = along + difference_along(q, line, plane::u1, static_cast<int>(k));
+    const double eta = along.norm() / stretched.norm();
+    T_[index(values.side)][k] = values.w_n[k] / eta * Vec2(values.n[k], values.n[n + k]);
+  }
+}
+
+/// n0^T P := T on loaded sides, no shear on slip and symmetry sides; the rest of P stays.
+template <Law L>
+void SolidBoundary<L>::set_normal_stress(FieldView q, Side side) const {
+  const SideIndex line(layout(), side);
+  for (int k = 0; k < line.n; ++k) {
+    const std::ptrdiff_t a = line.at(k, 0);
+    const SideMetrics m = at(side, k);
+    SolidState s = load(q, a);
+    Vec2 change = T_[index(side)][static_cast<std::size_t>(k)] - traction_of(s.P, m.n0);
+    if (!loaded(side)) change = -m.t0 * m.t0.dot(traction_of(s.P, m.n0));
+    s.P = plus(s.P,
+               {m.n0.x() * change.x(), m.n0.x() * change.y(), m.n0.y() * change.x(), m.n0.y() * change.y()});
+    if (kind(side) == Kind::symmetry) {
+      const double shear = m.n0.dot(traction_of(s.P, m.t0));
+      s.P = plus(s.P, {-shear * m.t0.x() * m.n0.x(), -shear * m.t0.x() * m.n0.y(),
+                       -shear * m.t0.y() * m.n0.x(), -shear * m.t0.y() * m.n0.y()});
+    }
+    store(q, a, s);
+  }
+}
+
+/// Two loaded sides: both tractions hold. Two sides with given displacement: P(F).
+template <Law L>
+void SolidBoundary<L>::set_corner_stress(FieldView q) const {
+  for (const Side side : {Side::left, Side::right}) {
+    const SideIndex line(layout(), side);
+    for (const int k : {0, line.n - 1}) {
+      const Side other = neighbour(side, k != 0);
+      const int k_other = at_upper_end(side) ? SideIndex(layout(), other).n - 1 : 0;
+      const std::ptrdiff_t a = line.at(k, 0);
+      SolidState s = load(q, a);
+      if (loaded(side) && loaded(other)) {
+        s.P = stress_of_tractions(at(side, k).n0, T_[index(side)][static_cast<std::size_t>(k)],
+                                  at(other, k_other).n0, T_[index(other)][static_cast<std::size_t>(k_other)]);
+      } else if (kind(side) == Kind::displacement && kind(other) == Kind::displacement) {
+        s.P = law_.P(plus(identity, gradient(q, side, k, plane::u1)));
+      }
+      store(q, a, s);
+    }
+  }
+}
+
+/// Derivatives of u or v (first = plane::u1, plane::v1) at a boundary point from its four neighbours.
+template <Law L>
+Tensor2 SolidBoundary<L>::gradient(ConstFieldView q, Side side, int k, int first) const {
+  const SideIndex line(layout(), side);
+  const SideMetrics m = at(side, k);
+  const Tensor2 along = plus_dyad({}, difference_along(q, line, first, k), m.along);
+  return plus_dyad(along, difference_across(q, line, first, k, m.sign), m.across);
+}
+
+template <Law L>
+void SolidBoundary<L>::match_side(FieldView q, Side side, double t) const {
+  const SideIndex line(layout(), side);
+  for (int k = 0; k < line.n; ++k) {
+    // At a corner the difference along the side is sound only where the neighbour's ghost points are images.
+    const Kind other = kind(neighbour(side, k != 0));
+    if (end_of(line, k) && other != Kind::periodic && other != Kind::symmetry) continue;
+    if (loaded(side)) {
+      match_point(q, side, k, t);
+    } else {
+      match_slip_point(q, side, k, t);
+    }
+  }
+}
+
+template <Law L>
+void SolidBoundary<L>::match_point(FieldView q, Side side, int k, double t) const {
+  const SideIndex line(layout(), side);
+  const SideMetrics m = at(side, k);
+  SolidState s = load(q, line.at(k, 0));
+  const BoundaryStrain strain = {.F = plus_dyad(identity, difference_along(q, line, plane::u1, k), m.along),
+                                 .across = m.across,
+                                 .n0 = m.n0,
+                                 .sign = m.sign};
+  const auto du =
+      match_traction(law_, strain, traction_of(s.P, m.n0), difference_across(q, line, plane::u1, k, m.sign));
+  if (!du) broke(side, k, t);
+  set_ghost(q, line, k, plane::u1, 2.0 * m.sign * *du);
+  if (kind(side) == Kind::traction) {
+    const Tensor2 along = plus_dyad({}, difference_along(q, line, plane::v1, k), m.along);
+    const Vec2 dv =
+        match_traction_rate(law_, strain, *du, along, T_rate_[index(side)][static_cast<std::size_t>(k)]);
+    set_ghost(q, line, k, plane::v1, 2.0 * m.sign * dv);
+  }
+  const Tensor2 P = law_.P(plus_dyad(strain.F, *du, m.across));
+  const Vec2 change = traction_of(P, m.t0) - traction_of(s.P, m.t0);
+  s.P = plus_dyad(s.P, m.t0, change);
+  store(q, line.at(k, 0), s);
+}
+
+/// The shear of P(F) vanishes: ghost u and v are moved along the side, their normal parts stay extrapolated.
+template <Law L>
+void SolidBoundary<L>::match_slip_point(FieldView q, Side side, int k, double t) const {
+  const SideIndex line(layout(), side);
+  const SideMetrics m = at(side, k);
+  const BoundaryStrain strain = {.F = plus_dyad(identity, difference_along(q, line, plane::u1, k), m.along),
+                                 .across = m.across,
+                                 .n0 = m.n0,
+                                 .sign = m.sign};
+  const auto du = match_shear(law_, strain, 0.0, difference_across(q, line, plane::u1, k, m.sign));
+  if (!du) broke(side, k, t);
+  set_ghost(q, line, k, plane::u1, 2.0 * m.sign * *du);
+  const Stiffness K = law_.K(plus_dyad(strain.F, *du, m.across));
+  const double rate = m.t0.dot(traction_of(contract(K, gradient(q, side, k, plane::v1)), m.n0));
+  const double stiffness = m.t0.dot(matrix(acoustic_matrix(K, m.n0)) * m.t0) * m.across.norm() * m.sign;
+  const Vec2 dv = difference_across(q, line, plane::v1, k, m.sign) - rate / stiffness * m.t0;
+  set_ghost(q, line, k, plane::v1, 2.0 * m.sign * dv);
+}
+
+/// Corners of two loaded sides: ghost u, and ghost v where both tractions are given functions.
+template <Law L>
+void SolidBoundary<L>::match_corners(FieldView q) const {
+  for (const Side side : {Side::left, Side::right}) {
+    const SideIndex line(layout(), side);
+    for (const int k : {0, line.n - 1}) {
+      const Side other = neighbour(side, k != 0);
+      if (!loaded(side) || !loaded(other)) continue;
+      const SideIndex other_line(layout(), other);
+      const int k_other = at_upper_end(side) ? other_line.n - 1 : 0;
+      const SideMetrics m = at(side, k), m_other = at(other, k_other);
+      const Tensor2 P = load(q, line.at(k, 0)).P;
+      const Tensor2 start = gradient(q, side, k, plane::u1);
+      const Tensor2 F = match_corner(law_, P, plus(identity, start));
+      set_corner_ghosts(q, side, k, plane::u1, minus(F, identity));
+      if (kind(side) != Kind::traction || kind(other) != Kind::traction) continue;
+      const Stiffness K = law_.K(F);
+      const Tensor2 velocity = gradient(q, side, k, plane::v1);
+      const Tensor2 rate =
+          stress_of_tractions(m.n0, T_rate_[index(side)][static_cast<std::size_t>(k)], m_other.n0,
+                              T_rate_[index(other)][static_cast<std::size_t>(k_other)]);
+      set_corner_ghosts(q, side, k, plane::v1,
+                        plus(velocity, least_change(K, minus(rate, contract(K, velocity)))));
+    }
+  }
+}
+
+/// Ghost points on both sides of a corner from the gradient of u or v there.
+template <Law L>
+void SolidBoundary<L>::set_corner_ghosts(FieldView q, Side side, int k, int first,
+                                         const Tensor2& gradient) const {
+  const SideIndex line(layout(), side);
+  const Side other = neighbour(side, k != 0);
+  const SideIndex other_line(layout(), other);
+  const int k_other = at_upper_end(side) ? other_line.n - 1 : 0;
+  for (const auto& [of, at_k, points] : {std::tuple(side, k, line), std::tuple(other, k_other, other_line)}) {
+    const SideMetrics m = at(of, at_k);
+    // Dual of grad r: the step in reference space over one index across the side.
+    const Vec2 step =
+        Vec2(m.along.y(), -m.along.x()) / (m.across.x() * m.along.y() - m.across.y() * m.along.x());
+    const Vec2 d = {gradient.a11 * step.x() + gradient.a12 * step.y(),
+                    gradient.a21 * step.x() + gradient.a22 * step.y()};
+    set_ghost(q, points, at_k, first, 2.0 * m.sign * d);
+  }
+}
+
+/// First ghost point := first inner point + change.
+template <Law L>
+void SolidBoundary<L>::set_ghost(FieldView q, const SideIndex& line, int k, int first, const Vec2& change) {
+  for (int c = 0; c < 2; ++c)
+    q.plane(first + c)[line.at(k, -1)] = q.plane(first + c)[line.at(k, 1)] + change[c];
+}
+
+template <Law L>
+Vec2 SolidBoundary<L>::difference_across(ConstFieldView q, const SideIndex& line, int first, int k,
+                                         double sign) {
+  const std::ptrdiff_t ghost = line.at(k, -1), inner = line.at(k, 1);
+  return {0.5 * sign * (q.plane(first)[ghost] - q.plane(first)[inner]),
+          0.5 * sign * (q.plane(first + 1)[ghost] - q.plane(first + 1)[inner])};
+}
+
+template <Law L>
+void SolidBoundary<L>::broke(Side side, int k, double t) const {
+  const GridPoint p = grid_point(layout(), side, k);
+  throw NumbersBroke(
+      fmt::format("t = {:.6g}, grid \"{}\", point ({}, {}) on side {}: no displacement of the ghost point "
+                  "gives the traction",
+                  t, grid_.name, p.i, p.j, name_of(side)));
+}
+
+}  // namespace fsi::solid

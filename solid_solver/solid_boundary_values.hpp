@@ -1,0 +1,201 @@
+#pragma once
+/// SolidBoundary, first half: values that are given on the sides, and ghost points that follow from them by
+/// extrapolation, reflection or repetition.
+
+#include "solid_solver/solid_boundary.hpp"
+
+namespace fsi::solid {
+
+template <Law L>
+SolidBoundary<L>::SolidBoundary(BoundaryGrid grid, const L& law, Boundaries boundaries, Limiter limiter,
+                                double time_scale)
+    : grid_(std::move(grid)),
+      law_(law),
+      boundaries_(std::move(boundaries)),
+      kinds_{},
+      limiter_(limiter),
+      time_scale_(time_scale) {
+  for (const Side side : all_sides) {
+    Kind& own = kinds_[index(side)];
+    own = boundaries_[index(side)].kind;
+    // Mirror images need a grid that continues as its mirror image; slip says the same without them.
+    if (own == Kind::symmetry && !mirrored(side)) own = Kind::slip;
+    if (own == Kind::dirichlet && !boundaries_[index(side)].state) {
+      throw UserMistake(
+          fmt::format("grid \"{}\": side {} is a dirichlet side without a state", grid_.name, name_of(side)));
+    }
+    const SideIndex line(layout(), side);
+    T_[index(side)].assign(static_cast<std::size_t>(line.n), Vec2::Zero());
+    T_rate_[index(side)].assign(static_cast<std::size_t>(line.n), Vec2::Zero());
+  }
+  for (const auto& [one, other] : {std::pair(Side::left, Side::right), std::pair(Side::bottom, Side::top)}) {
+    if ((kind(one) == Kind::periodic) != (kind(other) == Kind::periodic)) {
+      throw UserMistake(fmt::format("grid \"{}\": sides {} and {} must both be periodic or neither",
+                                    grid_.name, name_of(one), name_of(other)));
+    }
+  }
+}
+
+template <Law L>
+bool SolidBoundary<L>::mirrored(Side side) const {
+  const SideIndex line(layout(), side);
+  double defect = 0, size = 0;
+  const Vec2 n = at(side, 0).n0;
+  const Vec2 origin = position(line.at(0, 0));
+  for (int k = 0; k < line.n; ++k) {
+    for (int m = 0; m <= Layout::ghosts; ++m) {
+      const Vec2 inside = position(line.at(k, m)), image = inside - 2.0 * n * n.dot(inside - origin);
+      defect = std::max(defect, (position(line.at(k, -m)) - image).norm());
+      size = std::max(size, (inside - origin).norm());
+    }
+  }
+  return defect < 1e-10 * size;
+}
+
+template <Law L>
+bool SolidBoundary<L>::fixed(Side side, int k) const {
+  const SideIndex line(layout(), side);
+  if (!end_of(line, k)) return false;
+  const Kind other = kind(neighbour(side, k != 0));
+  return other == Kind::displacement || other == Kind::dirichlet;
+}
+
+template <Law L>
+Vec2 SolidBoundary<L>::difference_along(ConstFieldView q, const SideIndex& line, int first, int k) {
+  const std::ptrdiff_t next = line.at(k + 1, 0), last = line.at(k - 1, 0);
+  return {0.5 * (q.plane(first)[next] - q.plane(first)[last]),
+          0.5 * (q.plane(first + 1)[next] - q.plane(first + 1)[last])};
+}
+
+template <Law L>
+void SolidBoundary<L>::project_velocity(FieldView q, const InterfaceValues& values) const {
+  const SideIndex line(layout(), values.side);
+  const auto n = static_cast<std::size_t>(line.n);
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::ptrdiff_t a = line.at(static_cast<int>(k), 0);
+    double &v1 = q.plane(plane::v1)[a], &v2 = q.plane(plane::v2)[a];
+    const double change = values.v_n[k] - (values.n[k] * v1 + values.n[n + k] * v2);
+    v1 += change * values.n[k];
+    v2 += change * values.n[n + k];
+  }
+}
+
+/// Later kinds win at corners: interface, slip and symmetry, displacement, exact state.
+template <Law L>
+void SolidBoundary<L>::set_motion(FieldView q, double t, std::span<const InterfaceValues> projected) const {
+  for (const InterfaceValues& values : projected) project_velocity(q, values);
+  for (const Side side : all_sides) {
+    if (kind(side) == Kind::slip || kind(side) == Kind::symmetry) remove_normal_motion(q, side);
+  }
+  for (const Side side : all_sides) {
+    if (kind(side) == Kind::displacement) set_given_motion(q, side, t);
+    if (kind(side) == Kind::periodic && at_upper_end(side)) {
+      const SideIndex line(layout(), side);
+      copy_period(q, line, {.m = 0, .begin = 0, .end = line.n});
+    }
+  }
+  for (const Side side : all_sides) {
+    if (kind(side) == Kind::dirichlet) set_exact(q, side, t, 0);
+  }
+}
+
+template <Law L>
+void SolidBoundary<L>::set_given_motion(FieldView q, Side side, double t) const {
+  const SideIndex line(layout(), side);
+  const Boundary& boundary = boundaries_[index(side)];
+  for (int k = 0; k < line.n; ++k) {
+    const std::ptrdiff_t a = line.at(k, 0);
+    const Vec2 x = position(a);
+    const Vec2 u = boundary.vector ? boundary.vector(x.x(), x.y(), t) : Vec2::Zero().eval();
+    const Vec2 v = boundary.velocity ? boundary.velocity(x.x(), x.y(), t) : Vec2::Zero().eval();
+    for (int c = 0; c < 2; ++c) {
+      q.plane(plane::u1 + c)[a] = u[c];
+      q.plane(plane::v1 + c)[a] = v[c];
+    }
+  }
+}
+
+/// n0 . u = n0 . v = 0; where two such sides meet at an angle the corner does not move at all.
+template <Law L>
+void SolidBoundary<L>::remove_normal_motion(FieldView q, Side side) const {
+  constexpr double parallel = 1e-6;
+  const SideIndex line(layout(), side);
+  for (int k = 0; k < line.n; ++k) {
+    const std::ptrdiff_t a = line.at(k, 0);
+    const Vec2 n = at(side, k).n0;
+    SolidState s = load(q, a);
+    s.u -= n * n.dot(s.u);
+    s.v -= n * n.dot(s.v);
+    const Side other = neighbour(side, k != 0);
+    if (end_of(line, k) && (kind(other) == Kind::slip || kind(other) == Kind::symmetry)) {
+      const Vec2 m = at(other, at_upper_end(side) ? SideIndex(layout(), other).n - 1 : 0).n0;
+      if (std::abs(n.x() * m.y() - n.y() * m.x()) > parallel) s.u = s.v = Vec2::Zero();
+    }
+    store(q, a, s);
+  }
+}
+
+template <Law L>
+void SolidBoundary<L>::set_exact(FieldView q, Side side, double t, int m) const {
+  const SideIndex line(layout(), side);
+  const int beyond = m < 0 ? Layout::ghosts : 0;
+  for (int k = -beyond; k < line.n + beyond; ++k) {
+    const std::ptrdiff_t a = line.at(k, m);
+    const Vec2 x = position(a);
+    store(q, a, boundaries_[index(side)].state(x.x(), x.y(), t));
+  }
+}
+
+template <Law L>
+void SolidBoundary<L>::fill_side(FieldView q, Side side, double t, const GhostRange& range) const {
+  const SideIndex line(layout(), side);
+  switch (kind(side)) {
+    case Kind::periodic:
+      copy_period(q, line, range);
+      break;
+    case Kind::symmetry:
+      reflect(q, line, range, at(side, 0).n0);
+      break;
+    case Kind::dirichlet:
+      set_exact(q, side, t, range.m);
+      break;
+    default:
+      extrapolate(q, line, range, limiter_);
+  }
+}
+
+/// Ghost line range.m of all sides, beside the boundary points only.
+template <Law L>
+void SolidBoundary<L>::fill_line(FieldView q, double t, const GhostRange& range) const {
+  for (const Side side : all_sides) {
+    GhostRange own = range;
+    own.begin = 0;
+    own.end = SideIndex(layout(), side).n;
+    fill_side(q, side, t, own);
+  }
+}
+
+/// The corner blocks of the ghost frame: bottom and top over their full width by extrapolation, then the
+/// sides that know better (mirror images, repetition, exact values) over theirs.
+template <Law L>
+void SolidBoundary<L>::fill_frame(FieldView q, double t) const {
+  constexpr int g = Layout::ghosts;
+  for (const Side side : {Side::bottom, Side::top}) {
+    const SideIndex line(layout(), side);
+    for (int m = -1; m >= -g; --m) {
+      extrapolate(q, line, {.m = m, .begin = -g, .end = 0}, limiter_);
+      extrapolate(q, line, {.m = m, .begin = line.n, .end = line.n + g}, limiter_);
+    }
+  }
+  for (const Side side : all_sides) {
+    const SideIndex line(layout(), side);
+    if (kind(side) != Kind::periodic && kind(side) != Kind::symmetry && kind(side) != Kind::dirichlet)
+      continue;
+    for (int m = -1; m >= -g; --m) {
+      fill_side(q, side, t, {.m = m, .begin = -g, .end = 0});
+      fill_side(q, side, t, {.m = m, .begin = line.n, .end = line.n + g});
+    }
+  }
+}
+
+}  // namespace fsi::solid

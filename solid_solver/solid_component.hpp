@@ -1,0 +1,220 @@
+#pragma once
+/// The solid on one component grid: its fields, their update and their boundary conditions. A domain is a
+/// list of these; what couples them (interpolation between grids) belongs to the owner of the list.
+
+#include <fmt/format.h>
+
+#include <cstdint>
+
+#include "common/grid/moving_grid.hpp"
+#include "solid_solver/dissipation.hpp"
+#include "solid_solver/godunov_sweep.hpp"
+#include "solid_solver/solid_boundary.hpp"
+
+namespace fsi::solid {
+
+template <Law L>
+class SolidComponent {
+ public:
+  SolidComponent(grid::MovingGrid grid, const L& law, const SolidOptions& options, Boundaries boundaries);
+  SolidComponent(const SolidComponent&) = delete;
+  SolidComponent& operator=(const SolidComponent&) = delete;
+
+  const grid::MovingGrid& grid() const { return grid_; }
+  const ReferenceMetrics& metrics() const { return metrics_; }
+  const SolidBoundary<L>& boundary() const { return boundary_; }
+  Layout layout() const { return q_.layout(); }
+  ConstFieldView q() const { return q_.view(); }
+  FieldView q() { return q_.view(); }
+
+  void assign(const StateFunction& state, double t);
+  /// P := P(F(u)) at all points, F by central differences with one-sided ends.
+  void assign_stress();
+  void set_body_force(VectorFunction force);
+  /// Paper eq. (35) to paper eq. (41): the state at t + dt, boundary conditions not applied. On failure the
+  /// state stays.
+  void advance(double t, double dt);
+  void apply_boundary(double t, std::span<const InterfaceValues> projected) {
+    boundary_.apply(q_.view(), t, projected);
+  }
+  /// Wave speeds and health of the present state.
+  void measure() { measured_ = sweep(0.0); }
+  const SweepResult& measured() const { return measured_; }
+  /// F at a point by central differences of u inside, one-sided ones of second order at the sides (no ghost
+  /// points).
+  Tensor2 deformation_gradient(int i, int j) const;
+  /// The point that broke: "point (14, 3): det F = -0.02". Empty when all are well.
+  std::string trouble(double dt) const;
+
+ private:
+  SweepResult sweep(double dt);
+  template <class Row>
+  SweepResult sweep_with(double dt);
+  template <class Row, class Gradient>
+  void dissipate(double dt);
+  void evaluate_force(double t);
+
+  grid::MovingGrid grid_;
+  L law_;
+  SolidOptions options_;
+  ReferenceMetrics metrics_;
+  SolidBoundary<L> boundary_;
+  Field q_, next_, work_, force_;
+  VectorFunction body_force_;
+  SweepResult measured_;
+};
+
+/// Time in which a p-wave of the rest state crosses the smallest cell.
+inline double crossing_time(const ReferenceMetrics& metrics, const Layout& layout, double modulus,
+                            double rho) {
+  double rate = 0;
+  for (int j = 0; j < layout.n2; ++j) {
+    for (int i = 0; i < layout.n1; ++i) {
+      const PointMetrics m = metrics.at(i, j);
+      rate = std::max(rate, m.r1.norm() + m.r2.norm());
+    }
+  }
+  return 1.0 / (rate * std::sqrt(modulus / rho));
+}
+
+template <Law L>
+SolidComponent<L>::SolidComponent(grid::MovingGrid grid, const L& law, const SolidOptions& options,
+                                  Boundaries boundaries)
+    : grid_(std::move(grid)),
+      law_(law),
+      options_(options),
+      metrics_(grid_.x()),
+      boundary_({.name = grid_.name(), .x = grid_.x(), .metrics = &metrics_}, law_, std::move(boundaries),
+                options_.limiter,
+                crossing_time(metrics_, grid_.layout(), law_.lambda + 2.0 * law_.mu, options_.rho)),
+      q_(grid_.layout(), plane::count),
+      next_(grid_.layout(), plane::count),
+      work_(Layout(grid_.layout().n1, sweep_work_rows), 1) {}
+
+template <Law L>
+void SolidComponent<L>::assign(const StateFunction& state, double t) {
+  const ConstFieldView x = grid_.x();
+  for (int j = -Layout::ghosts; j < layout().n2 + Layout::ghosts; ++j) {
+    for (int i = -Layout::ghosts; i < layout().n1 + Layout::ghosts; ++i) {
+      store(q_.view(), layout().at(i, j), state(x(0, i, j), x(1, i, j), t));
+    }
+  }
+}
+
+template <Law L>
+void SolidComponent<L>::assign_stress() {
+  for (int j = 0; j < layout().n2; ++j) {
+    for (int i = 0; i < layout().n1; ++i) {
+      SolidState s = load(q_.view(), layout().at(i, j));
+      s.P = law_.P(deformation_gradient(i, j));
+      store(q_.view(), layout().at(i, j), s);
+    }
+  }
+}
+
+template <Law L>
+void SolidComponent<L>::set_body_force(VectorFunction force) {
+  body_force_ = std::move(force);
+  force_ = body_force_ ? Field(layout(), 2) : Field();
+}
+
+template <Law L>
+void SolidComponent<L>::evaluate_force(double t) {
+  if (!body_force_) return;
+  const ConstFieldView x = grid_.x();
+  for (int j = -1; j <= layout().n2; ++j) {
+    for (int i = -1; i <= layout().n1; ++i) {
+      const Vec2 force = body_force_(x(0, i, j), x(1, i, j), t);
+      force_(0, i, j) = force.x();
+      force_(1, i, j) = force.y();
+    }
+  }
+}
+
+template <Law L>
+template <class Row>
+SweepResult SolidComponent<L>::sweep_with(double dt) {
+  const SweepData data = {.q = q_.view(),
+                          .next = next_.view(),
+                          .force = force_.view(),
+                          .work = work_.view(),
+                          .rho = options_.rho,
+                          .dt = dt};
+  if (options_.limiter == Limiter::minmod)
+    return GodunovSweep<L, Row, Limiter::minmod>(data, metrics_, law_).run();
+  return GodunovSweep<L, Row, Limiter::none>(data, metrics_, law_).run();
+}
+
+template <Law L>
+SweepResult SolidComponent<L>::sweep(double dt) {
+  return metrics_.cartesian() ? sweep_with<CartesianRow>(dt) : sweep_with<MappedRow>(dt);
+}
+
+template <Law L>
+template <class Row, class Gradient>
+void SolidComponent<L>::dissipate(double dt) {
+  const ConstFieldView q = q_.view();
+  const double beta_P = options_.tangential_stress.at(dt), beta_u = options_.displacement.at(dt),
+               beta_r = options_.relaxation.at(dt), bulk = options_.bulk_diffusion * dt;
+  for (int j = 0; j < layout().n2; ++j) {
+    if (beta_P != 0) add_tangential_stress_dissipation<Row>(q, next_.view(), metrics_, beta_P, j);
+    if (beta_u != 0) add_displacement_dissipation(q, next_.view(), beta_u, j);
+    if (beta_r != 0) add_relaxation(q, next_.view(), Gradient(grid_.x(), metrics_, j), law_, beta_r, j);
+    if (bulk != 0) add_bulk_diffusion(q, next_.view(), bulk, j);
+  }
+}
+
+template <Law L>
+void SolidComponent<L>::advance(double t, double dt) {
+  evaluate_force(t + 0.5 * dt);
+  measured_ = sweep(dt);
+  if (measured_.broken > 0) throw NumbersBroke(trouble(dt));
+  if (metrics_.cartesian()) {
+    dissipate<CartesianRow, CartesianGradient4>(dt);
+  } else {
+    dissipate<MappedRow, MappedGradient4>(dt);
+  }
+  std::swap(q_, next_);
+}
+
+template <Law L>
+Tensor2 SolidComponent<L>::deformation_gradient(int i, int j) const {
+  const ConstFieldView q = q_.view();
+  const auto difference = [&](int k, int direction) {
+    const int at = direction == 0 ? i : j, n = direction == 0 ? layout().n1 : layout().n2;
+    const auto value = [&](int m) { return direction == 0 ? q(k, m, j) : q(k, i, m); };
+    if (grid_.periodic(direction) && (at == 0 || at == n - 1)) return 0.5 * (value(1) - value(n - 2));
+    if (at == 0) return 0.5 * (4.0 * (value(1) - value(0)) - (value(2) - value(0)));
+    if (at == n - 1) return -0.5 * (4.0 * (value(n - 2) - value(n - 1)) - (value(n - 3) - value(n - 1)));
+    return 0.5 * (value(at + 1) - value(at - 1));
+  };
+  const PointMetrics m = metrics_.at(i, j);
+  Tensor2 F = {1.0, 0.0, 0.0, 1.0};
+  F = plus_dyad(F, {difference(plane::u1, 0), difference(plane::u2, 0)}, m.r1);
+  return plus_dyad(F, {difference(plane::u1, 1), difference(plane::u2, 1)}, m.r2);
+}
+
+template <Law L>
+std::string SolidComponent<L>::trouble(double dt) const {
+  for (int j = 0; j < layout().n2; ++j) {
+    const StateRows rows(q_.view(), j);
+    for (int i = 0; i < layout().n1; ++i) {
+      const PointMetrics m = metrics_.at(i, j);
+      const Pair d1 = rows.displacement_difference(0, i, 0.5 * dt),
+                 d2 = rows.displacement_difference(1, i, 0.5 * dt);
+      const Tensor2 F = plus_dyad(plus_dyad({1.0, 0.0, 0.0, 1.0}, {d1.x, d2.x}, m.r1), {d1.y, d2.y}, m.r2);
+      const Stiffness K = law_.K(F);
+      const double J = determinant(F);
+      const double phi_s = std::min(wave_eigenvalues(acoustic_matrix(K, m.r1.normalized())).y,
+                                    wave_eigenvalues(acoustic_matrix(K, m.r2.normalized())).y);
+      if (!(J > 0)) return fmt::format("grid \"{}\", point ({}, {}): det F = {:.4g}", grid_.name(), i, j, J);
+      if (!(phi_s > 0)) {
+        return fmt::format("grid \"{}\", point ({}, {}): no longer hyperbolic, phi_s = {:.4g}", grid_.name(),
+                           i, j, phi_s);
+      }
+    }
+  }
+  return fmt::format("grid \"{}\": not a number", grid_.name());
+}
+
+}  // namespace fsi::solid

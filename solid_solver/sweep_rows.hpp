@@ -1,0 +1,116 @@
+#pragma once
+/// Rows of unknowns, faces and stiffnesses as the loops of the sweep see them.
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/core/field.hpp"
+#include "solid_solver/metrics_rows.hpp"
+#include "solid_solver/options.hpp"
+#include "solid_solver/riemann.hpp"
+#include "solid_solver/state.hpp"
+
+namespace fsi::solid {
+
+/// Half of the undivided slope at the middle one of three values.
+template <Limiter limiter>
+inline double half_slope(double lower, double middle, double upper) {
+  if constexpr (limiter == Limiter::none) {
+    return 0.25 * (upper - lower);
+  } else {
+    const double a = middle - lower, b = upper - middle;
+    const double size = 0.5 * std::min(std::abs(a), std::abs(b));
+    return a * b > 0.0 ? std::copysign(size, a) : 0.0;
+  }
+}
+
+/// Row j of all unknowns with its two neighbours.
+struct StateRows {
+  const double *here[plane::count], *below[plane::count], *above[plane::count];
+
+  StateRows(ConstFieldView q, int j) {
+    for (int k = 0; k < plane::count; ++k) {
+      here[k] = q.row(k, j);
+      below[k] = q.row(k, j - 1);
+      above[k] = q.row(k, j + 1);
+    }
+  }
+  /// Half slopes of unknown k along r1 and r2.
+  template <Limiter limiter>
+  Pair half_slopes(int k, int i) const {
+    return {half_slope<limiter>(here[k][i - 1], here[k][i], here[k][i + 1]),
+            half_slope<limiter>(below[k][i], here[k][i], above[k][i])};
+  }
+  /// Central differences of u_k + time * v_k over one index along r1 and r2, k = 0, 1.
+  Pair displacement_difference(int k, int i, double time) const {
+    const int u = plane::u1 + k, v = plane::v1 + k;
+    return {0.5 * ((here[u][i + 1] - here[u][i - 1]) + time * (here[v][i + 1] - here[v][i - 1])),
+            0.5 * ((above[u][i] - below[u][i]) + time * (above[v][i] - below[v][i]))};
+  }
+};
+
+/// F at point i of a row for the displacement u + time * v by second-order differences, paper eq. (33), a
+/// discrete paper eq. (3).
+template <class Row>
+inline Tensor2 deformation_gradient(const Row& row, const StateRows& q, int i, double time) {
+  const Pair d1 = q.displacement_difference(0, i, time), d2 = q.displacement_difference(1, i, time);
+  const Pair g1 = row.gradient(i, d1.x, d1.y), g2 = row.gradient(i, d2.x, d2.y);
+  return {1.0 + g1.x, g1.y, g2.x, 1.0 + g2.y};
+}
+
+/// Velocities and forces along a row of faces.
+struct FaceRows {
+  double *v1, *v2, *f1, *f2;
+
+  void set(int i, double w1, double w2, const Pair& force) const {
+    v1[i] = w1;
+    v2[i] = w2;
+    f1[i] = force.x;
+    f2[i] = force.y;
+  }
+  void set(int i, const FaceState& s) const { set(i, s.v1, s.v2, {s.f1, s.f2}); }
+  FaceState at(int i) const { return {v1[i], v2[i], f1[i], f2[i]}; }
+};
+
+/// Acoustic matrices along a row.
+struct AcousticRows {
+  double *a11, *a12, *a22;
+
+  void set(int i, const SymmetricTensor2& A) const {
+    a11[i] = A.a11;
+    a12[i] = A.a12;
+    a22[i] = A.a22;
+  }
+};
+
+/// Stiffnesses along a row.
+struct StiffnessRows {
+  double *k1111, *k1112, *k1121, *k1122, *k1221, *k1222, *k2112, *k2121, *k2122, *k2222;
+
+  void set(int i, const Stiffness& K) const {
+    k1111[i] = K.k1111;
+    k1112[i] = K.k1112;
+    k1121[i] = K.k1121;
+    k1122[i] = K.k1122;
+    k1221[i] = K.k1221;
+    k1222[i] = K.k1222;
+    k2112[i] = K.k2112;
+    k2121[i] = K.k2121;
+    k2122[i] = K.k2122;
+    k2222[i] = K.k2222;
+  }
+  Stiffness at(int i) const {
+    return {k1111[i], k1112[i], k1121[i], k1122[i], k1221[i],
+            k1222[i], k2112[i], k2121[i], k2122[i], k2222[i]};
+  }
+};
+
+/// Largest and smallest eigenvalue of an acoustic matrix: phi_p and phi_s, paper eq. (16) and the text after
+/// it.
+inline Pair wave_eigenvalues(const SymmetricTensor2& A) {
+  const double mean = 0.5 * (A.a11 + A.a22), difference = 0.5 * (A.a11 - A.a22);
+  const double radius = std::sqrt(difference * difference + A.a12 * A.a12);
+  return {mean + radius, mean - radius};
+}
+
+}  // namespace fsi::solid

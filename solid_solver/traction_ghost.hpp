@@ -1,0 +1,139 @@
+#pragma once
+/// Compatibility of stress and displacement at a boundary point: the derivative of u across a side whose
+/// traction is known, and both derivatives at a corner where two such sides meet.
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <optional>
+
+#include "solid_solver/impedance.hpp"
+#include "solid_solver/state.hpp"
+
+namespace fsi::solid {
+
+inline Vec2 traction_of(const Tensor2& P, const Vec2& n0) {
+  return {n0.x() * P.a11 + n0.y() * P.a21, n0.x() * P.a12 + n0.y() * P.a22};
+}
+
+/// F + d m^T.
+inline Tensor2 plus_dyad(const Tensor2& F, const Vec2& d, const Vec2& m) {
+  return {F.a11 + d.x() * m.x(), F.a12 + d.x() * m.y(), F.a21 + d.y() * m.x(), F.a22 + d.y() * m.y()};
+}
+
+inline Mat2 matrix(const SymmetricTensor2& A) {
+  return (Mat2() << A.a11, A.a12, A.a12, A.a22).finished();
+}
+
+/// What the Newton iterations know of the point.
+struct BoundaryStrain {
+  Tensor2 F;    ///< F without the derivative across the side: I + (du/dalong) (grad along)^T
+  Vec2 across;  ///< gradient of the index across the side
+  Vec2 n0;      ///< outward unit normal
+  double sign;  ///< across = sign |across| n0
+};
+
+/// The derivative d of u over one index across the side for which n0^T P(F + d across^T) = T: paper eq. (43),
+/// solved by Newton's method from `d`. The Jacobian is the acoustic matrix of n0, so it is regular while the
+/// solid is hyperbolic. A step that would turn the material inside out is halved. Nothing when it does not
+/// converge.
+template <Law L>
+std::optional<Vec2> match_traction(const L& law, const BoundaryStrain& at, const Vec2& T, Vec2 d) {
+  constexpr int most_iterations = 30;
+  constexpr double strain_tolerance = 1e-13;
+  const double size = at.across.norm();
+  for (int iteration = 0; iteration < most_iterations; ++iteration) {
+    const Tensor2 F = plus_dyad(at.F, d, at.across);
+    const Mat2 B = matrix(acoustic_matrix(law.K(F), at.n0));
+    const double det = B.determinant();
+    if (!(det > 0)) return std::nullopt;
+    Vec2 step = B.inverse() * (T - traction_of(law.P(F), at.n0)) * (at.sign / size);
+    for (int halving = 0; determinant(plus_dyad(at.F, d + step, at.across)) <= 0 && halving < 40; ++halving) {
+      step *= 0.5;
+    }
+    d += step;
+    if (!d.allFinite()) return std::nullopt;
+    if (step.norm() * size < strain_tolerance) return d;
+  }
+  return std::nullopt;
+}
+
+/// The derivative d of v over one index across the side from the time derivative of paper eq. (43):
+/// n0_i K_ijkl L_kl = dT_j/dt. `along` is L without the derivative across.
+template <Law L>
+Vec2 match_traction_rate(const L& law, const BoundaryStrain& at, const Vec2& d, const Tensor2& along,
+                         const Vec2& T_rate) {
+  const Stiffness K = law.K(plus_dyad(at.F, d, at.across));
+  const Mat2 B = matrix(acoustic_matrix(K, at.n0));
+  return B.inverse() * (T_rate - traction_of(contract(K, along), at.n0)) * (at.sign / at.across.norm());
+}
+
+/// As match_traction, but only the shear: t0 . n0^T P(F) = shear, d changed along t0 only.
+template <Law L>
+std::optional<Vec2> match_shear(const L& law, const BoundaryStrain& at, double shear, Vec2 d) {
+  constexpr int most_iterations = 30;
+  constexpr double strain_tolerance = 1e-13;
+  const double size = at.across.norm();
+  const Vec2 t0(-at.n0.y(), at.n0.x());
+  for (int iteration = 0; iteration < most_iterations; ++iteration) {
+    const Tensor2 F = plus_dyad(at.F, d, at.across);
+    const double stiffness = t0.dot(matrix(acoustic_matrix(law.K(F), at.n0)) * t0);
+    if (!(stiffness > 0)) return std::nullopt;
+    const double step = (shear - t0.dot(traction_of(law.P(F), at.n0))) * at.sign / (stiffness * size);
+    d += step * t0;
+    if (!d.allFinite()) return std::nullopt;
+    if (std::abs(step) * size < strain_tolerance) return d;
+  }
+  return std::nullopt;
+}
+
+/// The least change of `L` that gives K_ijkl L_kl = rate as far as stress can tell: a rotation of the corner
+/// changes no stress of an unloaded objective solid, so the weakest of the four directions is left as it is.
+inline Tensor2 least_change(const Stiffness& K, const Tensor2& defect) {
+  Eigen::Matrix4d M;
+  for (int c = 0; c < 4; ++c) {
+    const Tensor2 e =
+        contract(K, {c == 0 ? 1.0 : 0.0, c == 1 ? 1.0 : 0.0, c == 2 ? 1.0 : 0.0, c == 3 ? 1.0 : 0.0});
+    M.col(c) << e.a11, e.a12, e.a21, e.a22;
+  }
+  const Eigen::JacobiSVD<Eigen::Matrix4d> svd(M, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Eigen::Vector4d y =
+      svd.matrixU().transpose() * Eigen::Vector4d(defect.a11, defect.a12, defect.a21, defect.a22);
+  for (int c = 0; c < 3; ++c) y[c] /= svd.singularValues()[c];
+  y[3] = 0;
+  const Eigen::Vector4d x = svd.matrixV() * y;
+  return {x[0], x[1], x[2], x[3]};
+}
+
+inline Tensor2 minus(const Tensor2& a, const Tensor2& b) {
+  return {a.a11 - b.a11, a.a12 - b.a12, a.a21 - b.a21, a.a22 - b.a22};
+}
+inline Tensor2 plus(const Tensor2& a, const Tensor2& b) {
+  return {a.a11 + b.a11, a.a12 + b.a12, a.a21 + b.a21, a.a22 + b.a22};
+}
+
+/// Corner of two sides with known traction: the F next to the given one for which P(F) is the stress that has
+/// both tractions; four unknowns, Newton's method. The start is returned when it does not converge.
+template <Law L>
+Tensor2 match_corner(const L& law, const Tensor2& P, const Tensor2& start) {
+  constexpr int most_iterations = 20;
+  constexpr double strain_tolerance = 1e-12;
+  Tensor2 F = start;
+  for (int iteration = 0; iteration < most_iterations; ++iteration) {
+    const Tensor2 step = least_change(law.K(F), minus(P, law.P(F)));
+    F = plus(F, step);
+    if (!(determinant(F) > 0)) return start;
+    const double size = std::abs(step.a11) + std::abs(step.a12) + std::abs(step.a21) + std::abs(step.a22);
+    if (size < strain_tolerance) return F;
+  }
+  return start;
+}
+
+/// Stress whose tractions on the normals n1 and n2 are T1 and T2: P = sum of dual normals times tractions.
+inline Tensor2 stress_of_tractions(const Vec2& n1, const Vec2& T1, const Vec2& n2, const Vec2& T2) {
+  const double cross = n1.x() * n2.y() - n1.y() * n2.x();
+  const Vec2 m1 = Vec2(n2.y(), -n2.x()) / cross, m2 = Vec2(-n1.y(), n1.x()) / cross;
+  return {m1.x() * T1.x() + m2.x() * T2.x(), m1.x() * T1.y() + m2.x() * T2.y(),
+          m1.y() * T1.x() + m2.y() * T2.x(), m1.y() * T1.y() + m2.y() * T2.y()};
+}
+
+}  // namespace fsi::solid

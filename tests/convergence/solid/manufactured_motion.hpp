@@ -1,0 +1,64 @@
+#pragma once
+/// A smooth motion written down in closed form, its exact stress, and the body force that makes it a
+/// solution.
+
+#include <cmath>
+
+#include "solid_solver/options.hpp"
+#include "solid_solver/state.hpp"
+
+namespace fsi::solid::test {
+
+/// Motion u1 = a cos(2x + p) cos(2y + q) cos(wt + 0.2), u2 = a cos(2x + q) sin(1.5y + q) cos(wt + 0.9). With
+/// q = 0 the line y = 0 is a slip wall: u2 = 0 and no shear.
+template <Law L>
+class ManufacturedMotion {
+ public:
+  ManufacturedMotion(const L& law, double rho, double q) : law_(law), rho_(rho), q_(q) {}
+
+  Vec2 u(double x, double y, double t) const {
+    return {a * std::cos(2 * x + p) * std::cos(2 * y + q_) * std::cos(w * t + 0.2),
+            a * std::cos(2 * x + q_) * std::sin(1.5 * y + q_) * std::cos(w * t + 0.9)};
+  }
+  Vec2 v(double x, double y, double t) const {
+    return {-w * a * std::cos(2 * x + p) * std::cos(2 * y + q_) * std::sin(w * t + 0.2),
+            -w * a * std::cos(2 * x + q_) * std::sin(1.5 * y + q_) * std::sin(w * t + 0.9)};
+  }
+  Tensor2 F(double x, double y, double t) const {
+    const double c1 = a * std::cos(w * t + 0.2), c2 = a * std::cos(w * t + 0.9);
+    return {1 - 2 * c1 * std::sin(2 * x + p) * std::cos(2 * y + q_),
+            -2 * c1 * std::cos(2 * x + p) * std::sin(2 * y + q_),
+            -2 * c2 * std::sin(2 * x + q_) * std::sin(1.5 * y + q_),
+            1 + 1.5 * c2 * std::cos(2 * x + q_) * std::cos(1.5 * y + q_)};
+  }
+  SolidState state(double x, double y, double t) const {
+    return {.u = u(x, y, t), .v = v(x, y, t), .P = law_.P(F(x, y, t))};
+  }
+  /// rho u_tt - dP_ji/dx_j, the divergence by fourth-order differences of the exact stress.
+  Vec2 force(double x, double y, double t) const {
+    constexpr double h = 2e-3;
+    const auto P = [&](double dx, double dy) { return law_.P(F(x + dx, y + dy, t)); };
+    const Tensor2 e = P(h, 0), o = P(-h, 0), ee = P(2 * h, 0), oo = P(-2 * h, 0);
+    const Tensor2 n = P(0, h), s = P(0, -h), nn = P(0, 2 * h), ss = P(0, -2 * h);
+    const auto d = [](double p1, double m1, double p2, double m2) {
+      return (8 * (p1 - m1) - (p2 - m2)) / (12 * h);
+    };
+    return -rho_ * w * w * u(x, y, t) -
+           Vec2(d(e.a11, o.a11, ee.a11, oo.a11) + d(n.a21, s.a21, nn.a21, ss.a21),
+                d(e.a12, o.a12, ee.a12, oo.a12) + d(n.a22, s.a22, nn.a22, ss.a22));
+  }
+  /// Traction per unit current area on the normal n0: n0^T P over the stretch of the tangent.
+  Vec2 traction(const Vec2& n0, double x, double y, double t) const {
+    const Tensor2 f = F(x, y, t), P = law_.P(f);
+    const double stretch = std::hypot(f.a12 * n0.x() - f.a11 * n0.y(), f.a22 * n0.x() - f.a21 * n0.y());
+    return Vec2(n0.x() * P.a11 + n0.y() * P.a21, n0.x() * P.a12 + n0.y() * P.a22) / stretch;
+  }
+
+  static constexpr double a = 0.03, w = 3.0, p = 0.3;
+
+ private:
+  L law_;
+  double rho_, q_;
+};
+
+}  // namespace fsi::solid::test
