@@ -16,26 +16,17 @@ class Case:
 
     name: str
     text: str
-    fluid: bool
-    solids: dict        # name: law
+    programs: dict      # {participant: executable}, in the order they start
     reference: str      # kind
     expect: list        # of {quantity, max, min, equals}
 
-    def participants(self):
-        """{participant: program}, in the order they start. A case without an interface needs no coupler."""
-        programs = {"fluid": "fluid_solver"} if self.fluid else {}
-        programs |= {name: f"solid_solver_{law}" for name, law in self.solids.items()}
-        if self.fluid and self.solids:
-            programs["coupler"] = "coupler"
-        return programs
-
     def speaker(self):
-        """The participant that reports progress."""
-        return list(self.participants())[-1]
+        """The participant that reports progress: the coupler, or the lone solver."""
+        return list(self.programs)[-1]
 
 
 def _ask(verb, case, overrides, laws):
-    command = [paths.program("fsi_case"), verb, paths.case_file(case)]
+    command = [paths.program("fsi_case"), verb, case]
     command += [f"--set={override}" for override in overrides] + [f"--solid={law}" for law in laws]
     answer = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
     if answer.returncode == 2:
@@ -53,7 +44,6 @@ def check(case, overrides, laws):
 def resolve(case, overrides, laws):
     """The checked Case. Throws UserMistake with file:line:column."""
     answer = json.loads(_ask("resolve", case, overrides, laws))
-    return Case(
-        name=answer["name"], text=answer["resolved"], fluid=bool(answer["fluid"]),
-        solids={solid["name"]: solid["law"] for solid in answer["solids"]},
-        reference=answer["reference"]["kind"], expect=answer["expect"])
+    return Case(name=answer["name"], text=answer["resolved"],
+                programs={entry["name"]: entry["executable"] for entry in answer["participants"]},
+                reference=answer["reference"]["kind"], expect=answer["expect"])

@@ -81,7 +81,7 @@ def _make_directory(request, name):
 def _programs(case, directory, run):
     common = ["--case", str(directory / "case.yaml"), "--run-dir", str(directory), "--run", run]
     return [Program(name, [paths.program(program), *common, "--name", name], listen=name == case.speaker())
-            for name, program in case.participants().items()]
+            for name, program in case.programs.items()]
 
 
 def _reference(case, directory):
@@ -124,7 +124,7 @@ def root_cause(endings, reasons=None):
 
 def _explain(ending, case, directory):
     """(exit code, reason) of the run from the ending that caused it."""
-    program = case.participants().get(ending.name, ending.name)
+    program = case.programs.get(ending.name, ending.name)
     label = ending.name if program == ending.name else f"{ending.name} ({program})"
     if ending.lost():
         name = signal.Signals(-ending.code).name
@@ -134,14 +134,14 @@ def _explain(ending, case, directory):
         return PEER_LOST, f"lost {label}: it did not end by itself"
     reason = _reasons(case, directory).get(ending.name) or _last_line(directory, ending.name)
     code = ending.code if ending.code in range(1, 6) else PEER_LOST
-    if _is_echo(reason, ending.name, case.participants()):
+    if _is_echo(reason, ending.name, case.programs):
         return code, reason
     return code, f"{ending.name}: {reason or f'exit code {ending.code}'}"
 
 
 def _reasons(case, directory):
     """{participant: the reason it left for ending badly}"""
-    return {name: part["reason"] for name, part in summary.read_parts(directory, case.participants()).items()
+    return {name: part["reason"] for name, part in summary.read_parts(directory, case.programs).items()
             if part.get("reason")}
 
 
@@ -154,7 +154,7 @@ def _judge(outcome, case, directory):
     if cause := root_cause(outcome.endings, _reasons(case, directory)):
         code, reason = _explain(cause, case, directory)
         return code, "failed", reason
-    for part in summary.read_parts(directory, case.participants()).values():
+    for part in summary.read_parts(directory, case.programs).values():
         if part.get("status") == "stopped":
             return DONE, "stopped", part.get("reason") or "stopped on request"
     return DONE, "completed", ""
@@ -185,13 +185,13 @@ def _supervise(case, directory, run, progress):
 def run(request):
     """Runs a case to its end. Throws UserMistake before anything is started; everything later is in the Result."""
     case = cases.resolve(request.case, request.overrides, request.laws)
-    for program in case.participants().values():
+    for program in case.programs.values():
         paths.program(program)
     directory = _make_directory(request, case.name)
     (directory / "case.yaml").write_text(case.text, encoding="utf-8")
     identity = f"{case.name}-{time.strftime('%H%M%S')}-{time.time_ns() % 10**9:09d}"
     say = (lambda text: None) if request.quiet else (lambda text: print(text, file=sys.stderr))
-    say(f"{case.name}: {', '.join(case.participants().values())}")
+    say(f"{case.name}: {', '.join(case.programs.values())}")
 
     start = time.monotonic()
     progress = Progress(request.progress and not request.quiet)

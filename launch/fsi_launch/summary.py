@@ -41,7 +41,7 @@ def _ordered(errors):
 
 def merge(directory, case, status, reason, wall_s):
     """The summary of a run, whatever became of it. `case` is the launcher's Case."""
-    participants = case.participants()
+    participants = case.programs
     parts = read_parts(directory, participants)
     speaker = parts.get(case.speaker()) or max(parts.values(), key=lambda part: part.get("t", 0), default={})
     summary = {

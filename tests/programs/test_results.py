@@ -19,7 +19,7 @@ class Results(EndToEnd):
     def test_folder_holds_what_the_documentation_promises(self):
         for name in ("summary.json", "case.yaml", "fluid.h5", "solid_solid.h5", "run.xmf", "interface.csv"):
             self.assertGreater((self.run_.directory / name).stat().st_size, 0, name)
-        self.assertEqual([path.name for path in self.run_.directory.rglob("*.tmp")], [])
+        self.assertEqual([path.name for path in self.run_.directory.rglob("*") if path.suffix in (".tmp", ".part")], [])
 
     def test_summary_has_every_promised_number(self):
         summary = self.run_.summary()

@@ -11,7 +11,8 @@ from fsi_launch.case import Case
 
 
 def piston():
-    return Case(name="piston", text="", fluid=True, solids={"solid": "linear_elastic"}, reference="none", expect=[])
+    programs = {"fluid": "fluid_solver", "solid": "solid_solver_linear_elastic", "coupler": "coupler"}
+    return Case(name="piston", text="", programs=programs, reference="none", expect=[])
 
 
 class Summary(InScratch):
