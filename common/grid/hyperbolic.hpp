@@ -1,0 +1,63 @@
+#pragma once
+/// Grids marched from a curve, line by line (paper section 4.1).
+///
+///     j = 0 ... the curve ... bottom      top: j = n2 - 1 is the curve
+///     lines to the left of the curve      lines to its right
+///
+/// The curve runs along i, its points are line 0 to the bit and keep their index, so that the grids of both
+/// sides of an interface meet point by point. Cells have positive area on either side.
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "common/core/field.hpp"
+#include "common/core/types.hpp"
+#include "common/grid/interface_geometry.hpp"
+#include "common/grid/line_solver.hpp"
+
+namespace fsi::grid {
+
+struct HyperbolicGrid {
+  std::string name = "grid";
+  int points = 0;             ///< along the curve; closed: the last one is the first one
+  int lines = 0;              ///< the curve included
+  Side curve = Side::bottom;  ///< bottom: marches to the curve's left; top: to its right
+  Curve ends = Curve::closed;
+  double spacing = 0;  ///< distance of the first line from the curve
+  double growth = 1;   ///< ratio of successive distances [-]
+  /// Open: direction of the wall on which an end slides, at the first and at the last point; without one the end goes
+  /// along the curve's normal.
+  std::array<std::optional<Vec2>, 2> walls;
+  double smoothing = 0.1;       ///< eps of x_rr, for lines as far apart as the points are [-]
+  double end_smoothing = 0.01;  ///< the same at the ends
+  int sweeps = 20;              ///< of the local arclength [-]
+  int blend = 5;                ///< points over which normals turn into the wall's direction
+};
+
+/// Marches grids of one description; owns the work memory, so that a march allocates nothing.
+class HyperbolicMarch {
+ public:
+  /// @throws UserMistake where the description is out of range
+  explicit HyperbolicMarch(HyperbolicGrid grid);
+
+  const HyperbolicGrid& grid() const { return grid_; }
+  Layout layout() const { return {grid_.points, grid_.lines}; }
+  /// Sum of the nominal distances.
+  double depth() const;
+
+  /// Fills x (planes x1, x2, ghost lines included) from the points of the curve, 2 n component-major.
+  /// Ghosts: periodic or third-order extrapolation. @throws NumbersBroke at a folded cell
+  void march(std::span<const double> curve, FieldView x, double t);
+
+ private:
+  HyperbolicGrid grid_;
+  LineSolver solver_;
+  std::vector<double> work_;
+
+  void advance_line(ConstFieldView x, FieldView x_next, int line, double d);
+};
+
+}  // namespace fsi::grid
