@@ -17,8 +17,6 @@ namespace fsi::bus {
 
 namespace {
 
-constexpr double leave_patience_s = 1;
-
 std::string label_of(const std::string& role, const std::string& name) {
   return role == name ? name : fmt::format("{} '{}'", role, name);
 }
@@ -303,10 +301,11 @@ struct CouplerSession::Implementation {
     }
   }
 
-  void leave() {
-    welcome_writer.arrived(leave_patience_s);
+  void leave() const {
+    const auto start = Clock::now();
+    link.wait_for_arrival(start, welcome_writer);
     for (const Member& member : members) {
-      for (const Channel& channel : member.channels) channel.writer.arrived(leave_patience_s);
+      for (const Channel& channel : member.channels) link.wait_for_arrival(start, channel.writer);
     }
   }
 

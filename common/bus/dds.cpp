@@ -52,6 +52,15 @@ struct OpenDomain {
   std::weak_ptr<const Entity> entity;
 };
 
+/// A machine has places for 32 programs in one domain; past them, creation fails.
+dds_entity_t checked_place(dds_entity_t handle, const std::string& run) {
+  if (handle >= 0) return handle;
+  throw PeerLost(fmt::format(
+      "cannot join run '{}' on the bus: {} ({}). Domain {} of this machine may be full (32 programs): end "
+      "other runs, or give this run another name",
+      run, dds_strretcode(handle), last_log_line(), domain_of(run)));
+}
+
 }  // namespace
 
 dds_return_t checked(dds_return_t result, const std::string& doing) {
@@ -77,23 +86,16 @@ std::shared_ptr<const Entity> join_domain(const std::string& run, double partici
                   fmt::format("bus: runs '{}' and '{}' share a domain and cannot live in one process", run,
                               domain.run));
   }
+  const std::uint32_t id = domain_of(run);
   const dds_entity_t handle =
-      dds_create_domain(domain_of(run), configuration_xml(run, participant_lease_s).c_str());
-  auto entity =
-      std::make_shared<const Entity>(handle, fmt::format("domain {} of run '{}'", domain_of(run), run));
+      checked_place(dds_create_domain(id, configuration_xml(run, participant_lease_s).c_str()), run);
+  auto entity = std::make_shared<const Entity>(handle, "domain");
   domain = {run, entity};
   return entity;
 }
 
 Entity create_participant(const std::string& run) {
-  const dds_entity_t handle = dds_create_participant(domain_of(run), nullptr, nullptr);
-  if (handle < 0) {
-    throw PeerLost(
-        fmt::format("cannot join run '{}' on the bus: {} ({}). Domain {} of this machine may be full (32 "
-                    "programs): end other runs or choose another run name",
-                    run, dds_strretcode(handle), last_log_line(), domain_of(run)));
-  }
-  return {handle, "participant"};
+  return {checked_place(dds_create_participant(domain_of(run), nullptr, nullptr), run), "participant"};
 }
 
 Qos writer_qos(Delivery delivery) {
@@ -150,8 +152,12 @@ std::string topic_name(const std::string& kind, const std::vector<std::string>& 
   for (const std::string& part : parts) {
     name += '/';
     for (const char c : part) {
-      const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-';
-      name += plain ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
+      const auto byte = static_cast<unsigned char>(c);
+      if (std::isalnum(byte) != 0) {
+        name += c;
+      } else {
+        name += c == '_' ? "__" : fmt::format("_{:02X}", byte);
+      }
     }
   }
   return name;

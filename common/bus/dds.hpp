@@ -63,7 +63,8 @@ std::string last_log_line();
 /// "type" or the name of a QoS policy, by DDS's number for it.
 std::string policy_name(std::uint32_t policy);
 
-/// Topic name with every character but letters, digits, '_' and '-' of the parts as %XX.
+/// Topic name from the names of a participant and an interface. DDS allows letters, digits and '_' only: in
+/// the parts '_' is doubled and every other character becomes _XX (hexadecimal).
 std::string topic_name(const std::string& kind, const std::vector<std::string>& parts = {});
 
 template <class T>

@@ -12,7 +12,7 @@ namespace fsi::bus {
 namespace {
 
 /// An Abort must not be lost, but a dead peer must not hold up the end either [s].
-constexpr double abort_patience_s = 0.5;
+constexpr double abort_patience_s = 0.3;
 /// Cyclone forgets a silent participant after this time [s]; it must outlive `peer_timeout`.
 constexpr double shortest_participant_lease_s = 10;
 
@@ -71,9 +71,9 @@ void Link::sleep(double seconds) {
 void Link::check_aborts() {
   wire::Abort heard;
   abort_reader_.take([&](const amp_fsi_Abort& sample) {
-    if (abort_heard_ || !same(sample.run, options_.run)) return;
+    if (aborted_ || !same(sample.run, options_.run)) return;
     copy(sample, heard);
-    abort_heard_ = true;
+    aborted_ = true;
   });
   if (!heard.from.empty()) throw Failure(exit_code_of(heard.exit_code), heard.from + ": " + heard.reason);
 }
@@ -98,7 +98,8 @@ void Link::publish(wire::Telemetry telemetry) {
 }
 
 void Link::abort(ExitCode code, const std::string& reason) noexcept {
-  if (abort_heard_) return;
+  if (aborted_) return;
+  aborted_ = true;
   try {
     const wire::Abort message{
         .run = options_.run, .from = name_, .exit_code = static_cast<std::int32_t>(code), .reason = reason};

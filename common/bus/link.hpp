@@ -1,6 +1,7 @@
 #pragma once
 /// What every seat at the bus has: domain, waiting, aborts, telemetry, statistics.
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <memory>
@@ -44,6 +45,8 @@ class Link {
  public:
   /// Longest sleep without looking at signals, aborts and peers [s].
   static constexpr double slice_s = 0.1;
+  /// Longest wait for the last messages to arrive when leaving [s].
+  static constexpr double leave_patience_s = 1;
 
   Link(BusOptions options, std::string role, std::string name);
 
@@ -58,6 +61,12 @@ class Link {
   bool telemetry_due() const { return since(last_telemetry_) > slice_s; }
   void publish(wire::Telemetry telemetry);
   void abort(ExitCode code, const std::string& reason) noexcept;
+  /// Waits until what the writers sent has arrived, but not for long, and not at all when the run was
+  /// aborted.
+  template <class... Writers>
+  void wait_for_arrival(Clock::time_point start, const Writers&... writers) const {
+    if (!aborted_) (writers.arrived(std::max(0.0, leave_patience_s - since(start))), ...);
+  }
 
   const Entity& participant() const { return participant_; }
   Waitset& waitset() { return waitset_; }
@@ -76,7 +85,7 @@ class Link {
   Reader<amp_fsi_Abort> abort_reader_;
   Writer<amp_fsi_Abort> abort_writer_;
   Writer<amp_fsi_Telemetry> telemetry_writer_;
-  bool abort_heard_ = false;
+  bool aborted_ = false;  ///< somebody's Abort was heard, or ours was sent
   Clock::time_point last_telemetry_{}, last_check_{};
   Statistics statistics_;
   RoundTrips round_trips_;

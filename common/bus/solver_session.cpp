@@ -18,7 +18,6 @@ namespace {
 
 /// The coupler notices first who is missing and says so; only then does a solver give up on it [s].
 constexpr double later_than_coupler_s = 2;
-constexpr double leave_patience_s = 1;
 
 /// One interface: what goes out and what comes in.
 struct Channel {
@@ -187,9 +186,10 @@ struct SolverSession::Implementation {
     return channel.incoming;
   }
 
-  void leave() {
-    hello_writer.arrived(leave_patience_s);
-    for (const Channel& channel : channels) channel.writer.arrived(leave_patience_s);
+  void leave() const {
+    const auto start = Clock::now();
+    link.wait_for_arrival(start, hello_writer);
+    for (const Channel& channel : channels) link.wait_for_arrival(start, channel.writer);
   }
 
   wire::Hello self;

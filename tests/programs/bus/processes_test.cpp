@@ -3,7 +3,7 @@
 
 #include "tests/programs/bus/processes.hpp"
 
-#include <thread>
+#include <memory>
 
 #include "common/bus/listener.hpp"
 #include "tests/unit/bus/seats.hpp"
@@ -54,8 +54,8 @@ void couple(const BusOptions& options, std::uint64_t steps, std::size_t points, 
 }
 
 /// Gas, solid and coupler of one run, each a process.
-struct Run {
-  explicit Run(const BusOptions& options, std::uint64_t steps = endless, std::size_t points = 3)
+struct Trio {
+  explicit Trio(const BusOptions& options, std::uint64_t steps = endless, std::size_t points = 3)
       : fluid([=](const auto& say) { solve(options, gas(points), steps, points, say); }),
         beam([=](const auto& say) { solve(options, solid(points), steps, points, say); }),
         coupler([=](const auto& say) { couple(options, steps, points, say); }) {}
@@ -70,7 +70,7 @@ struct Run {
 class Exchanging : public testing::TestWithParam<std::size_t> {};
 
 TEST_P(Exchanging, ThousandStepsArriveCompleteAndInOrder) {
-  Run run(options(own_run()), 1000, GetParam());
+  Trio run(options(own_run()), 1000, GetParam());
   for (Process* process : {&run.fluid, &run.beam, &run.coupler})
     EXPECT_EQ(process->end(100), 0) << process->hear();
 }
@@ -80,7 +80,7 @@ INSTANTIATE_TEST_SUITE_P(Points, Exchanging, testing::Values(100, 1000, 10000));
 class Killing : public testing::TestWithParam<const char*> {};
 
 TEST_P(Killing, NamesTheVictimWithinTwoSecondsAndEndsTheOthersWithCode4) {
-  Run run(options(own_run()));
+  Trio run(options(own_run()));
   run.wait_until_begun();
   const std::string victim_name = GetParam();
   Process& victim = victim_name == "fluid" ? run.fluid : victim_name == "beam" ? run.beam : run.coupler;
@@ -97,7 +97,7 @@ TEST_P(Killing, NamesTheVictimWithinTwoSecondsAndEndsTheOthersWithCode4) {
 INSTANTIATE_TEST_SUITE_P(Programs, Killing, testing::Values("fluid", "beam", "coupler"));
 
 TEST(Stopping, ShortStopOnlyDelaysTheRun) {
-  Run run(options(own_run()), 3000);
+  Trio run(options(own_run()), 3000);
   run.wait_until_begun();
   run.beam.send(SIGSTOP);
   usleep(1500000);  // five leases, less than the peer timeout
@@ -109,7 +109,7 @@ TEST(Stopping, ShortStopOnlyDelaysTheRun) {
 TEST(Stopping, LongStopIsASilentPeer) {
   BusOptions impatient = options(own_run());
   impatient.peer_timeout_s = 1;
-  Run run(impatient);
+  Trio run(impatient);
   run.wait_until_begun();
   run.beam.send(SIGSTOP);
   for (Process* process : {&run.fluid, &run.coupler}) {
@@ -128,7 +128,7 @@ TEST(Watching, FrozenMonitorDoesNotHoldUpTheRun) {
     say("listening");
     while (true) listener.wait(1);
   });
-  Run run(options(run_id), 2000, 1000);
+  Trio run(options(run_id), 2000, 1000);
   ASSERT_EQ(monitor.hear(), "listening");
   monitor.send(SIGSTOP);
   for (Process* process : {&run.fluid, &run.beam, &run.coupler})
@@ -140,7 +140,7 @@ TEST(SideBySide, RunsInOneDomainDoNotSeeEachOther) {
   std::string other;
   for (int k = 0; domain_of(other) != domain_of(one) || other.empty(); ++k)
     other = fmt::format("{}/{}", one, k);
-  Run first(options(one), 500), second(options(other), 500);
+  Trio first(options(one), 500), second(options(other), 500);
   Process lonely([=](const auto&) { EXPECT_THROW(send_control(one + ".", "stop", 0.3), PeerLost); });
   for (Process* process :
        {&first.fluid, &first.beam, &first.coupler, &second.fluid, &second.beam, &second.coupler}) {
@@ -172,18 +172,18 @@ TEST(Interrupting, WaitEndsWithTheSignalsOwnCodeAndTheOthersLearnIt) {
 TEST(Crowding, FullDomainIsSaidInWords) {
   const std::string run = own_run();
   std::vector<std::unique_ptr<Process>> crowd;
-  for (int k = 0; k < 32; ++k) {
+  std::string word = "here";
+  while (word == "here" && crowd.size() < 40) {
     crowd.push_back(std::make_unique<Process>([=](const auto& say) {
       const Listener listener(run);
       say("here");
       pause();
     }));
+    word = crowd.back()->hear();
   }
-  for (const auto& one : crowd) ASSERT_EQ(one->hear(), "here");
-  Process last([=](const auto&) { const Listener listener(run); });
-  EXPECT_NE(last.end(20), 0);
-  const std::string reason = last.hear();
-  EXPECT_TRUE(says(reason, "may be full")) << reason;
+  EXPECT_GT(crowd.size(), 16U);  // others may use ports of this domain, but not half of them
+  EXPECT_TRUE(says(word, "may be full")) << word;
+  EXPECT_EQ(crowd.back()->end(20), 4);
 }
 
 }  // namespace

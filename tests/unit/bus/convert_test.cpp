@@ -1,0 +1,192 @@
+/// Plain structures survive the way into the IDL types and back; odd names make valid topics.
+
+#include "common/bus/convert.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "common/bus/dds.hpp"
+#include "common/bus/lengths.hpp"
+#include "common/bus/options.hpp"
+#include "common/core/failure.hpp"
+
+namespace fsi::bus {
+namespace {
+
+/// There and back.
+template <class Message>
+Message carried(const Message& message) {
+  const auto sample = borrow(message);
+  Message result;
+  if constexpr (requires { sample.parts; }) {
+    copy(sample.sample, result);
+  } else {
+    copy(sample, result);
+  }
+  return result;
+}
+
+TEST(Convert, PredictedStateKeepsEveryField) {
+  const wire::PredictedInterface out{
+      .run = "r",
+      .from = "beam",
+      .interface = "i",
+      .step = 9,
+      .t = 1,
+      .dt_bid = 2,
+      .dt_reason = "why",
+      .x = {1, 2},
+      .v = {3},
+      .w = {4},
+      .p = {5},
+      .z_f = {6},
+      .Z = {7, 8, 9},
+      .z_p = 10,
+      .fixed = {1, 0},
+      .p_e = 11,
+      .modal = {.modes = 1, .M = {12}, .N = {13}, .q_dot = {14}, .f_own = {15}},
+      .health = {16, 17, 18, 19, 20},
+      .compute_s = 21,
+      .wait_s = 22,
+      .mass = 23,
+      .energy = 24,
+      .momentum1 = 25,
+      .momentum2 = 26,
+      .angular_momentum = 27};
+  const wire::PredictedInterface in = carried(out);
+  EXPECT_EQ(std::tie(in.run, in.from, in.interface, in.step, in.t, in.dt_bid, in.dt_reason),
+            std::tie(out.run, out.from, out.interface, out.step, out.t, out.dt_bid, out.dt_reason));
+  EXPECT_EQ(std::tie(in.x, in.v, in.w, in.p, in.z_f, in.Z, in.z_p, in.fixed, in.p_e),
+            std::tie(out.x, out.v, out.w, out.p, out.z_f, out.Z, out.z_p, out.fixed, out.p_e));
+  EXPECT_EQ(std::tie(in.modal.modes, in.modal.M, in.modal.N, in.modal.q_dot, in.modal.f_own),
+            std::tie(out.modal.modes, out.modal.M, out.modal.N, out.modal.q_dot, out.modal.f_own));
+  EXPECT_EQ(std::tie(in.health.min_rho, in.health.min_p, in.health.min_det_F, in.health.first_order_fallbacks,
+                     in.health.floors),
+            std::tie(out.health.min_rho, out.health.min_p, out.health.min_det_F,
+                     out.health.first_order_fallbacks, out.health.floors));
+  EXPECT_EQ(
+      std::tie(in.compute_s, in.wait_s, in.mass, in.energy, in.momentum1, in.momentum2, in.angular_momentum),
+      std::tie(out.compute_s, out.wait_s, out.mass, out.energy, out.momentum1, out.momentum2,
+               out.angular_momentum));
+}
+
+TEST(Convert, ProjectedStateKeepsEveryField) {
+  const wire::ProjectedInterface out{.run = "r",
+                                     .to = "beam",
+                                     .interface = "i",
+                                     .step = 9,
+                                     .t = 1,
+                                     .n = {2, 3},
+                                     .v_n = {4},
+                                     .w_n = {5},
+                                     .v = {6, 7},
+                                     .a = {8},
+                                     .z_f = {9},
+                                     .robin_t = {10, 11},
+                                     .robin_r = {12, 13},
+                                     .dt_next = 14,
+                                     .t_next = 15,
+                                     .substeps_next = 16,
+                                     .x_next = {17},
+                                     .write_output = true,
+                                     .write_checkpoint = true,
+                                     .stop = true,
+                                     .stop_reason = "end"};
+  const wire::ProjectedInterface in = carried(out);
+  EXPECT_EQ(std::tie(in.run, in.to, in.interface, in.step, in.t, in.n, in.v_n, in.w_n, in.v, in.a, in.z_f),
+            std::tie(out.run, out.to, out.interface, out.step, out.t, out.n, out.v_n, out.w_n, out.v, out.a,
+                     out.z_f));
+  EXPECT_EQ(std::tie(in.robin_t, in.robin_r, in.dt_next, in.t_next, in.substeps_next, in.x_next,
+                     in.write_output, in.write_checkpoint, in.stop, in.stop_reason),
+            std::tie(out.robin_t, out.robin_r, out.dt_next, out.t_next, out.substeps_next, out.x_next,
+                     out.write_output, out.write_checkpoint, out.stop, out.stop_reason));
+}
+
+TEST(Convert, HelloAndTelemetryKeepTheirInterfaces) {
+  const wire::Hello hello{.run = "r",
+                          .role = "solid",
+                          .name = "beam",
+                          .law = "neo",
+                          .config_digest = "d",
+                          .host = "h",
+                          .pid = 3,
+                          .points = 4,
+                          .interfaces = {{.name = "a", .dimension = 2, .x = {1, 2}, .n = {0, 1}},
+                                         {.name = "b", .dimension = 1, .x = {3}, .n = {}}}};
+  const wire::Hello in = carried(hello);
+  ASSERT_EQ(in.interfaces.size(), 2U);
+  EXPECT_EQ(in.interfaces[0].n, hello.interfaces[0].n);
+  EXPECT_EQ(in.interfaces[1].x, hello.interfaces[1].x);
+  EXPECT_EQ(std::tie(in.run, in.role, in.name, in.law, in.config_digest, in.host, in.pid, in.points),
+            std::tie(hello.run, hello.role, hello.name, hello.law, hello.config_digest, hello.host, hello.pid,
+                     hello.points));
+
+  wire::Telemetry telemetry{.run = "r",
+                            .from = "coupler",
+                            .role = "coupler",
+                            .state = "waiting",
+                            .step = 1,
+                            .t = 2,
+                            .t_end = 3,
+                            .dt = 4,
+                            .dt_reason = "gas",
+                            .compute_s = 5,
+                            .wait_s = 6,
+                            .point_updates_per_s = 7,
+                            .health = {1, 2, 3, 4, 5},
+                            .messages = 8,
+                            .bytes = 9,
+                            .round_trip_p50_us = 10,
+                            .round_trip_p99_us = 11,
+                            .interfaces = {}};
+  telemetry.interfaces.push_back({"beam", 1, 2, 3, 4, {5}, {6}, {7}, {8}, {9}});
+  const wire::Telemetry shown = carried(telemetry);
+  ASSERT_EQ(shown.interfaces.size(), 1U);
+  EXPECT_EQ(shown.interfaces[0].v_projected, telemetry.interfaces[0].v_projected);
+  EXPECT_EQ(shown.interfaces[0].gap, 3);
+  EXPECT_EQ(shown.round_trip_p99_us, 11);
+  EXPECT_EQ(shown.health.floors, 5U);
+}
+
+TEST(Convert, OutgoingArraysAreBorrowedNotCopied) {
+  wire::PredictedInterface state;
+  state.x = {1, 2, 3};
+  const amp_fsi_PredictedInterface sample = borrow(state);
+  EXPECT_EQ(sample.x._buffer, state.x.data());
+  EXPECT_FALSE(sample.x._release);
+}
+
+TEST(Topics, OddNamesNeitherCollideNorLeaveTheAlphabet) {
+  const std::set<std::string> names = {
+      topic_name("predicted", {"a/b", "c"}), topic_name("predicted", {"a", "b/c"}),
+      topic_name("predicted", {"a b", "c"}), topic_name("predicted", {"a_20b", "c"})};
+  EXPECT_EQ(names.size(), 4U);
+  EXPECT_EQ(topic_name("predicted", {"a b", "c_d"}), "amp_fsi/predicted/a_20b/c__d");
+}
+
+TEST(Topics, DomainOfAnyRunLiesBelowTheEphemeralPorts) {
+  for (int k = 0; k < 1000; ++k) {
+    const std::uint32_t domain = domain_of("run " + std::to_string(k));
+    EXPECT_GE(domain, 1U);
+    EXPECT_LE(domain, 100U);
+  }
+}
+
+TEST(Lengths, AbsurdModesAndRobinLevelsAreRefused) {
+  const InterfaceSize size{.points = 2, .dimension = 2};
+  wire::PredictedInterface predicted;
+  predicted.modal.modes = 1000000;
+  EXPECT_THROW(check_lengths(predicted, size), PeerLost);
+  predicted.modal.modes = -1;
+  EXPECT_THROW(check_lengths(predicted, size), PeerLost);
+  wire::ProjectedInterface projected;
+  projected.robin_t = {0, 1};
+  projected.robin_r = {1, 2, 3};
+  EXPECT_THROW(check_lengths(projected, size), PeerLost);
+  projected.robin_r = {1, 2, 3, 4};
+  EXPECT_NO_THROW(check_lengths(projected, size));
+}
+
+}  // namespace
+}  // namespace fsi::bus

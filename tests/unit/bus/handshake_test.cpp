@@ -1,0 +1,137 @@
+/// How programs find each other at the beginning of a run, and what they say when they do not.
+
+#include <chrono>
+#include <thread>
+
+#include "common/bus/convert.hpp"
+#include "common/bus/dds.hpp"
+#include "tests/unit/bus/seats.hpp"
+
+namespace fsi::bus::test {
+namespace {
+
+using namespace std::chrono_literals;
+
+TEST(Handshake, CouplerHearsThoseWhoCameBeforeAndAfterIt) {
+  const std::string run = own_run();
+  auto early = in_thread([&] { const SolverSession session(options(run), gas(5)); });
+  std::this_thread::sleep_for(300ms);
+  auto late = in_thread([&] {
+    std::this_thread::sleep_for(600ms);
+    const SolverSession session(options(run), solid(7));
+  });
+  const CouplerSession coupler(options(run), gas_and_solid(), "one case");
+  EXPECT_EQ(early.get().reason, "");
+  EXPECT_EQ(late.get().reason, "");
+  ASSERT_EQ(coupler.hellos().size(), 2U);
+  EXPECT_EQ(coupler.hellos()[0].name, "fluid");
+  EXPECT_EQ(coupler.hellos()[1].interfaces[0].x, std::vector<double>(14, 0.5));
+  EXPECT_EQ(coupler.hellos()[1].pid, getpid());
+}
+
+TEST(Handshake, SolverOfAnotherCaseIsTurnedAwayByName) {
+  const std::string run = own_run();
+  auto fluid = in_thread([&] { const SolverSession session(options(run), gas()); });
+  auto beam = in_thread([&] {
+    wire::Hello hello = solid();
+    hello.config_digest = "another case";
+    const SolverSession session(options(run), hello);
+  });
+  auto coupler = in_thread([&] { const CouplerSession session(options(run), gas_and_solid(), "one case"); });
+  for (const End& end : {coupler.get(), fluid.get(), beam.get()}) {
+    EXPECT_EQ(end.code, ExitCode::peer_lost);
+    EXPECT_TRUE(says(end.reason, "solid 'beam' read another case")) << end.reason;
+  }
+}
+
+TEST(Handshake, SolverOfAnotherProtocolIsTurnedAwayByName) {
+  const std::string run = own_run();
+  auto fluid = in_thread([&] {
+    wire::Hello hello = gas();
+    hello.protocol = wire::protocol_version + 1;
+    const SolverSession session(options(run), hello);
+  });
+  auto coupler = in_thread(
+      [&] { const CouplerSession session(options(run), {{.role = "fluid", .name = "fluid"}}, "one case"); });
+  const End end = coupler.get();
+  EXPECT_EQ(end.code, ExitCode::peer_lost);
+  EXPECT_TRUE(says(end.reason, "protocol")) << end.reason;
+  EXPECT_EQ(fluid.get().code, ExitCode::peer_lost);
+}
+
+TEST(Handshake, WhoeverIsMissingIsNamedToEverybody) {
+  const std::string run = own_run();
+  BusOptions impatient = options(run);
+  impatient.hello_timeout_s = 0.5;
+  auto fluid = in_thread([&] { const SolverSession session(impatient, gas()); });
+  auto stranger = in_thread([&] { const SolverSession session(impatient, hello("solid", "plate")); });
+  auto coupler = in_thread([&] { const CouplerSession session(impatient, gas_and_solid(), "one case"); });
+  const End end = coupler.get();
+  EXPECT_EQ(end.code, ExitCode::peer_lost);
+  EXPECT_TRUE(says(end.reason, "solid 'beam' did not join")) << end.reason;
+  EXPECT_TRUE(says(end.reason, "not expected: solid 'plate'")) << end.reason;
+  EXPECT_TRUE(says(fluid.get().reason, "solid 'beam' did not join"));
+  EXPECT_EQ(stranger.get().code, ExitCode::peer_lost);
+}
+
+TEST(Handshake, SolverWithoutACouplerGivesUpAndSaysSo) {
+  BusOptions impatient = options(own_run());
+  impatient.hello_timeout_s = 0;
+  auto fluid = in_thread([&] { const SolverSession session(impatient, gas()); });
+  const End end = fluid.get();
+  EXPECT_EQ(end.code, ExitCode::peer_lost);
+  EXPECT_TRUE(says(end.reason, "coupler is missing")) << end.reason;
+}
+
+TEST(Handshake, ProgramOfAnotherVersionOfTheTypesIsToldApartInWords) {
+  const std::string run = own_run();
+  const auto domain = join_domain(run, 10);
+  const Entity participant = create_participant(run);
+  const Writer<amp_fsi_Control> wrong_type(participant, "amp_fsi/hello", Delivery::lasting);
+  auto coupler = in_thread([&] { const CouplerSession session(options(run), gas_and_solid(), "one case"); });
+  const End end = coupler.get();
+  EXPECT_EQ(end.code, ExitCode::peer_lost);
+  EXPECT_TRUE(says(end.reason, "message type")) << end.reason;
+}
+
+TEST(Handshake, InterfaceOfImpossibleDimensionIsTurnedAway) {
+  const std::string run = own_run();
+  const auto domain = join_domain(run, 10);
+  const Entity participant = create_participant(run);
+  Writer<amp_fsi_Hello> stranger(participant, "amp_fsi/hello", Delivery::lasting);
+  wire::Hello bad = gas();
+  bad.run = run;
+  bad.interfaces[0].dimension = 2000000000;
+  stranger.write(borrow(bad).sample);
+  auto coupler = in_thread([&] { const CouplerSession session(options(run), gas_and_solid(), "one case"); });
+  const End end = coupler.get();
+  EXPECT_EQ(end.code, ExitCode::peer_lost);
+  EXPECT_TRUE(says(end.reason, "dimension = 2000000000")) << end.reason;
+}
+
+TEST(Handshake, TwoProgramsOfOneNameAreRefused) {
+  const std::string run = own_run();
+  const auto domain = join_domain(run, 10);
+  const Entity participant = create_participant(run);
+  Writer<amp_fsi_Hello> twins(participant, "amp_fsi/hello", Delivery::lasting);
+  wire::Hello twin = gas();
+  twin.run = run;
+  for (const int pid : {1, 2}) {
+    twin.pid = pid;
+    twins.write(borrow(twin).sample);
+  }
+  auto coupler = in_thread([&] { const CouplerSession session(options(run), gas_and_solid(), "one case"); });
+  const End end = coupler.get();
+  EXPECT_EQ(end.code, ExitCode::user_mistake);
+  EXPECT_TRUE(says(end.reason, "two programs call themselves fluid")) << end.reason;
+}
+
+TEST(Handshake, WaitingEndsByTheCallersOwnException) {
+  BusOptions interrupted = options(own_run());
+  interrupted.throw_if_interrupted = [] { throw Failure(ExitCode::terminated, "ended on request"); };
+  auto fluid = in_thread([&] { const SolverSession session(interrupted, gas()); });
+  EXPECT_EQ(fluid.get().code, ExitCode::terminated);
+}
+
+}  // namespace
+}  // namespace fsi::bus::test
