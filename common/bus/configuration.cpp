@@ -61,6 +61,7 @@ std::string configuration_xml(const std::string& run, double participant_lease_s
     <Watermarks><WhcHigh>64MB</WhcHigh><WhcHighInit>64MB</WhcHighInit></Watermarks>
     <SocketReceiveBufferSize min="default" max="8MB"/>
     <NackDelay>1ms</NackDelay>
+    <WriterLingerDuration>20ms</WriterLingerDuration>
     <HeartbeatInterval min="1ms" minsched="2ms">10ms</HeartbeatInterval>
   </Internal>
 </Domain></CycloneDDS>)",
