@@ -57,6 +57,24 @@ std::pair<std::string, std::string> split_at_equals(const std::string& text, con
   return {text.substr(0, equals), text.substr(equals + 1)};
 }
 
+/// Words of a dotted key. The names in `expect` have dots of their own: expect.errors.rho.max is expect,
+/// errors.rho, max.
+std::vector<std::string> words_of(const std::string& key) {
+  std::vector<std::string> words;
+  std::size_t begin = 0;
+  for (std::size_t dot = key.find('.'); dot != std::string::npos; dot = key.find('.', begin)) {
+    words.push_back(key.substr(begin, dot - begin));
+    begin = dot + 1;
+  }
+  words.push_back(key.substr(begin));
+  if (words.front() != "expect" || words.size() < 3) return words;
+  const bool is_limit = words.back() == "max" || words.back() == "min" || words.back() == "equals";
+  const auto name_end = is_limit ? words.end() - 1 : words.end();
+  std::vector<std::string> result{"expect", fmt::format("{}", fmt::join(words.begin() + 1, name_end, "."))};
+  result.insert(result.end(), name_end, words.end());
+  return result;
+}
+
 void apply_options(Node& root, const std::vector<std::string>& overrides,
                    const std::vector<std::string>& laws) {
   for (const std::string& text : overrides) {
@@ -64,13 +82,13 @@ void apply_options(Node& root, const std::vector<std::string>& overrides,
     const std::string option = "--set " + shown(key);
     require_known_name(root, key, "parameters", option);
     require_known_name(root, key, "solids", option);
-    config::assign(root, key, value, option);
+    config::assign(root, words_of(key), value, option);
   }
   for (const std::string& text : laws) {
     const auto [name, law] = split_at_equals(text, "--solid", "--solid NAME=LAW");
     const std::string option = "--solid " + shown(text);
     require_known_name(root, "solids." + name, "solids", option);
-    config::assign(root, "solids." + name + ".law", law, option);
+    config::assign(root, {"solids", name, "law"}, law, option);
   }
 }
 

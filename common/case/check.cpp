@@ -48,47 +48,73 @@ Vec2 side_point(const GridSpec& grid, Side side, int k) {
   return direction_of(side) == 0 ? position(grid, end, k, 0) : position(grid, k, end, 0);
 }
 
-/// Both triangles of every cell have positive area. Sampled at every cell: an unsound map costs one look, not
-/// a run.
+/// The cells of a sample have positive area: a map that folds costs one look, not a run.
 void check_grid(const GridSpec& grid, const Node& node, const std::string& path) {
-  constexpr int most_samples = 64;
-  const int step1 = std::max(1, (grid.n1 - 1) / most_samples);
-  const int step2 = std::max(1, (grid.n2 - 1) / most_samples);
+  constexpr int samples = 64;  // in each direction
+  const int step1 = std::max(1, (grid.n1 - 1) / samples);
+  const int step2 = std::max(1, (grid.n2 - 1) / samples);
   for (int j = 0; j + 1 < grid.n2; j += step2) {
     for (int i = 0; i + 1 < grid.n1; i += step1) {
       const Vec2 a = position(grid, i, j, 0);
       const Vec2 along1 = position(grid, i + 1, j, 0) - a;
       const Vec2 along2 = position(grid, i, j + 1, 0) - a;
       const double area = along1[0] * along2[1] - along1[1] * along2[0];
-      if (!(area > 0) || !std::isfinite(area)) {
-        fail(node.place, path,
-             fmt::format("the grid folds at point ({}, {}) at t = 0, near ({:.4g}, {:.4g}); change `map`", i,
-                         j, a[0], a[1]));
-      }
+      if (area > 0 && std::isfinite(area)) continue;
+      fail(node.place, path,
+           fmt::format("the grid folds at point ({}, {}) at t = 0, near ({:.4g}, {:.4g}); change `map`", i, j,
+                       a[0], a[1]));
     }
   }
 }
 
-/// Density and pressure are positive at t = 0 at a sample of points.
-void check_state(const GasExpressions& state, const GridSpec& grid, const Node& node,
-                 const std::string& path) {
-  constexpr int samples = 8;
+/// A sample of points of a grid at t = 0: of all of it, or of one side.
+std::vector<Vec2> sample_points(const GridSpec& grid, std::optional<Side> side = {}) {
+  constexpr int samples = 8;  // in each direction
+  std::vector<Vec2> points;
   for (int b = 0; b <= samples; ++b) {
-    for (int a = 0; a <= samples; ++a) {
-      const Vec2 x = position(grid, a * (grid.n1 - 1) / samples, b * (grid.n2 - 1) / samples, 0);
-      const auto check = [&](const Expression& quantity, const char* name, bool must_be_positive) {
-        const double value = quantity(x[0], x[1], 0);
-        if (std::isfinite(value) && (value > 0 || !must_be_positive)) return;
-        const Node* own = node.find(name);
-        fail(own == nullptr ? node.place : own->place, fmt::format("{}.{}", path, name),
-             fmt::format("is {} at ({:.4g}, {:.4g}), t = 0; must be {}", value, x[0], x[1],
-                         must_be_positive ? "> 0" : "finite"));
-      };
-      check(state.rho, "rho", true);
-      check(state.p, node.find("p") != nullptr ? "p" : "T", true);
-      check(state.v1, "v", false);
-      check(state.v2, "v", false);
+    if (side) {
+      points.push_back(side_point(grid, *side, b * (points_along(grid, *side) - 1) / samples));
+      continue;
     }
+    for (int a = 0; a <= samples; ++a) {
+      points.push_back(position(grid, a * (grid.n1 - 1) / samples, b * (grid.n2 - 1) / samples, 0));
+    }
+  }
+  return points;
+}
+
+/// Density and pressure are positive and everything is finite at t = 0 at the points.
+void check_state(const GasExpressions& state, const std::vector<Vec2>& points, const Node& node,
+                 const std::string& path) {
+  for (const Vec2& x : points) {
+    const auto check = [&](const Expression& quantity, const char* name, bool must_be_positive) {
+      const double value = quantity(x[0], x[1], 0);
+      if (std::isfinite(value) && (value > 0 || !must_be_positive)) return;
+      const Node* own = node.find(name);
+      fail(own == nullptr ? node.place : own->place, fmt::format("{}.{}", path, name),
+           fmt::format("is {} at ({:.4g}, {:.4g}), t = 0; must be {}", value, x[0], x[1],
+                       must_be_positive ? "> 0" : "finite"));
+    };
+    check(state.rho, "rho", true);
+    check(state.p, node.find("p") != nullptr ? "p" : "T", true);
+    check(state.v1, "v", false);
+    check(state.v2, "v", false);
+  }
+}
+
+void check_fluid(const Case& problem, const Node& root) {
+  const FluidSpec& fluid = *problem.fluid;
+  const Node& node = at(root, {"fluid"});
+  check_grid(fluid.grid, at(node, {"grid"}), "fluid.grid");
+  const std::vector<Vec2> everywhere = sample_points(fluid.grid);
+  if (fluid.initial) check_state(*fluid.initial, everywhere, at(node, {"initial"}), "fluid.initial");
+  if (problem.reference.fluid)
+    check_state(*problem.reference.fluid, everywhere, at(root, {"reference", "fluid"}), "reference.fluid");
+  for (const Side side : all_sides) {
+    const BoundarySpec& spec = fluid.boundary[static_cast<std::size_t>(side)];
+    if (!spec.state) continue;
+    check_state(*spec.state, sample_points(fluid.grid, side), at(node, {"boundary", name_of(side), "state"}),
+                fmt::format("fluid.boundary.{}.state", name_of(side)));
   }
 }
 
@@ -223,27 +249,46 @@ void check_probes(const Case& problem, const Node& root) {
   }
 }
 
+/// The quantities a summary.json may have, as far as they are known before the run.
+void check_expectations(const Case& problem, const Node& root) {
+  static const std::vector<std::string> quantities{
+      "status",       "reason", "t",         "steps",    "dt",          "wall_s",
+      "participants", "errors", "interface", "counters", "conservation"};
+  static const std::vector<std::string> errors{"rho", "v1", "v2", "T", "p", "u_bar", "v_bar", "P_bar"};
+  std::vector<std::string> programs = solid_names(problem);
+  if (problem.fluid) programs.emplace_back("fluid");
+  programs.emplace_back("coupler");
+  const auto require = [&](const Expectation& entry, const std::string& word,
+                           const std::vector<std::string>& known) {
+    if (std::find(known.begin(), known.end(), word) != known.end()) return;
+    const std::string hint = did_you_mean(word, known);
+    fail(
+        at(root, {"expect", entry.quantity}).place, "expect",
+        fmt::format("summary.json has no {} ({}){}", in_ticks(entry.quantity), fmt::join(known, ", "), hint));
+  };
+  for (const Expectation& entry : problem.expect) {
+    const std::size_t dot = entry.quantity.find('.');
+    const std::string first = entry.quantity.substr(0, dot);
+    require(entry, first, quantities);
+    if (dot == std::string::npos) continue;
+    const std::string rest = entry.quantity.substr(dot + 1);
+    if (first == "errors") require(entry, rest, errors);
+    if (first == "participants" || first == "conservation")
+      require(entry, rest.substr(0, rest.find('.')), programs);
+  }
+}
+
 }  // namespace
 
 void check_case(const Case& problem, const Node& root) {
-  if (!problem.fluid && problem.solids.empty())
+  if (!problem.fluid && problem.solids.empty()) {
     fail(root.place, "", "the case has neither `fluid` nor `solids`; write at least one");
+  }
   if (!problem.fluid && problem.solids.size() > 1) {
     fail(at(root, {"solids"}).place, "solids",
          "several solids without a gas have nothing in common; write one case for each");
   }
-  if (problem.fluid) {
-    const Node& fluid = at(root, {"fluid"});
-    check_grid(problem.fluid->grid, at(fluid, {"grid"}), "fluid.grid");
-    if (problem.fluid->initial)
-      check_state(*problem.fluid->initial, problem.fluid->grid, at(fluid, {"initial"}), "fluid.initial");
-    for (const Side side : all_sides) {
-      const BoundarySpec& spec = problem.fluid->boundary[static_cast<std::size_t>(side)];
-      const std::string path = fmt::format("fluid.boundary.{}.state", name_of(side));
-      if (spec.state)
-        check_state(*spec.state, problem.fluid->grid, at(fluid, {"boundary", name_of(side), "state"}), path);
-    }
-  }
+  if (problem.fluid) check_fluid(problem, root);
   for (const SolidSpec& solid : problem.solids) {
     if (solid.name == "fluid" || solid.name == "coupler") {
       fail(at(root, {"solids", solid.name}).place, "solids",
@@ -255,6 +300,7 @@ void check_case(const Case& problem, const Node& root) {
   check_reference(problem, root);
   check_interfaces(problem, root);
   check_probes(problem, root);
+  check_expectations(problem, root);
 }
 
 }  // namespace fsi

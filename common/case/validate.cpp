@@ -233,7 +233,11 @@ class Validator {
   }
 
   void formula(Node& node, const Key& key, const std::string& path) const {
-    if (!node.is_scalar()) fail(node.place, path, "must be a formula, is " + config::describe(node));
+    if (!node.is_scalar()) {
+      fail(node.place, path,
+           fmt::format("must be a formula, is {}; put a formula with : or , in quotes",
+                       config::describe(node)));
+    }
     try {
       const Expression expression(node.text, scope_.constants, scope_.definitions);
       const bool is_map = key.type == Type::map;

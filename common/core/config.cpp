@@ -210,17 +210,6 @@ void emit_map(const Node& map, int indent, std::string& out) {
 
 // ---- assign
 
-/// The child that the rest of a dotted key begins with; keys may themselves contain dots (`expect:
-/// errors.rho:`).
-Entry* child_of(Node& map, const std::string& rest) {
-  Entry* best = nullptr;
-  for (Entry& entry : map.entries) {
-    const bool begins = rest == entry.key || rest.starts_with(entry.key + ".");
-    if (begins && (best == nullptr || entry.key.size() > best->key.size())) best = &entry;
-  }
-  return best;
-}
-
 Node* list_item(Node& list, const std::string& word, const std::string& option) {
   std::size_t index = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), index);
@@ -231,30 +220,30 @@ Node* list_item(Node& list, const std::string& word, const std::string& option) 
   return &list.items[index];
 }
 
-/// Steps from `node` along the first word of `rest`; makes the key where it is missing.
-Node* step_into(Node& node, std::string& rest, const std::string& option) {
-  const std::size_t dot = rest.find('.');
-  std::string word = rest.substr(0, dot);
-  Node* next = nullptr;
-  if (node.is_list()) {
-    next = list_item(node, word, option);
-  } else {
-    if (node.kind == Node::Kind::null) node.kind = Node::Kind::map;
-    if (!node.is_map()) {
-      throw UserMistake(fmt::format("{}: {} is {}, not a section; set it as a whole", option, in_ticks(word),
-                                    describe(node)));
-    }
-    if (Entry* entry = child_of(node, rest)) {
-      word = entry->key;
-      next = &entry->value;
-    } else {
-      node.entries.push_back({word, option, {}});
-      next = &node.entries.back().value;
-      next->place = option;
-    }
+/// The value under `word`; makes the key where it is missing.
+Node* step_into(Node& node, const std::string& word, const std::string& option) {
+  if (node.is_list()) return list_item(node, word, option);
+  if (node.kind == Node::Kind::null) node.kind = Node::Kind::map;
+  if (!node.is_map()) {
+    throw UserMistake(fmt::format("{}: {} lies in {}, which is not a section; set that as a whole", option,
+                                  in_ticks(word), describe(node)));
   }
-  rest = word.size() < rest.size() ? rest.substr(word.size() + 1) : "";
-  return next;
+  if (Node* value = node.find(word)) return value;
+  node.entries.push_back({word, option, {}});
+  node.entries.back().value.place = option;
+  return &node.entries.back().value;
+}
+
+Node parse_value(const std::string& text, const std::string& option) {
+  const std::size_t first = text.find_first_not_of(" \t");
+  if (first == std::string::npos) throw UserMistake(option + ": the value is missing; write KEY=VALUE");
+  if (std::string_view("[{\"'").find(text[first]) != std::string_view::npos)
+    return parse_text(text, option, false);
+  Node node;
+  node.kind = Node::Kind::scalar;
+  node.place = option;
+  node.text = text.substr(first, text.find_last_not_of(" \t") - first + 1);
+  return node;
 }
 
 }  // namespace
@@ -284,16 +273,14 @@ Node parse_file(const std::string& path) {
   return parse(text.str(), path);
 }
 
-void assign(Node& root, const std::string& key, const std::string& value, const std::string& option) {
-  const bool has_empty_word =
-      key.empty() || key.front() == '.' || key.back() == '.' || key.find("..") != std::string::npos;
-  if (has_empty_word)
-    throw UserMistake(fmt::format("{}: write KEY=VALUE with a key such as time.end", option));
-  Node parsed = parse_text(value, option, false);
-  if (parsed.kind == Node::Kind::null) throw UserMistake(option + ": the value is missing; write KEY=VALUE");
+void assign(Node& root, const std::vector<std::string>& path, const std::string& value,
+            const std::string& option) {
+  const bool complete =
+      !path.empty() && std::none_of(path.begin(), path.end(), [](const auto& word) { return word.empty(); });
+  if (!complete) throw UserMistake(option + ": write KEY=VALUE with a key such as time.end");
+  Node parsed = parse_value(value, option);
   Node* node = &root;
-  std::string rest = key;
-  while (!rest.empty()) node = step_into(*node, rest, option);
+  for (const std::string& word : path) node = step_into(*node, word, option);
   *node = std::move(parsed);
 }
 

@@ -46,10 +46,13 @@ Node parse(const std::string& text, const std::string& file);
 /// Reads a file. @throws UserMistake where it cannot be read
 Node parse_file(const std::string& path);
 
-/// Puts a value, written as YAML, where a dotted key says (`solids.solid.law`, list entries by number from
-/// 0). Missing sections are made. `option` is what the user wrote, for messages: "--set time.end".
+/// Puts a value where the words of `path` say (list entries by number from 0). Missing sections are made. A
+/// value that begins with [ { " or ' is YAML, any other is the text itself. `option` is what the user wrote,
+/// for messages:
+/// "--set time.end".
 /// @throws UserMistake
-void assign(Node& root, const std::string& key, const std::string& value, const std::string& option);
+void assign(Node& root, const std::vector<std::string>& path, const std::string& value,
+            const std::string& option);
 
 /// The tree as YAML that `parse` reads back to the same values.
 std::string emit(const Node& root);
