@@ -1,0 +1,228 @@
+/// One exchange of the coupler as a whole.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "common/core/failure.hpp"
+#include "coupler/coupler.hpp"
+#include "messages.hpp"
+
+namespace fsi::coupler {
+namespace {
+
+using namespace testing;
+
+constexpr std::size_t n = 4;
+
+CouplerOptions until(double end) {
+  CouplerOptions options;
+  options.time = {.end = end, .output_times = {}, .growth = 1.2, .dt_max = 0};
+  return options;
+}
+
+/// Message of the failure of one exchange, or "none".
+template <class Failure>
+std::string failure(const wire::PredictedInterface& gas, const wire::PredictedInterface& solid) {
+  Coupler coupler(until(1), piston_hellos(n));
+  try {
+    coupler.step(std::vector{gas, solid});
+  } catch (const Failure& found) {
+    return found.what();
+  }
+  return "none";
+}
+
+TEST(Coupler, Eq12GasAndSolidAreToldTheSameNormalVelocityAndTraction) {
+  Coupler coupler(until(1), piston_hellos(n));
+  auto gas = gas_state(n, 0);
+  auto solid = solid_state(n, 0);
+  gas.v = everywhere(n, 0.3, 0.8);
+  gas.p.assign(n, 1.2);
+  solid.v = everywhere(n, -0.2, 0.1);
+  solid.w = everywhere(n, 0.4, 0.05);
+  const auto answers = coupler.step(std::vector{gas, solid});
+  ASSERT_EQ(answers.size(), 2U);
+  EXPECT_EQ(answers[0].to, "fluid");
+  EXPECT_EQ(answers[1].to, "solid");
+  EXPECT_EQ(answers[0].v_n, answers[1].v_n);
+  EXPECT_EQ(answers[0].w_n, answers[1].w_n);
+  EXPECT_EQ(answers[0].n, everywhere(n, 1, 0));
+  for (std::size_t k = 0; k < n; ++k) {
+    EXPECT_EQ(answers[1].v[k], answers[1].v_n[k]);
+    EXPECT_EQ(answers[1].v[n + k], 0.1);  // the solid keeps its own tangential velocity
+  }
+  const InterfaceReport report = coupler.reports().front();
+  EXPECT_NEAR(report.velocity_jump, 0.5, 1e-15);
+  EXPECT_NEAR(report.traction_jump, std::hypot(0.6, 0.05), 1e-15);
+  EXPECT_NEAR(report.power, answers[0].v_n[0] * answers[0].w_n[0],
+              1e-15);  // uniform along a side of length 1
+}
+
+TEST(Coupler, UniformMotionAtEquilibriumPressureStaysUniformToTheLastBit) {
+  for (const Projection how : {Projection::full, Projection::simplified, Projection::traditional}) {
+    for (const bool multirate : {false, true}) {
+      CouplerOptions options = until(1);
+      options.projection = how;
+      options.multirate = multirate;
+      Coupler coupler(options, piston_hellos(n));
+      for (std::uint64_t k = 0; k < 5; ++k) {
+        auto gas = gas_state(n, k);
+        auto solid = solid_state(n, k);
+        gas.v = everywhere(n, 0.3, -0.7);
+        solid.v = gas.v;
+        const auto answers = coupler.step(std::vector{gas, solid});
+        EXPECT_EQ(answers[0].v, everywhere(n, 0.3, -0.7));
+        EXPECT_EQ(answers[0].w_n, std::vector<double>(n, 0.0));
+        EXPECT_EQ(answers[0].a, everywhere(n, 0, 0));
+      }
+    }
+  }
+}
+
+TEST(Coupler, PointsOnAClampedBoundaryKeepTheirVelocityAndBearTheLoadOfAWall) {
+  Coupler coupler(until(1), piston_hellos(n));
+  auto gas = gas_state(n, 0);
+  auto solid = solid_state(n, 0);
+  gas.v = everywhere(n, 0.3, 0);
+  solid.fixed = {1, 0, 0, 0};
+  const auto answers = coupler.step(std::vector{gas, solid});
+  EXPECT_EQ(answers[0].v_n[0], 0.0);
+  EXPECT_NEAR(answers[0].w_n[0], 0.3, 1e-15);  // z_f = 1: the gas is stretched by 0.3 off the wall
+  EXPECT_GT(answers[0].v_n[1], 0.0);
+}
+
+TEST(Coupler, WhatTheTwoSidesDifferByIsGoneWithTheNextCommand) {
+  Coupler coupler(until(1), piston_hellos(n));
+  auto gas = gas_state(n, 0);
+  auto solid = solid_state(n, 0);
+  gas.x = vertical_line(n, 0.01);
+  const auto answers = coupler.step(std::vector{gas, solid});
+  EXPECT_NEAR(coupler.reports().front().gap, 0.01, 1e-15);
+  EXPECT_EQ(answers[0].x_next, vertical_line(n, 0));  // at rest: back to the solid's own position
+}
+
+TEST(Coupler, RobinDataUseTheNewestImpedanceOfTheGasForEveryTime) {
+  CouplerOptions options = until(1);
+  options.multirate = true;
+  Coupler coupler(options, piston_hellos(n));
+  std::vector<double> v_n;
+  std::vector<double> w_n;
+  for (std::uint64_t k = 0; k < 4; ++k) {
+    auto gas = gas_state(n, k);
+    auto solid = solid_state(n, k);
+    const double z_f = 1.0 + static_cast<double>(k);
+    gas.z_f.assign(n, z_f);
+    gas.v = everywhere(n, 0.1 * z_f, 0);
+    solid.dt_bid = 0.03;
+    const auto answers = coupler.step(std::vector{gas, solid});
+    v_n.push_back(answers[1].v_n[0]);
+    w_n.push_back(answers[1].w_n[0]);
+    const std::size_t levels = std::min<std::size_t>(k + 1, 3);
+    ASSERT_EQ(answers[1].robin_t.size(), levels);
+    EXPECT_EQ(answers[1].robin_t[0], coupler.t());
+    for (std::size_t level = 0; level < levels; ++level) {
+      EXPECT_EQ(answers[1].robin_r[level * n], w_n[k - level] + z_f * v_n[k - level]);
+    }
+    EXPECT_EQ(answers[1].substeps_next, 4);
+    EXPECT_EQ(answers[0].substeps_next, 1);
+  }
+}
+
+TEST(Coupler, EndsExactlyAtTheEndAndSaysSoToEverybody) {
+  Coupler coupler(until(0.25), piston_hellos(n));
+  std::uint64_t step = 0;
+  while (!coupler.finished()) {
+    const auto answers = coupler.step(std::vector{gas_state(n, step), solid_state(n, step)});
+    for (const wire::ProjectedInterface& answer : answers) {
+      EXPECT_EQ(answer.stop, coupler.finished());
+      EXPECT_EQ(answer.write_output, coupler.finished());
+      EXPECT_TRUE(answer.stop_reason.empty());
+    }
+    ++step;
+  }
+  EXPECT_EQ(coupler.t(), 0.25);
+  EXPECT_EQ(coupler.step_number(), 3U);
+}
+
+TEST(Coupler, StopsAndWritesACheckpointOnRequest) {
+  Coupler coupler(until(1), piston_hellos(n));
+  coupler.step(std::vector{gas_state(n, 0), solid_state(n, 0)});
+  coupler.request_checkpoint();
+  EXPECT_TRUE(coupler.step(std::vector{gas_state(n, 1), solid_state(n, 1)})[0].write_checkpoint);
+  coupler.request_stop("stopped on request");
+  const auto answers = coupler.step(std::vector{gas_state(n, 2), solid_state(n, 2)});
+  EXPECT_FALSE(answers[0].write_checkpoint);
+  EXPECT_TRUE(answers[1].stop);
+  EXPECT_EQ(answers[1].stop_reason, "stopped on request");
+  EXPECT_TRUE(coupler.finished());
+}
+
+TEST(Coupler, SeveralSolidsInOneGasAreIndependentOfEachOther) {
+  const auto side = [](const std::string& name, double x, double normal) {
+    return wire::InterfaceInfo{
+        .name = name, .dimension = 2, .x = vertical_line(n, x), .n = everywhere(n, normal, 0)};
+  };
+  const std::vector<wire::Hello> hellos{fluid_hello({side("a", 0, 1), side("b", 1, -1)}),
+                                        solid_hello("a", side("a", 0, 1)),
+                                        solid_hello("b", side("b", 1, -1))};
+  Coupler coupler(until(1), hellos);
+  auto at_b = gas_state(n, 0, "b");
+  at_b.x = vertical_line(n, 1);
+  at_b.p.assign(n, 1.5);
+  auto b = solid_state(n, 0, "b");
+  b.x = at_b.x;
+  b.dt_bid = 0.02;
+  const auto answers = coupler.step(std::vector{gas_state(n, 0, "a"), at_b, solid_state(n, 0, "a"), b});
+  ASSERT_EQ(answers.size(), 4U);
+  EXPECT_EQ(answers[0].v_n, std::vector<double>(n, 0.0));
+  EXPECT_EQ(answers[3].to, "b");
+  EXPECT_EQ(answers[3].n, everywhere(n, -1, 0));
+  EXPECT_GT(answers[3].v[0], 0.0);  // the gas pushes the right solid to the right
+  EXPECT_EQ(coupler.next().limited_by, "b");
+  EXPECT_EQ(coupler.points(), 2 * n);
+  EXPECT_EQ(coupler.profiles()[1].p_predicted, std::vector<double>(n, 1.5));
+}
+
+TEST(Coupler, ABodyWithoutMassMovesWithTheGasThroughTheModalResponse) {
+  Coupler coupler(until(1), piston_hellos(n));
+  for (std::uint64_t k = 0; k < 4; ++k) {
+    auto gas = gas_state(n, k);
+    gas.v = everywhere(n, 0.3, 0);
+    auto piston = solid_state(n, k);
+    piston.w.clear();
+    piston.Z.clear();
+    piston.modal = {.modes = 1, .M = {0.0}, .N = std::vector<double>(n, 1.0), .q_dot = {0.0}, .f_own = {0.0}};
+    const auto answers = coupler.step(std::vector{gas, piston});
+    const double expected = k == 0 ? 0.0 : 0.3;
+    for (std::size_t i = 0; i < n; ++i) EXPECT_NEAR(answers[1].v_n[i], expected, 1e-15);
+  }
+}
+
+TEST(Coupler, NumbersThatAreNotFiniteAreNamed) {
+  auto gas = gas_state(n, 0);
+  gas.p[2] = std::nan("");
+  std::string message = failure<NumbersBroke>(gas, solid_state(n, 0));
+  for (const char* part : {"step 0", "\"fluid\"", "\"solid\"", "point 2", "pressure"}) {
+    EXPECT_NE(message.find(part), std::string::npos) << part << " in: " << message;
+  }
+  auto solid = solid_state(n, 0);
+  solid.w[n + 3] = std::numeric_limits<double>::infinity();
+  message = failure<NumbersBroke>(gas_state(n, 0), solid);
+  EXPECT_NE(message.find("point 3: the traction is inf"), std::string::npos) << message;
+  solid = solid_state(n, 0);
+  solid.Z[1] = -1;
+  EXPECT_NE(failure<NumbersBroke>(gas_state(n, 0), solid).find("hyperbolic"), std::string::npos);
+}
+
+TEST(Coupler, MessagesThatDoNotFitAreNamed) {
+  auto solid = solid_state(n, 0);
+  solid.w.pop_back();
+  EXPECT_NE(failure<PeerLost>(gas_state(n, 0), solid).find("the traction"), std::string::npos);
+  EXPECT_NE(failure<PeerLost>(gas_state(n, 7), solid_state(n, 0)).find("step 0 from \"fluid\""),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace fsi::coupler

@@ -1,0 +1,154 @@
+/// Geometry and motion of an interface.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <numeric>
+#include <stdexcept>
+
+#include "coupler/interface_motion.hpp"
+
+namespace fsi::coupler {
+namespace {
+
+using std::numbers::pi;
+
+/// Points of a curve, component-major.
+std::vector<double> points_of(std::size_t n, const std::function<double(double)>& x,
+                              const std::function<double(double)>& y) {
+  std::vector<double> points(2 * n);
+  for (std::size_t k = 0; k < n; ++k) {
+    const double r = static_cast<double>(k) / static_cast<double>(n - 1);
+    points[k] = x(r);
+    points[n + k] = y(r);
+  }
+  return points;
+}
+
+/// Circle of radius 2, points clustered, run through with increasing or decreasing angle.
+std::vector<double> circle(std::size_t n, bool backward) {
+  const double turn = backward ? -2 * pi : 2 * pi;
+  const auto angle = [=](double r) { return turn * (r + 0.05 * std::sin(2 * pi * r)); };
+  return points_of(
+      n, [=](double r) { return 2 * std::cos(angle(r)); }, [=](double r) { return 2 * std::sin(angle(r)); });
+}
+
+std::vector<double> scaled(std::vector<double> values, double factor) {
+  for (double& value : values) value *= factor;
+  return values;
+}
+
+double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
+  double worst = 0;
+  for (std::size_t k = 0; k < a.size(); ++k) worst = std::max(worst, std::abs(a[k] - b[k]));
+  return worst;
+}
+
+TEST(UnitNormals, PointOutOfTheSolidWhicheverWayTheCurveRuns) {
+  for (const bool backward : {false, true}) {
+    const std::vector<double> x = circle(65, backward);
+    const std::vector<double> outward = scaled(x, 0.5);
+    const Curve curve(x, outward);
+    EXPECT_TRUE(curve.closed);
+    std::vector<double> n(x.size());
+    unit_normals(curve, x, n);
+    EXPECT_LE(largest_difference(n, outward), 1e-2);
+
+    const Curve hole(x, scaled(outward, -1));  // the solid lies outside the circle
+    unit_normals(hole, x, n);
+    EXPECT_LE(largest_difference(n, scaled(outward, -1)), 1e-2);
+  }
+}
+
+TEST(UnitNormals, ConvergeToSecondOrderOnClosedAndOpenCurvesEndsIncluded) {
+  const auto error = [](std::size_t n, bool open) {
+    std::vector<double> x = circle(n, false);
+    if (open) {
+      x = points_of(
+          n, [](double r) { return 2 * std::cos(r + r * r); },
+          [](double r) { return 2 * std::sin(r + r * r); });
+    }
+    const std::vector<double> outward = scaled(x, 0.5);
+    std::vector<double> normals(x.size());
+    unit_normals(Curve(x, outward), x, normals);
+    return largest_difference(normals, outward);
+  };
+  for (const bool open : {false, true}) {
+    const double coarse = error(65, open);
+    const double fine = error(129, open);
+    EXPECT_LE(fine, 2e-3);
+    EXPECT_GE(std::log2(coarse / fine), 1.9) << (open ? "open" : "closed");
+  }
+}
+
+TEST(UnitNormals, AreExactOnAStraightLineWithAnySpacing) {
+  const std::vector<double> x = points_of(
+      5, [](double r) { return 0.3 + 0.6 * (r + r * r); }, [](double r) { return -0.1 + 0.8 * (r + r * r); });
+  std::vector<double> n0(10);
+  std::fill(n0.begin(), n0.begin() + 5, 0.8);
+  std::fill(n0.begin() + 5, n0.end(), -0.6);
+  std::vector<double> n(10);
+  unit_normals(Curve(x, n0), x, n);
+  EXPECT_LE(largest_difference(n, n0), 1e-15);
+}
+
+TEST(UnitNormals, AreTheSameAtTheTwoCopiesOfThePointThatClosesACurve) {
+  const std::vector<double> x = circle(33, false);
+  const Curve curve(x, x);
+  std::vector<double> n(x.size());
+  unit_normals(curve, x, n);
+  EXPECT_EQ(n[0], n[32]);
+  EXPECT_EQ(n[33], n[65]);
+}
+
+TEST(PointLengths, AddUpToTheLengthOfTheCurve) {
+  const std::vector<double> x = circle(257, false);
+  std::vector<double> ds(257);
+  point_lengths(Curve(x, x), x, ds);
+  const double chords = std::accumulate(ds.begin(), ds.end(), 0.0);
+  EXPECT_NEAR(chords, 4 * pi, 2e-3);  // chords of 256 points fall short by (2 pi / 256)^2 / 24 of the length
+  std::vector<double> s(257);
+  arclength(x, s);
+  EXPECT_NEAR(s.back(), chords, 1e-13);
+}
+
+TEST(Curve, RefusesNormalsThatDoNotStandOnIt) {
+  const std::vector<double> x = circle(33, false);
+  std::vector<double> along(x.size());
+  for (std::size_t k = 0; k < 33; ++k) {
+    along[k] = -x[33 + k];
+    along[33 + k] = x[k];
+  }
+  EXPECT_THROW(Curve(x, along), std::invalid_argument);
+  EXPECT_THROW(Curve(x, std::vector<double>{}), std::invalid_argument);
+  EXPECT_THROW(Curve(std::vector<double>{0.0, 0.0}, std::vector<double>{1.0, 0.0}), std::invalid_argument);
+}
+
+TEST(InterfaceMotion, PredictsAnAcceleratedPathToThirdOrderPerStep) {
+  const auto path = [](double t) { return std::sin(t); };
+  const auto error = [&](double dt) {
+    InterfaceMotion motion(1);
+    motion.take(std::vector<double>{std::cos(0.5 - dt), 0.0}, 0);
+    motion.take(std::vector<double>{std::cos(0.5), 0.0}, dt);
+    std::vector<double> next(2);
+    motion.command(std::vector<double>{path(0.5), 0.0}, dt, next);
+    return std::abs(next[0] - path(0.5 + dt));
+  };
+  EXPECT_LE(error(0.01), 1e-6);
+  EXPECT_GE(std::log2(error(0.02) / error(0.01)), 2.9);
+}
+
+TEST(InterfaceMotion, UniformMotionStartsWithoutAcceleration) {
+  InterfaceMotion motion(2);
+  const std::vector<double> v{0.5, 0.5, -0.25, -0.25};
+  motion.take(v, 0);
+  EXPECT_TRUE(std::ranges::all_of(motion.a(), [](double a) { return a == 0; }));
+  motion.take(v, 0.1);
+  EXPECT_TRUE(std::ranges::all_of(motion.a(), [](double a) { return a == 0; }));
+}
+
+}  // namespace
+}  // namespace fsi::coupler
