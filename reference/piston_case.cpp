@@ -15,23 +15,15 @@ namespace {
 
 constexpr int default_points = 3200;
 
-const SolidSpec& only_solid(const Case& problem) {
-  if (problem.solids.size() != 1 || !problem.fluid) {
-    throw UserMistake(
-        fmt::format("{}: the one-dimensional reference needs one gas and one solid", problem.path));
-  }
-  const SolidSpec& solid = problem.solids.front();
+void expect_side_by_side(const std::string& path, const FluidSpec& fluid, const SolidSpec& solid) {
   const bool straight = solid.grid.kind == GridSpec::Kind::rectangle && solid.grid.rotation == 0 &&
-                        problem.fluid->grid.kind == GridSpec::Kind::rectangle &&
-                        problem.fluid->grid.rotation == 0;
-  const bool meets = problem.fluid->boundary[0].kind == BoundaryKind::interface &&
-                     solid.boundary[1].kind == BoundaryKind::interface;
-  if (!straight || !meets) {
-    throw UserMistake(
-        fmt::format("{}: the one-dimensional reference needs rectangles along x, the gas right of solid '{}'",
-                    problem.path, solid.name));
-  }
-  return solid;
+                        fluid.grid.kind == GridSpec::Kind::rectangle && fluid.grid.rotation == 0;
+  const bool meets =
+      fluid.boundary[0].kind == BoundaryKind::interface && solid.boundary[1].kind == BoundaryKind::interface;
+  if (straight && meets) return;
+  throw UserMistake(
+      fmt::format("{}: the one-dimensional reference needs rectangles along x, the gas right of solid '{}'",
+                  path, solid.name));
 }
 
 std::function<double(double)> along_x(const std::optional<VectorExpressions>& field) {
@@ -69,8 +61,13 @@ std::function<exact::TubeState(double)> gas_of(const FluidSpec& fluid,
 }  // namespace
 
 PistonProblem piston_from_case(const Case& problem) {
-  const SolidSpec& solid = only_solid(problem);
+  if (!problem.fluid || problem.solids.size() != 1) {
+    throw UserMistake(
+        fmt::format("{}: the one-dimensional reference needs one gas and one solid", problem.path));
+  }
   const FluidSpec& fluid = *problem.fluid;
+  const SolidSpec& solid = problem.solids.front();
+  expect_side_by_side(problem.path, fluid, solid);
   std::shared_ptr<exact::Solution> exact;
   if (problem.reference.kind != "piston_1d" && problem.reference.kind != "none") {
     exact = exact::make_solution(problem.reference.kind, problem.reference.numbers, "");

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <stdexcept>
+#include <utility>
 
 #include "common/core/failure.hpp"
 #include "common/exact/elastic_piston.hpp"

@@ -51,7 +51,7 @@ std::string grid_element(const Hdf5& group, const std::string& name, const std::
             {}
           </Attribute>
 )",
-                   field, data_item(location + "/" + field, dimensions));
+                   field, data_item(fmt::format("{}/{}", location, field), dimensions));
   }
   return text + "        </Grid>\n";
 }
@@ -65,7 +65,7 @@ void collect(const std::string& run_dir, const std::string& program, std::vector
     const double t = group.number_attribute("t");
     for (const auto& grid : group.names()) {
       const std::string location = fmt::format("fields/{}_{}.h5:/{}", program, output, grid);
-      blocks.push_back({t, grid_element(group.group(grid), program + "/" + grid, location)});
+      blocks.push_back({t, grid_element(group.group(grid), fmt::format("{}/{}", program, grid), location)});
     }
   }
 }
