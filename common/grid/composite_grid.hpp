@@ -1,15 +1,17 @@
 #pragma once
-/// A domain covered by overlapping component grids (paper section 4.1): a Cartesian background and body-fitted grids before it.
+/// A domain covered by overlapping component grids (paper section 4.1): a Cartesian background and
+/// body-fitted grids before it.
 ///
 ///     . . . . . . . .     .  discretised point of the background
 ///     . . o o o o . .     o  interpolates from the body-fitted grid (as many layers as the stencils need)
 ///     . o o /---\ o .     x  unused: behind the curve (or needed by nobody)
-///     . o o | x x |       ---  curve: first line of a body-fitted grid, whose outermost lines interpolate from
+///     . o o | x x |       ---  curve: first line of a body-fitted grid, whose outermost lines interpolate
+///     from
 ///                              the background or from another body-fitted grid
 ///
-/// Background points are classified by the crossings of the grid rows with the curves; what is known of a row are intervals,
-/// so an update costs as much as the curves are long, whatever the number of points, and depends on the present positions
-/// only.
+/// Background points are classified by the crossings of the grid rows with the curves; what is known of a row
+/// are intervals, so an update costs as much as the curves are long, whatever the number of points, and
+/// depends on the present positions only.
 
 #include <cstdint>
 #include <span>
@@ -26,7 +28,8 @@
 
 namespace fsi::grid {
 
-/// A grid whose first line (bottom or top) bounds the domain and cuts the other grids; the opposite side interpolates.
+/// A grid whose first line (bottom or top) bounds the domain and cuts the other grids; the opposite side
+/// interpolates.
 struct BodyFittedGrid {
   std::string name = "grid";
   int n1 = 0, n2 = 0;
@@ -35,7 +38,7 @@ struct BodyFittedGrid {
 };
 
 struct OverlapOptions {
-  int layers = 2;   ///< of interpolation points: half-width of the widest stencil, in all directions
+  int layers = 2;     ///< of interpolation points: half-width of the widest stencil, in all directions
   bool trim = false;  ///< leave unused the outer lines of body-fitted grids that nobody needs
 };
 
@@ -76,8 +79,8 @@ class CompositeGrid {
 
   /// Interpolates all planes of all fields, one per grid.
   void interpolate(std::span<const FieldView> fields) const;
-  /// Fills points that were unused before the last update with values of the old time: `fields` and positions are those
-  /// before the step.
+  /// Fills points that were unused before the last update with values of the old time: `fields` and positions
+  /// are those before the step.
   void fill_exposed(std::span<const FieldView> fields) const;
 
   std::span<const InterpolationList> interpolation() const { return interpolation_; }

@@ -28,8 +28,8 @@ struct HyperbolicGrid {
   Curve ends = Curve::closed;
   double spacing = 0;  ///< distance of the first line from the curve
   double growth = 1;   ///< ratio of successive distances [-]
-  /// Open: direction of the wall on which an end slides, at the first and at the last point; without one the end goes
-  /// along the curve's normal.
+  /// Open: direction of the wall on which an end slides, at the first and at the last point; without one the
+  /// end goes along the curve's normal.
   std::array<std::optional<Vec2>, 2> walls;
   double smoothing = 0.1;       ///< eps of x_rr, for lines as far apart as the points are [-]
   double end_smoothing = 0.01;  ///< the same at the ends

@@ -9,7 +9,8 @@
 
 namespace fsi::grid {
 
-/// Where a point takes its value from: width x width points of a donor grid from (i, j) on, weights as a product.
+/// Where a point takes its value from: width x width points of a donor grid from (i, j) on, weights as a
+/// product.
 struct Stencil {
   int grid = -1;  ///< donor, -1: none
   int i = 0, j = 0;

@@ -1,6 +1,6 @@
 #pragma once
-/// Sets of points of a grid as sorted, disjoint intervals of each row: the cost of every operation is that of the ends of
-/// the intervals, not that of the points between.
+/// Sets of points of a grid as sorted, disjoint intervals of each row: the cost of every operation is that of
+/// the ends of the intervals, not that of the points between.
 
 #include <span>
 #include <vector>

@@ -19,6 +19,7 @@ struct PlaneCurve {
   Curve ends = Curve::closed;
   std::function<Vec2(double s)> position;
   std::function<Vec2(double s)> slope;  ///< dx/ds
+  bool even = false;                    ///< s is proportional to the arclength
 };
 
 /// Draws points together around one place of a curve: adds strength/2 tanh(sharpness (r - place)) to the

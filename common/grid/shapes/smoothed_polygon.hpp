@@ -12,10 +12,10 @@
 namespace fsi::grid {
 
 struct SmoothedPolygon {
-  std::vector<Vec2> corners;         ///< a closed polygon's last corner is joined to its first one
-  Curve ends = Curve::open;          ///< open: straight through both ends, which are met exactly
-  double sharpness = 50;             ///< e, of every corner, per unit of s [-]
-  std::vector<double> sharpness_at;  ///< e of each edge where they differ [-]
+  std::vector<Vec2> corners = {};         ///< a closed polygon's last corner is joined to its first one
+  Curve ends = Curve::open;               ///< open: straight through both ends, which are met exactly
+  double sharpness = 50;                  ///< e, of every corner, per unit of s [-]
+  std::vector<double> sharpness_at = {};  ///< e of each edge where they differ [-]
 };
 
 /// @throws UserMistake for too few or coinciding corners, a sharpness that is not positive

@@ -1,0 +1,137 @@
+#include "common/grid/shapes/smoothed_polygon.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "common/core/failure.hpp"
+
+namespace fsi::grid {
+
+namespace {
+
+/// log(2 cosh a) for any a.
+double log_cosh(double a) {
+  return std::abs(a) + std::log1p(std::exp(-2 * std::abs(a)));
+}
+
+/// One straight edge between the parameters `from` and `to`.
+struct Edge {
+  double from, to, sharpness;
+  Vec2 slope;
+
+  /// V of numerics: what the edge adds to s.
+  Vec2 rise(double s) const {
+    const double steps = log_cosh(sharpness * (s - from)) - log_cosh(sharpness * (s - to));
+    return (slope - Vec2::Ones()) * steps / (2 * sharpness);
+  }
+  Vec2 rise_slope(double s) const {
+    return 0.5 * (slope - Vec2::Ones()) *
+           (std::tanh(sharpness * (s - from)) - std::tanh(sharpness * (s - to)));
+  }
+};
+
+struct Outline {
+  std::vector<Edge> edges;
+  Vec2 constant;  ///< x(s) = constant + s + sum of the edges' rises
+
+  Vec2 position(double s) const {
+    Vec2 x = constant + Vec2::Constant(s);
+    for (const Edge& edge : edges) x += edge.rise(s);
+    return x;
+  }
+  Vec2 slope(double s) const {
+    Vec2 d = Vec2::Ones();
+    for (const Edge& edge : edges) d += edge.rise_slope(s);
+    return d;
+  }
+};
+
+void check(const SmoothedPolygon& shape, std::size_t edges) {
+  if (shape.corners.size() < (shape.ends == Curve::closed ? 3U : 2U)) {
+    throw UserMistake(fmt::format("a smoothed polygon of {} corners; write at least 2, 3 for a closed one",
+                                  shape.corners.size()));
+  }
+  if (!shape.sharpness_at.empty() && shape.sharpness_at.size() != edges) {
+    throw UserMistake(fmt::format("{} sharpnesses for the {} edges of a smoothed polygon",
+                                  shape.sharpness_at.size(), edges));
+  }
+  const bool positive = std::ranges::all_of(shape.sharpness_at, [](double e) { return e > 0; });
+  if (!(shape.sharpness > 0) || !positive) {
+    throw UserMistake("sharpness of a smoothed polygon; write a positive number (50 rounds gently)");
+  }
+}
+
+/// The edges between the corners, by normalised arclength.
+std::vector<Edge> edges_of(const SmoothedPolygon& shape) {
+  std::vector<Vec2> corners = shape.corners;
+  if (shape.ends == Curve::closed) corners.push_back(corners.front());
+  const std::size_t n = corners.size() - 1;
+  check(shape, n);
+  double total = 0;
+  for (std::size_t k = 0; k < n; ++k) total += (corners[k + 1] - corners[k]).norm();
+  std::vector<Edge> edges;
+  double from = 0;
+  for (std::size_t k = 0; k < n; ++k) {
+    const double width = (corners[k + 1] - corners[k]).norm() / total;
+    if (!(width > 0))
+      throw UserMistake(fmt::format("corners {} and {} of a smoothed polygon coincide", k, k + 1));
+    const double sharpness = shape.sharpness_at.empty() ? shape.sharpness : shape.sharpness_at[k];
+    edges.push_back({from, from + width, sharpness, (corners[k + 1] - corners[k]) / width});
+    from += width;
+  }
+  return edges;
+}
+
+/// Open: the first and the last edge go on straight; x(0) is the first corner.
+Outline open_outline(std::vector<Edge> edges, const Vec2& first) {
+  edges.front().from = -1;
+  edges.back().to = 2;
+  Outline outline{std::move(edges), first};
+  outline.constant -= outline.position(0) - first;
+  return outline;
+}
+
+/// Closed: neighbouring periods belong to it; the middle of the longest edge, the point least touched by the
+/// corners, lies on the polygon.
+Outline closed_outline(const std::vector<Edge>& edges, const std::vector<Vec2>& corners) {
+  Outline outline{{}, Vec2::Zero()};
+  for (const double period : {-2.0, -1.0, 0.0, 1.0, 2.0}) {
+    for (Edge edge : edges) {
+      edge.from += period;
+      edge.to += period;
+      outline.edges.push_back(edge);
+    }
+  }
+  const auto longest = std::ranges::max_element(edges, {}, [](const Edge& e) { return e.to - e.from; });
+  const auto k = static_cast<std::size_t>(longest - edges.begin());
+  const Vec2 middle = 0.5 * (corners[k] + corners[(k + 1) % corners.size()]);
+  outline.constant = middle - outline.position(0.5 * (longest->from + longest->to));
+  return outline;
+}
+
+}  // namespace
+
+PlaneCurve smoothed_polygon(const SmoothedPolygon& shape) {
+  const std::vector<Edge> edges = edges_of(shape);
+  const Outline outline = shape.ends == Curve::closed ? closed_outline(edges, shape.corners)
+                                                      : open_outline(edges, shape.corners.front());
+  const auto slope = [outline](double s) { return outline.slope(s); };
+  if (shape.ends == Curve::closed) {
+    return {
+        .ends = shape.ends, .position = [outline](double s) { return outline.position(s); }, .slope = slope};
+  }
+  // The ends to the bit: they stand on walls.
+  return {
+      .ends = shape.ends,
+      .position = [outline, first = shape.corners.front(), last = shape.corners.back()](double s) -> Vec2 {
+        if (s == 0) return first;
+        return s == 1 ? last : outline.position(s);
+      },
+      .slope = slope};
+}
+
+}  // namespace fsi::grid

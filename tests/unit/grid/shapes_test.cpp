@@ -1,0 +1,177 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "common/core/failure.hpp"
+#include "common/grid/shapes/circle.hpp"
+#include "common/grid/shapes/ellipse.hpp"
+#include "common/grid/shapes/smoothed_polygon.hpp"
+#include "common/grid/shapes/spline.hpp"
+#include "tests/unit/grid/shapes_of_cases.hpp"
+
+namespace fsi::grid {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// Largest difference between slope() and centred differences of position(), relative to the slope.
+double slope_error(const PlaneCurve& curve) {
+  double worst = 0;
+  for (double s = 0.013; s < 0.99; s += 0.031) {
+    const Vec2 difference = (curve.position(s + 1e-6) - curve.position(s - 1e-6)) / 2e-6;
+    worst = std::max(worst, (difference - curve.slope(s)).norm() / curve.slope(s).norm());
+  }
+  return worst;
+}
+
+TEST(Shapes, SlopesAreTheDerivativesOfPositions) {
+  // Differences over 2e-6 carry round-off of 1e-10.
+  for (const PlaneCurve& curve : {circle({1, 2}, 3), tilted_ellipse(), beam_outline(), star()}) {
+    EXPECT_LT(slope_error(curve), 1e-8);
+  }
+}
+
+TEST(Shapes, CircleHasItsLengthAndEvenPoints) {
+  const PlaneCurve curve = circle({1, -2}, 0.5);
+  EXPECT_NEAR(length_of(curve), pi, 1e-15);
+  const auto x = points_on(curve, 9);
+  for (std::size_t k = 0; k < 9; ++k) {
+    EXPECT_NEAR(x[k], 1 + 0.5 * std::cos(pi * static_cast<double>(k) / 4), 1e-15);
+    EXPECT_NEAR(x[9 + k], -2 + 0.5 * std::sin(pi * static_cast<double>(k) / 4), 1e-15);
+  }
+  EXPECT_EQ(x[0], x[8]);
+  EXPECT_EQ(x[9], x[17]);
+}
+
+TEST(Shapes, EllipseHasItsAxesWhereTheAngleSaysAndItsKnownLength) {
+  const PlaneCurve curve = tilted_ellipse();
+  const double c = std::sqrt(0.5);
+  EXPECT_NEAR((curve.position(0) - Vec2(-1 + 1.25 * c, 1.25 * c)).norm(), 0, 1e-15);
+  EXPECT_NEAR((curve.position(0.25) - Vec2(-1 - 0.5 * c, 0.5 * c)).norm(), 0, 1e-15);
+  // Ramanujan's second formula, whose own error is 1e-6 at this axis ratio.
+  const double h = std::pow((1.25 - 0.5) / (1.25 + 0.5), 2);
+  EXPECT_NEAR(length_of(curve), pi * 1.75 * (1 + 3 * h / (10 + std::sqrt(4 - 3 * h))), 2e-6);
+}
+
+TEST(Shapes, PointsAreEvenInArclengthOnAnEllipse) {
+  const PlaneCurve curve = tilted_ellipse();
+  const auto s = distribute(curve, 41);
+  const double step = length_of(curve) / 40;
+  for (std::size_t k = 0; k + 1 < s.size(); ++k) {
+    double length = 0;
+    for (int m = 0; m < 200; ++m) {
+      const double from = s[k] + (s[k + 1] - s[k]) * m / 200, to = s[k] + (s[k + 1] - s[k]) * (m + 1) / 200;
+      length += (curve.position(to) - curve.position(from)).norm();
+    }
+    EXPECT_NEAR(length, step, 1e-6 * step);  // 200 chords miss 1e-7 of an arc this short
+  }
+}
+
+TEST(Shapes, BeamOutlineHasThePublishedTipAndWidth) {
+  const PlaneCurve beam = beam_outline();
+  EXPECT_EQ(beam.position(0), Vec2(-0.05, 0));
+  EXPECT_NEAR((beam.position(1) - Vec2(0.05, 0)).norm(), 0, 1e-12);
+  EXPECT_NEAR(beam.position(0.5)[1], 0.99629, 5e-6);  // the digits given
+  EXPECT_NEAR(beam.position(0.5)[0], 0, 1e-12);
+  double low = 0, high = 0.5;
+  for (int k = 0; k < 60; ++k) {
+    const double middle = 0.5 * (low + high);
+    (beam.position(middle)[1] < 0.5 ? low : high) = middle;
+  }
+  EXPECT_NEAR(-2 * beam.position(low)[0], 0.1, 1e-9);
+}
+
+TEST(Shapes, BeamIsSharpestNearTheTipAsGiven) {
+  const PlaneCurve beam = beam_outline();
+  double smallest = 1, height = 0;
+  for (double s = 0.4; s < 0.5; s += 1e-4) {
+    const Vec2 d = beam.slope(s), c = (beam.slope(s + 1e-6) - beam.slope(s - 1e-6)) / 2e-6;
+    const double radius = std::pow(d.norm(), 3) / std::abs(d[0] * c[1] - d[1] * c[0]);
+    if (radius < smallest) smallest = radius, height = beam.position(s)[1];
+  }
+  EXPECT_NEAR(smallest, 0.029, 5e-4);
+  EXPECT_NEAR(height, 0.986, 5e-3);
+}
+
+TEST(Shapes, WeightsDrawPointsTogetherByTheirDensity) {
+  const PlaneCurve beam = beam_outline();
+  const PointWeight weights[] = {{.1, 1.5, 1 / 2.1}, {.1, 1.5, 1.1 / 2.1}};
+  const auto s = distribute(beam, 401, weights);
+  // The published density runs from 1.09 at the base to 1.15 at the tip.
+  const double at_base = s[1] - s[0], at_tip = s[201] - s[200];
+  const double speed = beam.slope(0.5).norm() / beam.slope(0).norm();
+  EXPECT_NEAR(at_base / (at_tip * speed), 1.15 / 1.09, 0.01);
+}
+
+TEST(Shapes, ClosedSmoothedPolygonClosesSmoothlyAndKeepsItsEdges) {
+  const PlaneCurve square =
+      smoothed_polygon({.corners = {{0, 0}, {2, 0}, {2, 1}, {0, 1}}, .ends = Curve::closed, .sharpness = 60});
+  EXPECT_NEAR((square.position(0) - square.position(1)).norm(), 0, 1e-12);
+  EXPECT_NEAR((square.slope(0) - square.slope(1)).norm(), 0, 1e-12);
+  EXPECT_NEAR(square.position(1.0 / 6)[1], 0, 1e-8);  // e^(-2 60 / 6)
+  EXPECT_NEAR(square.position(2.0 / 3)[1], 1, 1e-8);  // the opposite edge
+  EXPECT_NEAR(square.position(2.5 / 6)[0], 2, 1e-4);  // e^(-2 60 / 12)
+  const Vec2 corner = square.position(0);
+  EXPECT_GT(corner[0], 0);  // rounded inward
+  EXPECT_NEAR(corner[0], corner[1], 1e-8);
+}
+
+TEST(Shapes, SplineMeetsItsPointsAndIsSmoothAcrossTheSeam) {
+  std::vector<Vec2> points;
+  for (int k = 0; k < 24; ++k) points.emplace_back(2 * std::cos(2 * pi * k / 24), std::sin(2 * pi * k / 24));
+  const PlaneCurve curve = spline(points, Curve::closed);
+  EXPECT_EQ(curve.position(0), points[0]);
+  EXPECT_NEAR((curve.position(1) - points[0]).norm(), 0, 1e-15);
+  EXPECT_NEAR((curve.slope(1) - curve.slope(0)).norm(), 0, 1e-12);
+  const auto second = [&](double a, double b) -> Vec2 { return (curve.slope(b) - curve.slope(a)) / (b - a); };
+  // Second derivative from both sides of the seam: one-sided differences over 1e-5 see the third derivative.
+  EXPECT_NEAR((second(0, 1e-5) - second(1 - 1e-5, 1)).norm(), 0, 1e-2 * second(0, 1e-5).norm());
+}
+
+TEST(Shapes, SplinesConvergeWithFourthOrder) {
+  const auto error = [](int n, Curve ends) {
+    std::vector<Vec2> points;
+    const double whole = ends == Curve::closed ? 2 * pi : 2.0;
+    for (int k = 0; k <= n; ++k) points.emplace_back(std::cos(whole * k / n), std::sin(whole * k / n));
+    const PlaneCurve curve = spline(points, ends);
+    double worst = 0;
+    for (double s = 0; s <= 1; s += 0.0007) worst = std::max(worst, std::abs(curve.position(s).norm() - 1));
+    return worst;
+  };
+  for (const Curve ends : {Curve::closed, Curve::open}) {
+    EXPECT_GT(std::log2(error(16, ends) / error(32, ends)), 3.7);
+    EXPECT_LT(error(32, ends), 1e-5);
+  }
+}
+
+TEST(Shapes, CsvTextGivesPointsAndNamesThePlaceOfAMistake) {
+  const auto points = points_from_csv("x, y\n# comment\n1, 2\n\n3;4.5\n-1e-3 +6\r\n", "outline.csv");
+  ASSERT_EQ(points.size(), 3U);
+  EXPECT_EQ(points[1], Vec2(3, 4.5));
+  EXPECT_EQ(points[2], Vec2(-1e-3, 6));
+  const auto complaint = [](const char* text) -> std::string {
+    try {
+      points_from_csv(text, "outline.csv");
+    } catch (const UserMistake& mistake) {
+      return mistake.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(complaint("1,2\n3,x\n").substr(0, 16), "outline.csv:2:3:");
+  EXPECT_EQ(complaint("1,2\n3\n").substr(0, 14), "outline.csv:2:");
+  EXPECT_EQ(complaint("1,2,3\n").substr(0, 16), "outline.csv:1:5:");
+  EXPECT_NE(complaint("").find("no points"), std::string::npos);
+}
+
+TEST(Shapes, MistakesAreTheUsers) {
+  EXPECT_THROW(circle({0, 0}, -1), UserMistake);
+  EXPECT_THROW(smoothed_polygon({.corners = {{0, 0}, {0, 0}, {1, 1}}, .ends = Curve::open}), UserMistake);
+  EXPECT_THROW(spline({{0, 0}, {1, 0}, {1, 1}}, Curve::open), UserMistake);
+  EXPECT_THROW(spline({{0, 0}, {1, 0}, {1, 0}, {1, 1}}, Curve::open), UserMistake);
+  const PointWeight away[] = {{-2, 10, 0.5}};
+  EXPECT_THROW(distribute(circle({0, 0}, 1), 40, away), UserMistake);
+}
+
+}  // namespace
+}  // namespace fsi::grid
