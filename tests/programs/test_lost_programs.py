@@ -8,8 +8,8 @@ import unittest
 
 from running import EndToEnd, until
 
-# Small steps make a run of tens of seconds: it is in its middle when a program is killed.
-LONG = ("elastic_piston", "--set", "grid.factor=2", "--set", "time.dt=2e-6")
+# Small steps make a run of tens of seconds: it is in its middle when a program is killed, and has one output behind it.
+LONG = ("elastic_piston", "--set", "grid.factor=2", "--set", "time.dt=2e-6", "--set", "output.times=[1e-5, 0.8]")
 
 
 class LostPrograms(EndToEnd):

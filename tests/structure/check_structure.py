@@ -161,7 +161,10 @@ def main(arguments):
     if not arguments or arguments[0] not in RULES:
         print(__doc__)
         return 2
-    root = Path(arguments[1] if len(arguments) > 1 else os.environ.get("FSI_ROOT", Path(__file__).parents[2]))
+    root = Path(arguments[1] if len(arguments) > 1 else os.environ.get("FSI_ROOT", Path(__file__).resolve().parents[2]))
+    if not (root / "launch" / "fsi").is_file():
+        print(f"{root} is not the repository")
+        return 2
     offences = list(RULES[arguments[0]](root))
     print("\n".join(offences) if offences else f"{arguments[0]}: nothing to complain about")
     return 1 if offences else 0
