@@ -1,0 +1,78 @@
+#include "monitor/registry.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <fstream>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+namespace fsi::monitor {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+bool lives(int pid) {
+  return pid > 0 && (kill(pid, 0) == 0 || errno == EPERM);
+}
+
+std::optional<RunEntry> read_entry(const fs::path& path) {
+  std::ifstream file(path);
+  const auto json = nlohmann::json::parse(file, nullptr, false);
+  if (!json.is_object()) return std::nullopt;
+  try {
+    return RunEntry{.run = json.at("run").get<std::string>(),
+                    .name = json.value("case", ""),
+                    .dir = json.value("dir", ""),
+                    .pid = json.at("pid").get<int>()};
+  } catch (const nlohmann::json::exception&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace
+
+std::vector<fs::path> registry_folders() {
+  std::vector<fs::path> folders;
+  const char* runtime = std::getenv("XDG_RUNTIME_DIR");  // NOLINT(concurrency-mt-unsafe): nobody sets it here
+  if (runtime != nullptr && *runtime != '\0') folders.push_back(fs::path(runtime) / "amp-fsi");
+  folders.emplace_back(fmt::format("/tmp/amp-fsi-{}", getuid()));
+  return folders;
+}
+
+std::vector<RunEntry> running_runs(const std::vector<fs::path>& folders) {
+  std::vector<RunEntry> entries;
+  for (const fs::path& folder : folders) {
+    std::error_code none;
+    for (const auto& file : fs::directory_iterator(folder, none)) {
+      if (file.path().extension() != ".json") continue;
+      const auto entry = read_entry(file.path());
+      if (entry && lives(entry->pid)) entries.push_back(*entry);
+    }
+  }
+  std::ranges::sort(entries, {}, &RunEntry::run);
+  return entries;
+}
+
+std::vector<RunEntry> matching(const std::vector<RunEntry>& entries, const std::string& wanted) {
+  if (wanted.empty()) return entries;
+  const auto select = [&](const std::function<bool(const RunEntry&)>& fits) {
+    std::vector<RunEntry> selected;
+    std::ranges::copy_if(entries, std::back_inserter(selected), fits);
+    return selected;
+  };
+  std::error_code none;
+  auto found =
+      select([&](const RunEntry& e) { return e.run == wanted || fs::equivalent(e.dir, wanted, none); });
+  if (found.empty()) found = select([&](const RunEntry& e) { return e.name == wanted; });
+  if (found.empty()) found = select([&](const RunEntry& e) { return e.run.starts_with(wanted); });
+  return found;
+}
+
+}  // namespace fsi::monitor
