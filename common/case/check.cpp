@@ -289,9 +289,10 @@ void check_case(const Case& problem, const Node& root) {
          "several solids without a gas have nothing in common; write one case for each");
   }
   if (problem.fluid) check_fluid(problem, root);
-  for (const SolidSpec& solid : problem.solids) {
+  for (std::size_t k = 0; k < problem.solids.size(); ++k) {
+    const SolidSpec& solid = problem.solids[k];
     if (solid.name == "fluid" || solid.name == "coupler") {
-      fail(at(root, {"solids", solid.name}).place, "solids",
+      fail(at(root, {"solids"}).entries[k].place, "solids",
            fmt::format("`{}` is the name of another program; choose another", solid.name));
     }
     check_grid(solid.grid, at(root, {"solids", solid.name, "grid"}),

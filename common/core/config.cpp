@@ -97,8 +97,9 @@ class Builder : public YAML::EventHandler {
     std::vector<Entry>& entries = open_.back().node.entries;
     for (const Entry& entry : entries) {
       if (entry.key == key.text) {
-        throw UserMistake(fmt::format("{}: key {} is there twice, first at {}; keep one", key.place,
-                                      in_ticks(key.text), entry.place));
+        const std::string first = with_marks_ ? " at " + entry.place.substr(file_.size() + 1) : "";
+        throw UserMistake(fmt::format("{}: key {} is there twice, first{}; keep one", key.place,
+                                      in_ticks(key.text), first));
       }
     }
     entries.push_back({key.text, key.place, {}});
@@ -120,7 +121,6 @@ void refuse_tabs(const std::string& text, const std::string& file) {
   for (int number = 1; std::getline(lines, line); ++number) {
     const std::size_t first = line.find_first_not_of(' ');
     if (first == std::string::npos || line[first] != '\t') continue;
-    if (line.find_first_not_of(" \t\r", first) == std::string::npos) continue;
     throw UserMistake(
         fmt::format("{}:{}:{}: a tab in the indentation; write spaces", file, number, first + 1));
   }

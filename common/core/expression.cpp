@@ -88,9 +88,12 @@ std::string reason_of(mu::EErrorCodes code) {
 /// muParser's functions and the roundings it lacks.
 mu::Parser extended_parser() {
   mu::Parser parser;
-  parser.DefineFun("round", +[](double value) { return std::round(value); });
-  parser.DefineFun("floor", +[](double value) { return std::floor(value); });
-  parser.DefineFun("ceil", +[](double value) { return std::ceil(value); });
+  parser.DefineFun(
+      "round", +[](double value) { return std::round(value); });
+  parser.DefineFun(
+      "floor", +[](double value) { return std::floor(value); });
+  parser.DefineFun(
+      "ceil", +[](double value) { return std::ceil(value); });
   return parser;
 }
 
@@ -231,7 +234,8 @@ struct Expression::Implementation {
       return fmt::format("unknown name `{}` at position {} of {}{}", name, error.GetPos() + 1,
                          in_ticks(formula), did_you_mean(name, known));
     }
-    const std::string place = error.GetPos() >= 0 ? fmt::format(" at position {}", error.GetPos() + 1) : "";
+    const bool at_end = error.GetPos() < 0 || static_cast<std::size_t>(error.GetPos()) >= formula.size();
+    const std::string place = at_end ? "" : fmt::format(" at position {}", error.GetPos() + 1);
     return fmt::format("{} {}{}", in_ticks(formula), reason_of(error.GetCode()), place);
   }
 };
