@@ -30,8 +30,9 @@ struct HyperbolicGrid {
   double growth = 1;   ///< ratio of successive distances [-]
   /// Open: direction of the wall on which an end slides, at the first and at the last point; without one the
   /// end goes along the curve's normal.
-  std::array<std::optional<Vec2>, 2> walls;
-  double smoothing = 0.1;       ///< eps of x_rr, for lines as far apart as the points are [-]
+  std::array<std::optional<Vec2>, 2> walls = {};
+  double smoothing =
+      0.1;  ///< eps of x_rr for lines as far apart as the points are, in proportion for closer ones [-]
   double end_smoothing = 0.01;  ///< the same at the ends
   int sweeps = 20;              ///< of the local arclength [-]
   int blend = 5;                ///< points over which normals turn into the wall's direction
@@ -53,11 +54,28 @@ class HyperbolicMarch {
   void march(std::span<const double> curve, FieldView x, double t);
 
  private:
+  /// One point of the line marched from.
+  struct LinePoint {
+    Vec2 tangent;   ///< unit
+    Vec2 normal;    ///< unit, towards the next line
+    double arc;     ///< distance between points here
+    double smooth;  ///< the same, smoothed
+    double blend;   ///< 1 at a wall, 0 far from it
+  };
+
   HyperbolicGrid grid_;
   LineSolver solver_;
-  std::vector<double> work_;
+  std::vector<LinePoint> line_;
 
-  void advance_line(ConstFieldView x, FieldView x_next, int line, double d);
+  bool closed() const { return grid_.ends == Curve::closed; }
+  int row_of(int line) const { return grid_.curve == Side::bottom ? line : grid_.lines - 1 - line; }
+  void measure(ConstFieldView x, int j);
+  void smooth_arclength();
+  void blend_into_walls();
+  void fill_rows(ConstFieldView x, int j, double d);
+  void fill_end(std::size_t k, double d);
+  void place(FieldView x, int j, int j_next);
+  void fill_ghosts(FieldView x) const;
 };
 
 }  // namespace fsi::grid

@@ -1,0 +1,216 @@
+#include "common/grid/hyperbolic.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <stdexcept>
+#include <utility>
+
+#include "common/core/failure.hpp"
+#include "common/grid/quality.hpp"
+
+namespace fsi::grid {
+
+namespace {
+
+Vec2 point(ConstFieldView x, int i, int j) {
+  return {x(0, i, j), x(1, i, j)};
+}
+
+std::size_t unknowns_of(const HyperbolicGrid& grid) {
+  if (grid.points < 5 || grid.lines < 3) {
+    throw UserMistake(fmt::format("grid \"{}\": {} points by {} lines are too few; write at least 5 by 3",
+                                  grid.name, grid.points, grid.lines));
+  }
+  return static_cast<std::size_t>(grid.ends == Curve::closed ? grid.points - 1 : grid.points);
+}
+
+/// Value that continues v0, v1, v2 (from near to far) one step outward, third order.
+double continued(double v0, double v1, double v2) {
+  return 3 * (v0 - v1) + v2;
+}
+
+}  // namespace
+
+HyperbolicMarch::HyperbolicMarch(HyperbolicGrid grid)
+    : grid_(std::move(grid)), solver_(unknowns_of(grid_)), line_(solver_.rows().size()) {
+  if (!(grid_.spacing > 0 && grid_.growth > 0)) {
+    throw UserMistake(fmt::format("grid \"{}\": spacing {} and growth {}; write positive numbers", grid_.name,
+                                  grid_.spacing, grid_.growth));
+  }
+  if (grid_.curve != Side::bottom && grid_.curve != Side::top) {
+    throw UserMistake(fmt::format("grid \"{}\": the curve is its {} side; choose bottom or top", grid_.name,
+                                  name_of(grid_.curve)));
+  }
+  if (!(grid_.smoothing >= 0 && grid_.end_smoothing >= 0) || grid_.sweeps < 0 || grid_.blend < 0) {
+    throw UserMistake(
+        fmt::format("grid \"{}\": smoothing, sweeps and blend must not be negative", grid_.name));
+  }
+  for (std::optional<Vec2>& wall : grid_.walls) {
+    if (wall && !(wall->norm() > 0)) {
+      throw UserMistake(fmt::format("grid \"{}\": the direction of a wall has no length", grid_.name));
+    }
+    if (wall) wall->normalize();
+  }
+}
+
+double HyperbolicMarch::depth() const {
+  double depth = 0, d = grid_.spacing;
+  for (int line = 1; line < grid_.lines; ++line, d *= grid_.growth) depth += d;
+  return depth;
+}
+
+void HyperbolicMarch::march(std::span<const double> curve, FieldView x, double t) {
+  const auto n = static_cast<std::size_t>(grid_.points);
+  if (curve.size() != 2 * n || x.layout != layout()) {
+    throw std::logic_error(fmt::format("grid \"{}\": a curve of {} numbers for {} points, a field of {} x {}",
+                                       grid_.name, curve.size(), n, x.layout.n1, x.layout.n2));
+  }
+  for (int c = 0; c < 2; ++c) {
+    std::copy_n(curve.begin() + c * grid_.points, grid_.points, x.row(c, row_of(0)));
+    if (closed()) x(c, grid_.points - 1, row_of(0)) = x(c, 0, row_of(0));
+  }
+  double d = grid_.spacing;
+  for (int line = 0; line + 1 < grid_.lines; ++line, d *= grid_.growth) {
+    measure(x, row_of(line));
+    smooth_arclength();
+    if (!closed()) blend_into_walls();
+    fill_rows(x, row_of(line), d);
+    place(x, row_of(line), row_of(line + 1));
+  }
+  fill_ghosts(x);
+  check_cells(x, grid_.name, t);
+}
+
+/// Tangents, normals and distances along row j, by central differences, one-sided at open ends.
+void HyperbolicMarch::measure(ConstFieldView x, int j) {
+  const double towards = grid_.curve == Side::bottom ? 1.0 : -1.0;
+  const int n = static_cast<int>(line_.size());
+  for (int k = 0; k < n; ++k) {
+    int before = k - 1, after = k + 1;
+    if (closed() && k == 0) before = n - 1;
+    if (!closed()) before = std::max(before, 0), after = std::min(after, n - 1);
+    const Vec2 forward = point(x, after, j) - point(x, k, j), backward = point(x, k, j) - point(x, before, j);
+    LinePoint& here = line_[static_cast<std::size_t>(k)];
+    here.tangent = (forward + backward).normalized();
+    here.normal = towards * Vec2(-here.tangent[1], here.tangent[0]);
+    here.arc = (forward.norm() + backward.norm()) / (after - before == 1 ? 1 : 2);
+    here.smooth = here.arc;
+    here.blend = 0;
+  }
+}
+
+/// Jacobi sweeps towards the mean of the neighbours.
+void HyperbolicMarch::smooth_arclength() {
+  const std::size_t last = line_.size() - 1;
+  for (int sweep = 0; sweep < grid_.sweeps; ++sweep) {
+    const double first_old = line_[0].smooth;
+    double before = closed() ? line_[last].smooth : line_[1].smooth;
+    for (std::size_t k = 0; k <= last; ++k) {
+      const double here = line_[k].smooth;
+      double after = k < last ? line_[k + 1].smooth : first_old;
+      if (k == last && !closed()) after = before;
+      line_[k].smooth = 0.25 * (before + 2 * here + after);
+      before = here;
+    }
+  }
+}
+
+/// Near an end that slides on a wall, normals turn into the wall's direction.
+void HyperbolicMarch::blend_into_walls() {
+  for (std::size_t end = 0; end < 2; ++end) {
+    if (!grid_.walls[end]) continue;
+    const std::size_t reach = std::min(static_cast<std::size_t>(grid_.blend), line_.size() / 2);
+    for (std::size_t k = 0; k <= reach; ++k) {
+      LinePoint& here = line_[end == 0 ? k : line_.size() - 1 - k];
+      const Vec2 wall = here.normal.dot(*grid_.walls[end]) < 0 ? Vec2(-*grid_.walls[end]) : *grid_.walls[end];
+      here.blend = 1 - static_cast<double>(k) / static_cast<double>(reach + 1);
+      here.normal = ((1 - here.blend) * here.normal + here.blend * wall).normalized();
+    }
+  }
+}
+
+/// [I + A D0 - eps D+D-] dx = d (smooth / arc) n + eps D+D- x, A the linearised normal.
+void HyperbolicMarch::fill_rows(ConstFieldView x, int j, double d) {
+  const int n = static_cast<int>(line_.size());
+  for (int k = 0; k < n; ++k) {
+    const auto at = static_cast<std::size_t>(k);
+    const LinePoint& here = line_[at];
+    if (!closed() && (k == 0 || k == n - 1)) {
+      fill_end(at, d);
+      continue;
+    }
+    const int before = k == 0 ? n - 1 : k - 1;
+    const double step = d * here.smooth / here.arc;
+    const bool near_end = !closed() && (k == 1 || k == n - 2);
+    const double eps = (near_end ? grid_.end_smoothing : grid_.smoothing) * std::min(1.0, d / here.smooth);
+    const Mat2 turn = (0.5 * (1 - here.blend) * step / here.arc) * here.tangent * here.normal.transpose();
+    LineRow& row = solver_.rows()[at];
+    row.below = -turn - eps * Mat2::Identity();
+    row.above = turn - eps * Mat2::Identity();
+    row.diagonal = (1 + 2 * eps) * Mat2::Identity();
+    row.right = step * here.normal + eps * (point(x, k + 1, j) - 2 * point(x, k, j) + point(x, before, j));
+  }
+}
+
+/// Open end: no step across the wall, along it the neighbour's step; without a wall straight along the
+/// normal.
+void HyperbolicMarch::fill_end(std::size_t k, double d) {
+  LineRow& row = solver_.rows()[k];
+  const std::optional<Vec2>& wall = grid_.walls[k == 0 ? 0 : 1];
+  row.below = row.above = Mat2::Zero();
+  if (!wall) {
+    row.diagonal = Mat2::Identity();
+    row.right = d * line_[k].smooth / line_[k].arc * line_[k].normal;
+    return;
+  }
+  row.diagonal << -(*wall)[1], (*wall)[0], (*wall)[0], (*wall)[1];
+  Mat2& inner = k == 0 ? row.above : row.below;
+  inner.row(1) = -wall->transpose();
+  row.right.setZero();
+}
+
+void HyperbolicMarch::place(FieldView x, int j, int j_next) {
+  const std::span<const Vec2> step = closed() ? solver_.solve_closed() : solver_.solve_open();
+  const std::size_t n = step.size();
+  for (int c = 0; c < 2; ++c) {
+    const double* from = x.row(c, j);
+    double* to = x.row(c, j_next);
+    for (std::size_t k = 0; k < n; ++k) to[k] = from[k] + step[k][c];
+    if (closed()) to[n] = to[0];
+  }
+  for (std::size_t end = 0; end < 2; ++end) {
+    if (closed() || !grid_.walls[end]) continue;
+    const int k = end == 0 ? 0 : grid_.points - 1;
+    const Vec2& wall = *grid_.walls[end];
+    const Vec2 on_wall = point(x, k, j) + wall * wall.dot(step[static_cast<std::size_t>(k)]);
+    x(0, k, j_next) = on_wall[0];
+    x(1, k, j_next) = on_wall[1];
+  }
+}
+
+void HyperbolicMarch::fill_ghosts(FieldView x) const {
+  const int n1 = grid_.points, n2 = grid_.lines;
+  for (int c = 0; c < 2; ++c) {
+    for (int j = 0; j < n2; ++j) {
+      double* row = x.row(c, j);
+      for (int g = 1; g <= Layout::ghosts; ++g) {
+        row[-g] = closed() ? row[n1 - 1 - g] : continued(row[1 - g], row[2 - g], row[3 - g]);
+        row[n1 - 1 + g] = closed() ? row[g] : continued(row[n1 - 2 + g], row[n1 - 3 + g], row[n1 - 4 + g]);
+      }
+    }
+    for (int g = 1; g <= Layout::ghosts; ++g) {
+      double *below = x.row(c, -g), *above = x.row(c, n2 - 1 + g);
+      const double *b0 = x.row(c, 1 - g), *b1 = x.row(c, 2 - g), *b2 = x.row(c, 3 - g);
+      const double *a0 = x.row(c, n2 - 2 + g), *a1 = x.row(c, n2 - 3 + g), *a2 = x.row(c, n2 - 4 + g);
+      for (int i = -Layout::ghosts; i < n1 + Layout::ghosts; ++i) {
+        below[i] = continued(b0[i], b1[i], b2[i]);
+        above[i] = continued(a0[i], a1[i], a2[i]);
+      }
+    }
+  }
+}
+
+}  // namespace fsi::grid

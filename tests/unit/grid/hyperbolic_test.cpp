@@ -1,0 +1,212 @@
+#include "common/grid/hyperbolic.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "common/core/failure.hpp"
+#include "common/grid/line_solver.hpp"
+#include "common/grid/quality.hpp"
+#include "common/grid/shapes/circle.hpp"
+#include "tests/unit/grid/shapes_of_cases.hpp"
+
+namespace fsi::grid {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+struct Marched {
+  HyperbolicGrid description;
+  std::vector<double> curve;
+  Field x;
+};
+
+Marched march(const PlaneCurve& shape, HyperbolicGrid description, double t = 0) {
+  Marched result{description, points_on(shape, description.points),
+                 Field(Layout(description.points, description.lines), 2)};
+  HyperbolicMarch(description).march(result.curve, result.x.view(), t);
+  return result;
+}
+
+HyperbolicGrid beam_grid(int points, int lines, Side side, double spacing) {
+  return {.name = "beam",
+          .points = points,
+          .lines = lines,
+          .curve = side,
+          .ends = Curve::open,
+          .spacing = spacing,
+          .walls = {Vec2(1, 0), Vec2(1, 0)}};
+}
+
+/// Largest distance of the points of an annulus of the given radii from the polar grid, parts of the width.
+double polar_error(int points, int lines, Side side, double depth) {
+  const double spacing = depth / (lines - 1), outward = side == Side::top ? 1 : -1;
+  const Marched grid =
+      march(circle({0, 0}, 1), {.points = points, .lines = lines, .curve = side, .spacing = spacing});
+  double worst = 0;
+  for (int m = 0; m < lines; ++m) {
+    const int j = side == Side::bottom ? m : lines - 1 - m;
+    for (int i = 0; i < points; ++i) {
+      const double r = 1 + outward * m * spacing, angle = 2 * pi * i / (points - 1);
+      worst = std::max(
+          worst, std::hypot(grid.x(0, i, j) - r * std::cos(angle), grid.x(1, i, j) - r * std::sin(angle)));
+    }
+  }
+  return worst / depth;
+}
+
+TEST(LineSolver, SolvesOpenAndClosedLines) {
+  constexpr std::size_t n = 7;
+  for (const bool closed : {false, true}) {
+    LineSolver solver(n);
+    std::vector<LineRow> rows(n);
+    for (std::size_t k = 0; k < n; ++k) {
+      const double a = std::sin(3.0 * static_cast<double>(k));
+      rows[k].diagonal << 2, a, 0.1, 3;
+      rows[k].below << 0.3, 0.1 * a, -0.2, 0.5;
+      rows[k].above << -0.4, 0.2, 0.3 * a, 0.1;
+      rows[k].right << a, 1;
+    }
+    std::ranges::copy(rows, solver.rows().begin());
+    const auto x = closed ? solver.solve_closed() : solver.solve_open();
+    for (std::size_t k = 0; k < n; ++k) {
+      Vec2 miss = rows[k].diagonal * x[k] - rows[k].right;
+      if (closed || k > 0) miss += rows[k].below * x[(k + n - 1) % n];
+      if (closed || k + 1 < n) miss += rows[k].above * x[(k + 1) % n];
+      EXPECT_LT(miss.norm(), 1e-15 * 10);  // a few roundings of numbers of order one
+    }
+  }
+}
+
+TEST(HyperbolicMarch, CircleGivesAPolarGridInTheLimit) {
+  for (const Side side : {Side::top, Side::bottom}) {
+    const double coarse = polar_error(65, 6, side, 0.25), fine = polar_error(257, 21, side, 0.25);
+    // The smoothing pulls towards the centre by eps times spacing per line: first order.
+    EXPECT_LT(coarse, 0.02);
+    EXPECT_LT(fine, coarse / 3.5);
+  }
+}
+
+TEST(HyperbolicMarch, CircleWithoutSmoothingIsThePolarGrid) {
+  const Marched grid = march(circle({0, 0}, 1),
+                             {.points = 65, .lines = 6, .curve = Side::top, .spacing = 0.05, .smoothing = 0});
+  for (int i = 0; i < 65; ++i) EXPECT_NEAR(std::hypot(grid.x(0, i, 0), grid.x(1, i, 0)), 1.25, 1e-13);
+}
+
+TEST(HyperbolicMarch, StartCurveIsTheCurveToTheBitOnEitherSide) {
+  const Marched outside = march(star(), {.points = 201, .lines = 6, .curve = Side::top, .spacing = 0.02});
+  const Marched inside = march(star(), {.points = 201, .lines = 6, .curve = Side::bottom, .spacing = 0.02});
+  for (int i = 0; i < 201; ++i) {
+    for (int c = 0; c < 2; ++c) {
+      EXPECT_EQ(outside.x(c, i, 5), outside.curve[static_cast<std::size_t>(201 * c + i)]);
+      EXPECT_EQ(inside.x(c, i, 0), outside.x(c, i, 5));
+    }
+  }
+}
+
+TEST(HyperbolicMarch, ClosedGridsArePeriodicToTheBitGhostsIncluded) {
+  const Marched grid = march(star(), {.points = 201, .lines = 6, .curve = Side::top, .spacing = 0.02});
+  for (int j = -2; j < 8; ++j) {
+    for (int c = 0; c < 2; ++c) {
+      for (int m = -2; m <= 2; ++m)
+        EXPECT_EQ(grid.x(c, m < 0 ? m : 200 + m, j), grid.x(c, m < 0 ? 200 + m : m, j));
+    }
+  }
+}
+
+TEST(HyperbolicMarch, GridsOfTheCasesAreUnfoldedAtSeveralResolutions) {
+  for (const int j : {4, 8, 16, 32}) {
+    const double h = 1.0 / (10 * j);
+    const int around = static_cast<int>(2 * pi * 0.875 / h) + 1;
+    for (const Side side : {Side::top, Side::bottom}) {
+      const auto ellipse_grid =
+          march(tilted_ellipse(), {.points = around, .lines = j == 4 ? 6 : 8, .curve = side, .spacing = h});
+      EXPECT_GT(quality_of(ellipse_grid.x.view()).min_jacobian_ratio, 0.3);
+      const int star_points = static_cast<int>(length_of(star()) / h) + 1;
+      const auto star_grid =
+          march(star(), {.points = star_points, .lines = 8, .curve = side, .spacing = std::min(h, 0.0125)});
+      EXPECT_GT(quality_of(star_grid.x.view()).min_jacobian_ratio, 0.3);
+    }
+  }
+}
+
+TEST(HyperbolicMarch, BeamGridsAreUnfoldedAndTheirEndsStayOnTheWall) {
+  for (const int j : {16, 32}) {
+    const double h = 1.0 / (10 * j);
+    const int along = static_cast<int>(length_of(beam_outline()) / h) + 1;
+    const Marched gas = march(beam_outline(), beam_grid(along, 9, Side::bottom, h));
+    const double depth = std::min(0.015, 3 * h);
+    const Marched solid =
+        march(beam_outline(), beam_grid(static_cast<int>(1.2 * along), 10, Side::top, depth / 9));
+    for (const Marched* grid : {&gas, &solid}) {
+      const auto view = grid->x.view();
+      for (int line = 0; line < view.layout.n2; ++line) {
+        EXPECT_EQ(view(1, 0, line), 0.0);
+        EXPECT_EQ(view(1, view.layout.n1 - 1, line), 0.0);
+      }
+    }
+    EXPECT_GT(quality_of(gas.x.view()).min_jacobian_ratio, 0.4);
+    EXPECT_GT(quality_of(solid.x.view()).min_jacobian_ratio, 0.4);
+    // The outline's left side has the gas on its left.
+    EXPECT_LT(gas.x(0, along / 4, 8), -0.05 - 7 * h);
+  }
+}
+
+TEST(HyperbolicMarch, StraightCurveBetweenWallsGivesARectangularGrid) {
+  std::vector<double> curve(22, 0.25);
+  for (std::size_t k = 0; k < 11; ++k) curve[11 + k] = 0.1 * static_cast<double>(k);
+  HyperbolicGrid description = beam_grid(11, 6, Side::top, 0.1);
+  description.growth = 1.2;
+  HyperbolicMarch marcher(description);
+  Field x(marcher.layout(), 2);
+  marcher.march(curve, x.view(), 0);
+  EXPECT_NEAR(marcher.depth(), 0.1 * (std::pow(1.2, 5) - 1) / 0.2, 1e-15);
+  for (int i = 0; i < 11; ++i) {
+    EXPECT_NEAR(x(0, i, 0), 0.25 + marcher.depth(), 1e-14);
+    EXPECT_NEAR(x(1, i, 2), 0.1 * i, 1e-14);
+  }
+}
+
+TEST(HyperbolicMarch, GhostLinesContinueTheGridSmoothly) {
+  const Marched grid =
+      march(circle({0, 0}, 1), {.points = 129, .lines = 8, .curve = Side::top, .spacing = 0.05});
+  for (int i = -2; i < 131; ++i) {
+    // Lines of an annulus are nearly straight rays: the radius goes on in equal steps.
+    for (int j = -2; j < 9; ++j) {
+      const double step =
+          std::hypot(grid.x(0, i, j), grid.x(1, i, j)) - std::hypot(grid.x(0, i, j + 1), grid.x(1, i, j + 1));
+      EXPECT_NEAR(step, 0.05, 0.002);
+    }
+  }
+}
+
+TEST(HyperbolicMarch, NamesGridCellPlaceAndTimeOfAFold) {
+  try {
+    march(beam_outline(), beam_grid(200, 10, Side::top, 0.02), 1.5);
+    FAIL() << "a grid deeper than the beam is thick went unnoticed";
+  } catch (const NumbersBroke& broke) {
+    const std::string words = broke.what();
+    EXPECT_NE(words.find("t = 1.5, grid \"beam\", cell ("), std::string::npos) << words;
+    EXPECT_NE(words.find("folded"), std::string::npos);
+  }
+}
+
+TEST(HyperbolicMarch, NamesACurveThatIsNoNumber) {
+  HyperbolicMarch marcher({.points = 65, .lines = 6, .curve = Side::top, .spacing = 0.05});
+  auto curve = points_on(circle({0, 0}, 1), 65);
+  curve[17] = std::nan("");
+  Field x(marcher.layout(), 2);
+  EXPECT_THROW(marcher.march(curve, x.view(), 0), NumbersBroke);
+}
+
+TEST(HyperbolicMarch, MistakesAreTheUsers) {
+  EXPECT_THROW(HyperbolicMarch(HyperbolicGrid{.points = 4, .lines = 6, .spacing = 1}), UserMistake);
+  EXPECT_THROW(HyperbolicMarch(HyperbolicGrid{.points = 40, .lines = 6, .spacing = 0}), UserMistake);
+  EXPECT_THROW(HyperbolicMarch(HyperbolicGrid{.points = 40, .lines = 6, .curve = Side::left, .spacing = 1}),
+               UserMistake);
+}
+
+}  // namespace
+}  // namespace fsi::grid
