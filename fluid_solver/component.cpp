@@ -102,10 +102,33 @@ void Component::fill(const StateField& initial, double t) {
   for (int j = 1; j < shape.n2 - 1; ++j) {
     row_rates_[static_cast<std::size_t>(j)] = fastest_in(j, {1, shape.n1 - 1}).rate;
   }
+  if (grid_.moves()) measure_initial_motion(t, 0.1 / fastest_point().rate);
+}
+
+/// Velocity and acceleration of the sides at t from their positions at t, t + delta and t + 2 delta; a grid that follows
+/// commands tells nothing about its future and starts without.
+void Component::measure_initial_motion(double t, double delta) {
+  std::array<std::array<std::vector<double>, 4>, 3> x;
+  for (const std::size_t level : {2U, 1U, 0U}) {
+    grid_.move(t + static_cast<double>(level) * delta);
+    for (const Side side : all_sides) x[level][static_cast<std::size_t>(side)] = grid_.side_points(side);
+  }
+  for (const Side side : all_sides) {
+    const auto s = static_cast<std::size_t>(side);
+    WallMotion& wall = walls_[s];
+    for (std::size_t k = 0; k < wall.velocity.size(); ++k) {
+      const double x0 = x[0][s][k], x1 = x[1][s][k], x2 = x[2][s][k];
+      wall.velocity[k] = (2 * (x1 - x0) - 0.5 * (x2 - x0)) / delta;
+      wall.acceleration[k] = ((x2 - x1) - (x1 - x0)) / (delta * delta);
+      wall.mid_velocity[k] = wall.velocity[k];
+      starts_moving_ = starts_moving_ || x1 != x0;
+    }
+  }
 }
 
 void Component::move(double t_new, double dt, std::span<const grid::SideCommand> commands) {
   grid_.move(t_new, commands);
+  const bool known = starts_moving_ || last_dt_ > 0;
   for (const Side side : all_sides) {
     WallMotion& wall = walls_[static_cast<std::size_t>(side)];
     const SidePoints points(grid_.layout(), side);
@@ -115,7 +138,7 @@ void Component::move(double t_new, double dt, std::span<const grid::SideCommand>
                         position(grid_.x_old(), points, static_cast<int>(k), 0);
       for (std::size_t c = 0; c < 2; ++c) {
         const double mean = step[static_cast<int>(c)] / dt, before = wall.mid_velocity[c * n + k];
-        const double acceleration = last_dt_ > 0 ? (mean - before) / (0.5 * (dt + last_dt_)) : 0.0;
+        const double acceleration = known ? (mean - before) / (0.5 * (dt + last_dt_)) : 0.0;
         wall.mid_velocity[c * n + k] = mean;
         wall.acceleration[c * n + k] = acceleration;
         wall.velocity[c * n + k] = mean + 0.5 * dt * acceleration;

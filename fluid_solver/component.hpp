@@ -87,10 +87,12 @@ class Component {
   std::array<WallMotion, 4> walls_;
   std::vector<double> row_rates_;  ///< largest wave rate of each row's inner points, kept from the sweep
   double last_dt_ = 0;             ///< of the last motion
+  bool starts_moving_ = false;     ///< the walls' velocities are known before the first step
   Counters counters_;
 
   StepGrid step_grid() const { return {grid_.x_old(), grid_.x(), spacing_}; }
   void measure_normals();
+  void measure_initial_motion(double t, double delta);
   FastestPoint fastest_in(int j, Range range) const;
   [[noreturn]] void report_broken(double t) const;
 };

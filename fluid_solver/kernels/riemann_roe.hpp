@@ -1,5 +1,8 @@
 #pragma once
-/// Roe's approximate Riemann solver with Harten's sonic-point fix on a moving face.
+/// Roe's approximate Riemann solver with Harten's sonic-point fix on a moving face. Where the linearised
+/// states between the waves would have no density left (two strong rarefactions), all waves are upwinded with
+/// the fastest speed instead, which keeps density and pressure positive (B. Einfeldt et al., J. Comput. Phys.
+/// 92 (1991) 273, on why Roe's solver cannot).
 ///
 ///      u - c   u   u + c          P. L. Roe, J. Comput. Phys. 43 (1981) 357
 ///          \   |   /              A. Harten, J. Comput. Phys. 49 (1983) 357
@@ -9,12 +12,14 @@
 #include <cmath>
 
 #include "fluid_solver/kernels/face_state.hpp"
+#include "fluid_solver/kernels/limiter.hpp"
 
 namespace fsi::fluid {
 
 struct RiemannRoe {
   double gamma;
-  double entropy_fix;  ///< |lambda| is rounded off below entropy_fix * c [-]
+  double entropy_fix;                            ///< |lambda| is rounded off below entropy_fix * c [-]
+  static constexpr double least_density = 1e-3;  ///< between the waves, as part of the mean density [-]
 
   /// Flux of (1) minus what the moving face sweeps over, the second and third terms of (31). One root and one
   /// division serve all Roe averages: sqrt(rho_L) / (sqrt(rho_L) + sqrt(rho_R)) = rho_L / (rho_L + sqrt(rho_L
@@ -34,14 +39,17 @@ struct RiemannRoe {
     const double c = std::sqrt(c2), c2_inverse = 1.0 / c2, c_inverse = c * c2_inverse;
 
     const double dp = (R.p - L.p) * c2_inverse, du = rho * (R.u - L.u) * c_inverse;
-    const double speed = u - g_n;
-    const double minus = rounded(std::fabs(speed - c), c, c_inverse) * (0.5 * (dp - du));
-    const double plus = rounded(std::fabs(speed + c), c, c_inverse) * (0.5 * (dp + du));
-    const double contact = std::fabs(speed) * (R.rho - L.rho - dp);
-    const double shear = std::fabs(speed) * rho * (R.v - L.v);
+    const double alpha_minus = 0.5 * (dp - du), alpha_plus = 0.5 * (dp + du);
+    const double w_L = L.u - g_n, w_R = R.u - g_n, speed = u - g_n;
+    const bool vacuum = larger(-L.rho - alpha_minus, alpha_plus - R.rho) > -least_density * rho;
+    const double fastest = larger(std::fabs(w_L), std::fabs(w_R)) + c;
+    const double flow = vacuum ? fastest : std::fabs(speed);
+    const double minus = alpha_minus * (vacuum ? fastest : rounded(std::fabs(speed - c), c, c_inverse));
+    const double plus = alpha_plus * (vacuum ? fastest : rounded(std::fabs(speed + c), c, c_inverse));
+    const double contact = flow * (R.rho - L.rho - dp);
+    const double shear = flow * rho * (R.v - L.v);
     const double acoustic = minus + plus, all = acoustic + contact, difference = (plus - minus) * c;
 
-    const double w_L = L.u - g_n, w_R = R.u - g_n;
     const double m_L = L.rho * w_L, m_R = R.rho * w_R;
     const double internal = 1.0 / gamma_1;
     return {.mass = 0.5 * ((m_L + m_R) - all),

@@ -1,5 +1,6 @@
 #include "fluid_solver/kernels/sweep.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "fluid_solver/kernels/rates.hpp"
@@ -40,16 +41,20 @@ struct Task {
   const Scheme& scheme;
 };
 
-/// The rows of a sweep and what it does with them.
+/// Columns swept together, about: the scratch rows of so many points stay in the second-level cache.
+constexpr int block = 512;
+
+/// The rows of a sweep over columns first <= i < last, and what it does with them.
 template <class Limiter, class Riemann, bool mapped>
 class Sweep {
  public:
-  Sweep(const Task& task, const Riemann& solve, const SweepOutput& output)
+  Sweep(const Task& task, const Riemann& solve, const SweepOutput& output, Range columns)
       : task_(task),
         solve_(solve),
         rows_(output.work),
         row_rates_(output.row_rates),
-        viscous_(task.scheme.viscosity.any()) {}
+        viscous_(task.scheme.viscosity.any()),
+        points_(columns) {}
 
   SweepCounts run() {
     const int n2 = task_.q.layout.n2;
@@ -73,9 +78,9 @@ class Sweep {
   Rows rows_;
   std::span<double> row_rates_;
   bool viscous_;
-  Range points_{0, task_.q.layout.n1};
-  Range around_{-1, task_.q.layout.n1 + 1};  ///< with one ghost point at each end
-  Range faces_along_{-1, task_.q.layout.n1};
+  Range points_;
+  Range around_{points_.first - 1, points_.last + 1};  ///< with one ghost point at each end
+  Range faces_along_{points_.first - 1, points_.last};
   PredictedRows predicted_{rows_.state(), rows_.state(), rows_.state(), rows_.state(), rows_.next()};
   StateRow<double> upper_before_ = rows_.state();  ///< of row r - 1
   FluxRow along_ = rows_.flux(), lower_ = rows_.flux(), upper_ = rows_.flux();
@@ -153,9 +158,10 @@ class Sweep {
     counts_.floors += counts.floors;
     counts_.broken += counts.broken;
     if (r == 0 || r == task_.q.layout.n2 - 1) return;
-    const Range inner{points_.first + 1, points_.last - 1};
+    const Range inner{std::max(points_.first, 1), std::min(points_.last, task_.q.layout.n1 - 1)};
     wave_rate_row(task_.q_new, task_.grid, task_.dt, task_.scheme.gamma, r, rate_, inner);
-    row_rates_[static_cast<std::size_t>(r)] = largest(rate_, inner);
+    double& most = row_rates_[static_cast<std::size_t>(r)];
+    most = std::max(most, largest(rate_, inner));
   }
 };
 
@@ -164,10 +170,18 @@ class Sweep {
 SweepCounts sweep(ConstFieldView q, FieldView q_new, const StepGrid& grid, double dt, const Scheme& scheme,
                   const SweepOutput& output) {
   const Task task{q, q_new, grid, dt, scheme};
+  std::ranges::fill(output.row_rates, 0.0);
   return std::visit(
       [&]<class Riemann, class Limiter>(const Riemann& solve, const Limiter&) {
-        return grid.cartesian ? Sweep<Limiter, Riemann, false>(task, solve, output).run()
-                              : Sweep<Limiter, Riemann, true>(task, solve, output).run();
+        SweepCounts counts;
+        const int n1 = q.layout.n1, blocks = std::max(1, (n1 + block / 2) / block),
+                  width = (n1 / blocks + 8) / 8 * 8;
+        for (int first = 0; first < n1; first += width) {
+          const Range columns{first, std::min(first + width, n1)};
+          counts += grid.cartesian ? Sweep<Limiter, Riemann, false>(task, solve, output, columns).run()
+                                   : Sweep<Limiter, Riemann, true>(task, solve, output, columns).run();
+        }
+        return counts;
       },
       scheme.riemann, scheme.limiter);
 }

@@ -41,6 +41,13 @@ struct SweepCounts {
   double first_order = 0;  ///< points advanced with first-order states
   double floors = 0;       ///< points whose pressure was lifted to the floor
   double broken = 0;       ///< points whose density is not positive or whose state is not finite
+
+  SweepCounts& operator+=(const SweepCounts& other) {
+    first_order += other.first_order;
+    floors += other.floors;
+    broken += other.broken;
+    return *this;
+  }
 };
 
 /// Rows of scratch memory a sweep needs.
