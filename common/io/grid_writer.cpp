@@ -22,17 +22,22 @@ std::vector<double> packed(const ConstFieldView& field, int plane) {
   return values;
 }
 
+/// x1 and x2, and both point by point as x: what every XDMF reader takes for a curvilinear grid.
 void write_positions(Hdf5& group, const GridOutput& grid, const std::array<std::uint64_t, 2>& shape) {
-  for (int c = 0; c < 2; ++c) {
+  std::vector<double> both(2 * grid.x.layout.points());
+  for (std::size_t c = 0; c < 2; ++c) {
+    const int plane = static_cast<int>(c);
     const std::string name = fmt::format("x{}", c + 1);
-    std::vector<double> x = packed(grid.x, c);
+    std::vector<double> x = packed(grid.x, plane);
     if (grid.u.data != nullptr) {
       group.write(name + "_bar", x, shape);
-      const std::vector<double> u = packed(grid.u, c);
+      const std::vector<double> u = packed(grid.u, plane);
       for (std::size_t k = 0; k < x.size(); ++k) x[k] += u[k];
     }
     group.write(name, x, shape);
+    for (std::size_t k = 0; k < x.size(); ++k) both[2 * k + c] = x[k];
   }
+  group.write("x", both, std::array{shape[0], shape[1], std::uint64_t{2}});
 }
 
 void write_grid(Hdf5 group, const GridOutput& grid) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <iterator>
@@ -29,7 +30,7 @@ std::string data_item(const std::string& reference, const std::string& dimension
 }
 
 bool is_position(std::string_view name) {
-  return name == "x1" || name == "x2" || name == "x1_bar" || name == "x2_bar";
+  return name.starts_with('x');
 }
 
 std::string grid_element(const Hdf5& group, const std::string& name, const std::string& location) {
@@ -37,13 +38,11 @@ std::string grid_element(const Hdf5& group, const std::string& name, const std::
   const std::string dimensions = fmt::format("{} {}", shape.at(0), shape.at(1));
   std::string text = fmt::format(R"(        <Grid Name="{}" GridType="Uniform">
           <Topology TopologyType="2DSMesh" Dimensions="{}"/>
-          <Geometry GeometryType="X_Y">
-            {}
+          <Geometry GeometryType="XY">
             {}
           </Geometry>
 )",
-                                 name, dimensions, data_item(location + "/x1", dimensions),
-                                 data_item(location + "/x2", dimensions));
+                                 name, dimensions, data_item(location + "/x", dimensions + " 2"));
   for (const auto& field : group.names()) {
     if (is_position(field)) continue;
     fmt::format_to(std::back_inserter(text),
