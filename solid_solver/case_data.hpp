@@ -41,9 +41,12 @@ class CaseData {
       : spec_(spec),
         cfl_(setup.problem.time.cfl),
         solution_(reference_from_case(setup.problem, setup.run_dir)) {
-    if (setup.problem.reference.kind == "manufactured" && setup.problem.reference.u) {
-      manufactured_ =
-          std::make_shared<Manufactured<L>>(function_of(*setup.problem.reference.u), law, spec.rho);
+    const ReferenceSpec& reference = setup.problem.reference;
+    if (reference.u) {
+      manufactured_ = std::make_shared<Manufactured<L>>(function_of(*reference.u), law, spec.rho);
+      forced_ = reference.kind == "manufactured";
+    } else if (reference.kind == "expressions") {
+      solution_ = nullptr;  // formulas for the gas only
     }
   }
 
@@ -91,7 +94,7 @@ class CaseData {
   }
 
   VectorFunction body_force() const {
-    if (manufactured_) {
+    if (forced_) {
       return [m = manufactured_](double x, double y, double t) { return m->body_force(x, y, t); };
     }
     return spec_.body_force ? function_of(*spec_.body_force) : VectorFunction{};
@@ -127,7 +130,7 @@ class CaseData {
         result.kind = Boundary::Kind::displacement;
         if (spec.vector) {
           result.vector = function_of(*spec.vector);
-          result.velocity = rate_of(result.vector);
+          result.velocity = spec.velocity ? function_of(*spec.velocity) : rate_of(result.vector);
         }
         if (spec.from_reference) {
           const StateFunction exact = required_reference(side);
@@ -189,7 +192,8 @@ class CaseData {
   const SolidSpec& spec_;
   double cfl_;
   std::shared_ptr<const exact::Solution> solution_;
-  std::shared_ptr<const Manufactured<L>> manufactured_;
+  std::shared_ptr<const Manufactured<L>> manufactured_;  ///< motion given by formulas
+  bool forced_ = false;                                  ///< a body force makes it a solution
 };
 
 }  // namespace fsi::solid
