@@ -29,7 +29,8 @@ class SolidBoundary {
 
   /// @param time_scale a time over which given tractions hardly change, for their time derivative
   /// @throws UserMistake when periodic sides do not come in pairs
-  SolidBoundary(BoundaryGrid grid, const L& law, Boundaries boundaries, Limiter limiter, double time_scale);
+  SolidBoundary(BoundaryGrid grid, const L& law, double rho, Boundaries boundaries, Limiter limiter,
+                double time_scale);
 
   /// Sets the boundary points and both ghost lines of q at time t, in this order:
   ///  1. motion that is given (interface: v := v + (v_n - n.v) n; displacement, slip, symmetry, exact);
@@ -54,14 +55,18 @@ class SolidBoundary {
   bool mirrored(Side side) const;
   static bool end_of(const SideIndex& line, int k) { return k == 0 || k == line.n - 1; }
   Vec2 position(std::ptrdiff_t at) const { return {grid_.x.plane(0)[at], grid_.x.plane(1)[at]}; }
+  /// False at a corner, unless the neighbour's ghost points are images, so that differences along the side
+  /// are sound.
+  bool inner(Side side, int k) const;
+  Vec2 side_normal_at_end(Side side, int k) const;
   /// Central differences along the side of u (first = plane::u1) or v over one index.
   static Vec2 difference_along(ConstFieldView q, const SideIndex& line, int first, int k);
   static Vec2 difference_across(ConstFieldView q, const SideIndex& line, int first, int k, double sign);
 
-  void set_motion(FieldView q, double t, std::span<const InterfaceValues> projected) const;
+  void set_motion(FieldView q, double t, std::span<const InterfaceValues> projected);
   void project_velocity(FieldView q, const InterfaceValues& values) const;
-  void set_given_motion(FieldView q, Side side, double t) const;
-  void remove_normal_motion(FieldView q, Side side) const;
+  void set_given_motion(FieldView q, Side side, double t);
+  void remove_normal_motion(FieldView q, Side side);
   void set_exact(FieldView q, Side side, double t, int m) const;
   void fill_line(FieldView q, double t, const GhostRange& range) const;
   void fill_side(FieldView q, Side side, double t, const GhostRange& range) const;
@@ -69,6 +74,7 @@ class SolidBoundary {
   void find_traction(ConstFieldView q, Side side, double t);
   void find_projected_traction(ConstFieldView q, const InterfaceValues& values);
   void set_normal_stress(FieldView q, Side side) const;
+  void follow_characteristics(FieldView q, Side side) const;
   void set_corner_stress(FieldView q) const;
   void match_side(FieldView q, Side side, double t) const;
   void match_point(FieldView q, Side side, int k, double t) const;
@@ -84,11 +90,13 @@ class SolidBoundary {
 
   BoundaryGrid grid_;
   L law_;
+  double rho_;
   Boundaries boundaries_;
   std::array<Kind, 4> kinds_;
   Limiter limiter_;
   double time_scale_;
-  std::array<std::vector<Vec2>, 4> T_, T_rate_;  ///< nominal traction n0^T P of the loaded sides and its rate
+  std::array<std::vector<Vec2>, 4> T_, T_rate_,
+      v_change_;  ///< nominal traction n0^T P of the loaded sides and its rate
 };
 
 }  // namespace fsi::solid

@@ -10,7 +10,7 @@ void SolidBoundary<L>::apply(FieldView q, double t, std::span<const InterfaceVal
   set_motion(q, t, projected);
   fill_line(q, t, {.first_plane = plane::u1, .last_plane = plane::v2, .m = -1});
   set_tractions(q, t, projected);
-  fill_line(q, t, {.first_plane = plane::P11, .last_plane = plane::P22, .m = -1});
+  fill_line(q, t, {.first_plane = plane::v1, .last_plane = plane::P22, .m = -1});
   for (const Side side : all_sides) {
     if (loaded(side) || kind(side) == Kind::slip) match_side(q, side, t);
   }
@@ -26,6 +26,11 @@ void SolidBoundary<L>::set_tractions(FieldView q, double t, std::span<const Inte
     if (loaded(side)) find_traction(q, side, t);
   }
   for (const InterfaceValues& values : projected) find_projected_traction(q, values);
+  for (const Side side : all_sides) {
+    if (kind(side) == Kind::traction || kind(side) == Kind::displacement || kind(side) == Kind::slip) {
+      follow_characteristics(q, side);
+    }
+  }
   for (const Side side : all_sides) {
     if (loaded(side) || kind(side) == Kind::slip || kind(side) == Kind::symmetry) set_normal_stress(q, side);
   }
@@ -75,6 +80,48 @@ void SolidBoundary<L>::find_projected_traction(ConstFieldView q, const Interface
   }
 }
 
+/// The predicted traction w0 and velocity v0 of a side become w and v along the outgoing characteristics,
+/// w - Z v = w0 - Z v0, the vector form of paper eq. (18): given v changes w, given w changes v.
+/// Differs from the paper, which overwrites the given half only: the other half then keeps a mode that
+/// nothing damps, and corners of sides with given displacement are unstable. The change is of the size of the
+/// truncation error.
+template <Law L>
+void SolidBoundary<L>::follow_characteristics(FieldView q, Side side) const {
+  const SideIndex line(layout(), side);
+  for (int k = 0; k < line.n; ++k) {
+    if (!inner(side, k)) continue;
+    const std::ptrdiff_t a = line.at(k, 0);
+    const SideMetrics m = at(side, k);
+    SolidState s = load(q, a);
+    const Stiffness K = law_.K(plus(identity, gradient(q, side, k, plane::u1)));
+    const Mat2 Z = matrix(impedance_matrix(K, m.n0, rho_, 1.0));
+    if (!Z.allFinite()) continue;
+    const Vec2 w = traction_of(s.P, m.n0), dv = v_change_[index(side)][static_cast<std::size_t>(k)];
+    if (kind(side) == Kind::traction) {
+      Vec2 change = Z.inverse() * (T_[index(side)][static_cast<std::size_t>(k)] - w);
+      if (end_of(line, k) && kind(neighbour(side, k != 0)) == Kind::slip) {
+        const Vec2 wall = side_normal_at_end(side, k);
+        change -= wall * wall.dot(change);
+      }
+      s.v += change;
+    } else if (kind(side) == Kind::displacement) {
+      s.P = plus_dyad(s.P, m.n0, Z * dv);
+    } else {
+      const Vec2 slide = -m.t0 * (m.t0.dot(w + Z * dv) / m.t0.dot(Z * m.t0));
+      s.v += slide;
+      s.P = plus_dyad(s.P, m.n0, Z * (dv + slide));
+    }
+    store(q, a, s);
+  }
+}
+
+/// Normal of the neighbour at the end k of a side.
+template <Law L>
+Vec2 SolidBoundary<L>::side_normal_at_end(Side side, int k) const {
+  const Side other = neighbour(side, k != 0);
+  return at(other, at_upper_end(side) ? SideIndex(layout(), other).n - 1 : 0).n0;
+}
+
 /// n0^T P := T on loaded sides, no shear on slip and symmetry sides; the rest of P stays.
 template <Law L>
 void SolidBoundary<L>::set_normal_stress(FieldView q, Side side) const {
@@ -109,8 +156,14 @@ void SolidBoundary<L>::set_corner_stress(FieldView q) const {
       if (loaded(side) && loaded(other)) {
         s.P = stress_of_tractions(at(side, k).n0, T_[index(side)][static_cast<std::size_t>(k)],
                                   at(other, k_other).n0, T_[index(other)][static_cast<std::size_t>(k_other)]);
-      } else if (kind(side) == Kind::displacement && kind(other) == Kind::displacement) {
+      } else if (!inner(side, k) && !inner(other, k_other) && kind(side) != Kind::dirichlet &&
+                 kind(other) != Kind::dirichlet) {
         s.P = law_.P(plus(identity, gradient(q, side, k, plane::u1)));
+        for (const auto& [of, at_k] : {std::pair(side, k), std::pair(other, k_other)}) {
+          if (!loaded(of)) continue;
+          const Vec2 n0 = at(of, at_k).n0;
+          s.P = plus_dyad(s.P, n0, T_[index(of)][static_cast<std::size_t>(at_k)] - traction_of(s.P, n0));
+        }
       }
       store(q, a, s);
     }
@@ -130,9 +183,7 @@ template <Law L>
 void SolidBoundary<L>::match_side(FieldView q, Side side, double t) const {
   const SideIndex line(layout(), side);
   for (int k = 0; k < line.n; ++k) {
-    // At a corner the difference along the side is sound only where the neighbour's ghost points are images.
-    const Kind other = kind(neighbour(side, k != 0));
-    if (end_of(line, k) && other != Kind::periodic && other != Kind::symmetry) continue;
+    if (!inner(side, k)) continue;
     if (loaded(side)) {
       match_point(q, side, k, t);
     } else {

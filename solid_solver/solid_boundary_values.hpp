@@ -7,10 +7,11 @@
 namespace fsi::solid {
 
 template <Law L>
-SolidBoundary<L>::SolidBoundary(BoundaryGrid grid, const L& law, Boundaries boundaries, Limiter limiter,
-                                double time_scale)
+SolidBoundary<L>::SolidBoundary(BoundaryGrid grid, const L& law, double rho, Boundaries boundaries,
+                                Limiter limiter, double time_scale)
     : grid_(std::move(grid)),
       law_(law),
+      rho_(rho),
       boundaries_(std::move(boundaries)),
       kinds_{},
       limiter_(limiter),
@@ -26,7 +27,7 @@ SolidBoundary<L>::SolidBoundary(BoundaryGrid grid, const L& law, Boundaries boun
     }
     const SideIndex line(layout(), side);
     T_[index(side)].assign(static_cast<std::size_t>(line.n), Vec2::Zero());
-    T_rate_[index(side)].assign(static_cast<std::size_t>(line.n), Vec2::Zero());
+    T_rate_[index(side)] = v_change_[index(side)] = T_[index(side)];
   }
   for (const auto& [one, other] : {std::pair(Side::left, Side::right), std::pair(Side::bottom, Side::top)}) {
     if ((kind(one) == Kind::periodic) != (kind(other) == Kind::periodic)) {
@@ -61,6 +62,14 @@ bool SolidBoundary<L>::fixed(Side side, int k) const {
 }
 
 template <Law L>
+bool SolidBoundary<L>::inner(Side side, int k) const {
+  const SideIndex line(layout(), side);
+  if (!end_of(line, k)) return true;
+  const Kind other = kind(neighbour(side, k != 0));
+  return other == Kind::periodic || other == Kind::symmetry || (loaded(side) && other == Kind::slip);
+}
+
+template <Law L>
 Vec2 SolidBoundary<L>::difference_along(ConstFieldView q, const SideIndex& line, int first, int k) {
   const std::ptrdiff_t next = line.at(k + 1, 0), last = line.at(k - 1, 0);
   return {0.5 * (q.plane(first)[next] - q.plane(first)[last]),
@@ -82,7 +91,7 @@ void SolidBoundary<L>::project_velocity(FieldView q, const InterfaceValues& valu
 
 /// Later kinds win at corners: interface, slip and symmetry, displacement, exact state.
 template <Law L>
-void SolidBoundary<L>::set_motion(FieldView q, double t, std::span<const InterfaceValues> projected) const {
+void SolidBoundary<L>::set_motion(FieldView q, double t, std::span<const InterfaceValues> projected) {
   for (const InterfaceValues& values : projected) project_velocity(q, values);
   for (const Side side : all_sides) {
     if (kind(side) == Kind::slip || kind(side) == Kind::symmetry) remove_normal_motion(q, side);
@@ -100,7 +109,7 @@ void SolidBoundary<L>::set_motion(FieldView q, double t, std::span<const Interfa
 }
 
 template <Law L>
-void SolidBoundary<L>::set_given_motion(FieldView q, Side side, double t) const {
+void SolidBoundary<L>::set_given_motion(FieldView q, Side side, double t) {
   const SideIndex line(layout(), side);
   const Boundary& boundary = boundaries_[index(side)];
   for (int k = 0; k < line.n; ++k) {
@@ -108,8 +117,10 @@ void SolidBoundary<L>::set_given_motion(FieldView q, Side side, double t) const 
     const Vec2 x = position(a);
     const Vec2 u = boundary.vector ? boundary.vector(x.x(), x.y(), t) : Vec2::Zero().eval();
     const Vec2 v = boundary.velocity ? boundary.velocity(x.x(), x.y(), t) : Vec2::Zero().eval();
+    Vec2& change = v_change_[index(side)][static_cast<std::size_t>(k)];
     for (int c = 0; c < 2; ++c) {
       q.plane(plane::u1 + c)[a] = u[c];
+      change[c] = v[c] - q.plane(plane::v1 + c)[a];
       q.plane(plane::v1 + c)[a] = v[c];
     }
   }
@@ -117,7 +128,7 @@ void SolidBoundary<L>::set_given_motion(FieldView q, Side side, double t) const 
 
 /// n0 . u = n0 . v = 0; where two such sides meet at an angle the corner does not move at all.
 template <Law L>
-void SolidBoundary<L>::remove_normal_motion(FieldView q, Side side) const {
+void SolidBoundary<L>::remove_normal_motion(FieldView q, Side side) {
   constexpr double parallel = 1e-6;
   const SideIndex line(layout(), side);
   for (int k = 0; k < line.n; ++k) {
@@ -125,6 +136,7 @@ void SolidBoundary<L>::remove_normal_motion(FieldView q, Side side) const {
     const Vec2 n = at(side, k).n0;
     SolidState s = load(q, a);
     s.u -= n * n.dot(s.u);
+    v_change_[index(side)][static_cast<std::size_t>(k)] = -n * n.dot(s.v);
     s.v -= n * n.dot(s.v);
     const Side other = neighbour(side, k != 0);
     if (end_of(line, k) && (kind(other) == Kind::slip || kind(other) == Kind::symmetry)) {
