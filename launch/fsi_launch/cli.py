@@ -1,12 +1,14 @@
 """The command line: verbs, their options and their exit codes."""
 
 import argparse
+import os
 import signal
 import sys
 
 from fsi_launch import paths
 from fsi_launch.failure import DONE, Failure, INTERRUPTED, OUTPUT_FAILED, TERMINATED, UserMistake
 
+REQUESTS = ("pause", "resume", "stop")
 USAGE = (paths.ROOT / "launch" / "usage.txt").read_text(encoding="utf-8")
 
 
@@ -57,6 +59,25 @@ def _plot(options):
     return plot.main(options)
 
 
+def _monitor(options):
+    """Becomes the monitor program."""
+    words = [f"--{name}" for name in ("once", "json", "plain") if getattr(options, name)]
+    return _become("monitor", *words, *([options.run] if options.run else []))
+
+
+def _ctl(options):
+    *run, request = options.words
+    if len(run) > 1 or request not in REQUESTS:
+        raise UserMistake(f"ctl: write [RUN] and one of {', '.join(REQUESTS)}")
+    return _become("monitor", *run, "--send", request)
+
+
+def _become(name, *words):
+    program = paths.program(name)
+    sys.stdout.flush()
+    os.execv(program, [program, *words])
+
+
 def _levels(text):
     levels = [int(word) for word in text.split(",")]
     if not levels or min(levels) < 1:
@@ -100,6 +121,19 @@ def _parser():
     verb.add_argument("--quick", action="store_true", help="unit tests only")
     verb.add_argument("-R", dest="pattern", metavar="REGEX", help="only tests whose name matches")
     verb.set_defaults(act=_test)
+
+    verb = verbs.add_parser("monitor", description="Shows a run live until it ends, without disturbing it. RUN is its "
+                            "identity, its folder or its case; it may be left out when only one is going on.")
+    verb.add_argument("run", metavar="RUN", nargs="?")
+    verb.add_argument("--plain", action="store_true", help="a line per second instead of a table")
+    verb.add_argument("--once", action="store_true", help="show the state once and exit")
+    verb.add_argument("--json", action="store_true", help="JSON, one object per line")
+    verb.set_defaults(act=_monitor)
+
+    verb = verbs.add_parser("ctl", usage="fsi ctl [RUN] pause|resume|stop", description="Asks a run to pause, to go on "
+                            "or to stop in good order (status \"stopped\"). RUN as for monitor.")
+    verb.add_argument("words", metavar="[RUN] REQUEST", nargs="+", help=", ".join(REQUESTS))
+    verb.set_defaults(act=_ctl)
 
     verb = verbs.add_parser("plot", description="Draws the results of a run as PNG pictures into DIR/plots.")
     verb.add_argument("directory", metavar="DIR", help="folder of a run")
