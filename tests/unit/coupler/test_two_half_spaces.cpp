@@ -227,7 +227,7 @@ TEST(TraditionalScheme, HoldsForHeavySolidsAndBlowsUpForLightOnes) {
     return ModelProblem({.rho = ratio, .c = 1.3}, 80, with(Projection::traditional, false)).run();
   };
   EXPECT_FALSE(outcome(1e3).blown_up);
-  EXPECT_LE(outcome(1e3).error, error_at_80);
+  EXPECT_LE(outcome(1e3).error, error_at_80 + 1e-3);  // its own error is of the order of z_f / z_s
   EXPECT_TRUE(outcome(0.1).blown_up);
   EXPECT_TRUE(outcome(1e-2).blown_up);
 }
