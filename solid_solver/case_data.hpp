@@ -166,7 +166,7 @@ class CaseData {
   VectorFunction reference_traction(Side side) const {
     if (!manufactured_)
       throw UserMistake(
-          fmt::format("solid \"{}\": traction from the reference needs kind: manufactured", spec_.name));
+          fmt::format("solid \"{}\": traction from the reference needs its displacement u", spec_.name));
     const grid::MovingGrid reference = grid();
     auto x = reference.side_points(side);
     auto n = grid::normals(x, grid::Curve::open, grid::outward(side));
@@ -191,6 +191,7 @@ class CaseData {
 
   const SolidSpec& spec_;
   double cfl_;
+  bool forced_ = false;  ///< a body force makes the reference exact
   std::shared_ptr<const exact::Solution> solution_;
   std::shared_ptr<const Manufactured<L>> manufactured_;  ///< motion given by formulas
   bool forced_ = false;                                  ///< a body force makes it a solution
