@@ -191,7 +191,6 @@ class CaseData {
 
   const SolidSpec& spec_;
   double cfl_;
-  bool forced_ = false;  ///< a body force makes the reference exact
   std::shared_ptr<const exact::Solution> solution_;
   std::shared_ptr<const Manufactured<L>> manufactured_;  ///< motion given by formulas
   bool forced_ = false;                                  ///< a body force makes it a solution
