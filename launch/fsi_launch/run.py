@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from fsi_launch import case as cases
-from fsi_launch import paths, registry, summary
+from fsi_launch import paths, probes, registry, summary
 from fsi_launch.failure import (DONE, EXPECTATION_MISSED, Failure, INTERRUPTED, OUTPUT_FAILED,
                                 PEER_LOST, TERMINATED, UserMistake)
 from fsi_launch.progress import Progress
@@ -209,6 +209,7 @@ def run(request):
     code, status, reason = _judge(outcome, case, directory)
     result = summary.merge(directory, case, status, reason, time.monotonic() - start)
     try:
+        probes.merge(directory, case.programs)
         _write_xdmf(directory)
     except Failure as failure:
         if code == DONE:

@@ -78,7 +78,7 @@ def _read_table(path):
     columns = {}
     for k, name in enumerate(heading):
         try:
-            columns[name] = np.array([float(row[k]) for row in body])
+            columns[name] = np.array([float(row[k] or "nan") for row in body])
         except ValueError:
             columns[name] = np.array([row[k] for row in body])
     return Table(path.stem, columns)

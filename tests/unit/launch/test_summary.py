@@ -6,7 +6,7 @@ import unittest
 
 from launcher import InScratch
 
-from fsi_launch import summary
+from fsi_launch import probes, summary
 from fsi_launch.case import Case
 
 
@@ -50,6 +50,28 @@ class Summary(InScratch):
         merged = self.merged("failed")
         summary.write(self.folder, merged)
         self.assertEqual(json.loads((self.folder / "summary.json").read_text())["status"], "failed")
+
+
+class Probes(InScratch):
+    def write(self, name, text):
+        (self.folder / f"probes_{name}.csv").write_text(text)
+
+    def test_tables_of_all_programs_become_one(self):
+        self.write("fluid", "t [time],a.p\n0,1\n0.5,2\n")
+        self.write("solid", "t [time],b.u1,b.u2\n0,3,4\n0.5,5,6\n")
+        probes.merge(self.folder, ["fluid", "solid", "coupler"])
+        self.assertEqual((self.folder / "probes.csv").read_text(), "t [time],a.p,b.u1,b.u2\n0,1,3,4\n0.5,2,5,6\n")
+        self.assertEqual([path.name for path in self.folder.iterdir()], ["probes.csv"])
+
+    def test_program_that_was_killed_leaves_gaps(self):
+        self.write("fluid", "t [time],a.p\n0,1\n0.5,2\n")
+        self.write("solid", "t [time],b.u1\n0,3\n")
+        probes.merge(self.folder, ["fluid", "solid"])
+        self.assertEqual((self.folder / "probes.csv").read_text(), "t [time],a.p,b.u1\n0,1,3\n0.5,2,\n")
+
+    def test_run_without_probes_has_no_table(self):
+        probes.merge(self.folder, ["fluid"])
+        self.assertEqual(list(self.folder.iterdir()), [])
 
 
 class Expectations(unittest.TestCase):
