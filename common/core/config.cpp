@@ -21,7 +21,8 @@ namespace {
 /// Builds the tree from the parser's events; sees repeated keys, which yaml-cpp's own nodes let pass.
 class Builder : public YAML::EventHandler {
  public:
-  Builder(std::string file, bool with_marks) : file_(std::move(file)), with_marks_(with_marks) {}
+  Builder(const std::string& text, std::string file, bool with_marks)
+      : text_(text), file_(std::move(file)), with_marks_(with_marks) {}
 
   Node take() { return std::move(root_); }
 
@@ -36,6 +37,9 @@ class Builder : public YAML::EventHandler {
     Node node = make(Node::Kind::scalar, mark);
     node.text = value;
     node.quoted = tag == "!";  // yaml-cpp: "?" for a plain scalar
+    if (node.quoted && !is_closed(mark)) {
+      throw UserMistake(node.place + ": the quote that opens here is never closed");
+    }
     add(std::move(node));
   }
   void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
@@ -57,6 +61,26 @@ class Builder : public YAML::EventHandler {
 
   std::string place(const YAML::Mark& mark) const {
     return with_marks_ ? fmt::format("{}:{}:{}", file_, mark.line + 1, mark.column + 1) : file_;
+  }
+
+  /// False where a quoted text goes on to the end of the file: yaml-cpp lets that pass.
+  bool is_closed(const YAML::Mark& mark) const {
+    std::size_t at = 0;
+    for (int line = 0; line < mark.line; ++line) {
+      const std::size_t end = text_.find('\n', at);
+      if (end == std::string::npos) return true;  // lines that end in another way: no verdict
+      at = end + 1;
+    }
+    at += static_cast<std::size_t>(mark.column);
+    if (at >= text_.size() || (text_[at] != '"' && text_[at] != '\'')) return true;
+    const char quote = text_[at];
+    for (++at; at < text_.size(); ++at) {
+      const bool doubled = quote == '\'' && text_.compare(at, 2, "''") == 0;
+      const bool escaped = quote == '"' && text_[at] == '\\';
+      if (text_[at] == quote && !doubled) return true;
+      if (doubled || escaped) ++at;
+    }
+    return false;
   }
 
   Node make(Node::Kind kind, const YAML::Mark& mark) const {
@@ -108,6 +132,7 @@ class Builder : public YAML::EventHandler {
   }
 
   static constexpr const char* quote_hint = "put text with : or {} in quotes";
+  const std::string& text_;
   std::string file_;
   bool with_marks_;
   Node root_;
@@ -128,12 +153,12 @@ void refuse_tabs(const std::string& text, const std::string& file) {
 
 Node parse_text(const std::string& text, const std::string& file, bool with_marks) {
   std::istringstream stream(text);
-  Builder builder(file, with_marks);
+  Builder builder(text, file, with_marks);
   try {
     YAML::Parser parser(stream);
     if (!parser.HandleNextDocument(builder)) return {};
     Node root = builder.take();
-    Builder second(file, with_marks);
+    Builder second(text, file, with_marks);
     if (parser.HandleNextDocument(second)) {
       throw UserMistake(second.take().place +
                         ": a second document begins here; a case is one document, remove `---`");

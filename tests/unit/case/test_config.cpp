@@ -50,7 +50,9 @@ TEST(YamlReader, RefusesKeysThatAreNotWords) {
 
 TEST(YamlReader, LocatesWhatIsNotYaml) {
   EXPECT_TRUE(mistake_of("a: 1\nb: [1, 2\nc: 3\n").starts_with("f:"));
-  EXPECT_EQ(mistake_of("a: \"open\n"), "");
+  EXPECT_EQ(mistake_of("a: \"open\nb: 1\n"), "f:1:4: the quote that opens here is never closed");
+  EXPECT_EQ(mistake_of("b: 1\na: 'open '' \n"), "f:2:4: the quote that opens here is never closed");
+  EXPECT_EQ(mistake_of("a: \"closed \\\" here\"\nb: 'it''s'\n"), "");
   EXPECT_NE(mistake_of("a: @x\n"), "");
 }
 
