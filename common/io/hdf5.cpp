@@ -34,8 +34,12 @@ class Handle {
   Close close_;
 };
 
-/// HDF5 would print its own error stack; errors here are exceptions.
-void keep_quiet() {
+/// HDF5 would print its own error stack; errors here are exceptions. After a file that could not be written
+/// (full disk) its clean-up at the program's exit would crash; every file is closed by its owner, so nothing
+/// is left for it to do.
+void prepare() {
+  static const bool once = H5dont_atexit() >= 0;
+  static_cast<void>(once);
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
 
@@ -77,7 +81,7 @@ Handle open_attribute(hid_t id, const std::string& path, const std::string& name
 }  // namespace
 
 Hdf5 Hdf5::create(const std::string& path) {
-  keep_quiet();
+  prepare();
   const hid_t id = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT);
   if (id < 0) {
     throw OutputFailed(
@@ -87,7 +91,7 @@ Hdf5 Hdf5::create(const std::string& path) {
 }
 
 Hdf5 Hdf5::open(const std::string& path) {
-  keep_quiet();
+  prepare();
   const hid_t id = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
   if (id < 0) {
     throw OutputFailed(fmt::format("cannot open '{}'; check that it exists and is an HDF5 file", path));

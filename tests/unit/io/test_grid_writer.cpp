@@ -2,12 +2,13 @@
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
+#include <cstdlib>
 #include <random>
 #include <regex>
 #include <thread>
@@ -203,6 +204,38 @@ TEST_F(GridSeries, OpensWithAllEarlierOutputsWhenTheWriterIsKilledAtAnyMoment) {
     std::filesystem::remove_all(run);
   }
   EXPECT_GT(outputs, 50U) << "the kills came too early to show anything";
+}
+
+/// Writes a small output, then one larger than any file may be; ends as a program does.
+[[noreturn]] void write_beyond_the_limit(const std::string& dir) {
+  signal(SIGXFSZ, SIG_IGN);  // the write fails instead, as on a full disk
+  const rlimit limit{.rlim_cur = 100'000, .rlim_max = 100'000};
+  setrlimit(RLIMIT_FSIZE, &limit);
+  int code = 0;
+  try {
+    GridWriter writer(dir, "fluid");
+    for (const int points : {10, 300}) {
+      const Field x(Layout(points, points), 2);
+      const GridOutput grid{.grid = "box", .x = x.view(), .u = {}, .fields = {{"p", x.view(), 0}}};
+      writer.write(0, 0, {&grid, 1});
+    }
+  } catch (const OutputFailed& failure) {
+    code = static_cast<int>(failure.code());
+  }
+  std::exit(code);
+}
+
+TEST_F(GridSeries, AFullDiskIsNamedAndLeavesTheEarlierOutputs) {
+  const pid_t child = fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) write_beyond_the_limit(dir);
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  ASSERT_TRUE(WIFEXITED(status)) << "ended by signal " << WTERMSIG(status);
+  EXPECT_EQ(WEXITSTATUS(status), static_cast<int>(ExitCode::output_failed));
+  const Hdf5 file = Hdf5::open(dir + "/fluid.h5");
+  EXPECT_EQ(file.names().size(), 1U);
+  EXPECT_EQ(file.shape("000000/box/p"), (std::vector<std::uint64_t>{10, 10}));
 }
 
 }  // namespace
