@@ -13,7 +13,9 @@
 /// are intervals, so an update costs as much as the curves are long, whatever the number of points, and
 /// depends on the present positions only.
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -38,8 +40,8 @@ struct BodyFittedGrid {
 };
 
 struct OverlapOptions {
-  int layers = 2;     ///< of interpolation points: half-width of the widest stencil, in all directions
-  bool trim = false;  ///< leave unused the outer lines of body-fitted grids that nobody needs
+  int layers = 2;     ///< of interpolation points: half-width of the widest stencil, corners included
+  bool trim = false;  ///< leave unused the outer lines of body-fitted grids that no background point needs
 };
 
 enum class PointKind : std::uint8_t { unused, interpolated, discretised };
@@ -47,13 +49,14 @@ enum class PointKind : std::uint8_t { unused, interpolated, discretised };
 /// What an update did and what it had to put up with.
 struct OverlapCounts {
   std::size_t interpolated = 0;  ///< points, all grids
-  std::size_t width_2 = 0;       ///< of these with two points per direction: second order only
+  std::size_t width_2 = 0;       ///< of these with two donors per direction: second order only
   std::size_t implicit = 0;      ///< of these with donors that are interpolated themselves
   std::size_t exposed = 0;       ///< points that were unused before
   std::size_t extrapolated = 0;  ///< of these behind the old curve, less than a cell
+  bool operator==(const OverlapCounts&) const = default;
 };
 
-/// Vertices of a body-fitted grid before and after a step.
+/// Vertices of a body-fitted grid after and before a step (fields of n1 x n2 points, planes x1, x2).
 struct GridPositions {
   ConstFieldView x, x_old;
 };
@@ -63,29 +66,94 @@ class CompositeGrid {
   /// Grid 0 is the background, grid k > 0 is bodies[k - 1]. @throws UserMistake
   CompositeGrid(CartesianGrid background, std::vector<BodyFittedGrid> bodies, OverlapOptions options = {});
 
-  /// Connects the grids where they are, without a past. @throws NumbersBroke at a point without donor
+  /// Connects the grids where they are, without a past. @throws NumbersBroke at points without donors
   void connect(std::span<const ConstFieldView> x, double t);
-  /// Connects the moved grids and finds the points that were unused before.
-  /// @throws NumbersBroke at a point without donor, or uncovered by a motion of more than a cell
+  /// Connects the moved grids and finds the points that were unused before. The views must stay valid for the
+  /// call only.
+  /// @throws NumbersBroke at points without donors, or uncovered by a motion of more than a cell
   void update(std::span<const GridPositions> x, double t);
 
   int grids() const { return static_cast<int>(parts_.size()); }
   const CartesianGrid& background() const { return background_; }
-  /// Runs of discretised points.
-  const RowSets& discretised(int grid) const;
+  const BodyFittedGrid& body(int grid) const { return bodies_[static_cast<std::size_t>(grid) - 1]; }
+  const std::string& name(int grid) const { return grid == 0 ? background_.name : body(grid).name; }
+  Layout layout(int grid) const { return part(grid).layout; }
+
+  /// Runs of discretised points of each row: what kernels sweep.
+  const RowSets& discretised(int grid) const { return part(grid).now.discretised; }
   /// Runs of points with a value: discretised and interpolated.
-  const RowSets& valid(int grid) const;
+  const RowSets& valid(int grid) const { return part(grid).now.valid; }
   PointKind kind(int grid, int i, int j) const;
 
   /// Interpolates all planes of all fields, one per grid.
   void interpolate(std::span<const FieldView> fields) const;
-  /// Fills points that were unused before the last update with values of the old time: `fields` and positions
-  /// are those before the step.
+  /// Gives the points that were unused before the last update values of the time before it: `fields` hold
+  /// that time.
   void fill_exposed(std::span<const FieldView> fields) const;
 
   std::span<const InterpolationList> interpolation() const { return interpolation_; }
   std::span<const InterpolationList> exposed() const { return exposed_; }
   const OverlapCounts& counts() const { return counts_; }
+
+ private:
+  struct Part {
+    Layout layout;
+    GridRows rows;
+    PointSets now, before;
+  };
+  /// Positions and point sets of one time: that of the update or the one before.
+  struct Level {
+    bool before = false;
+    double behind_curve = 0;  ///< how far behind a curve a donor stencil may reach, in points
+  };
+  /// Cell of a body-fitted grid from which a search starts; grid 0: none known.
+  struct Start {
+    int grid = 0, i = 0, j = 0;
+  };
+  struct Orphans {
+    std::size_t count = 0;
+    int grid = 0, i = 0, j = 0;
+    Vec2 x = Vec2::Zero();
+  };
+
+  CartesianGrid background_;
+  std::vector<BodyFittedGrid> bodies_;
+  OverlapOptions options_;
+  std::vector<Part> parts_;
+  std::vector<CurveCut> cuts_;
+  std::vector<GridPositions> positions_;
+  std::vector<InterpolationList> interpolation_, exposed_;
+  OverlapCounts counts_;
+  Orphans orphans_;
+  std::vector<Interval> intervals_, runs_;  ///< work memory
+  std::vector<int> cutters_;
+
+  const Part& part(int grid) const { return parts_[static_cast<std::size_t>(grid)]; }
+  Part& part(int grid) { return parts_[static_cast<std::size_t>(grid)]; }
+  bool curve_below(int grid) const { return body(grid).curve == Side::bottom; }
+  CuttingCurve curve_of(int grid) const;
+  CellMap cells_of(int grid, const Level& level) const;
+  Donors donors_of(int grid, const Level& level) const;
+  Vec2 position_of(int grid, int i, int j, const Level& level) const;
+  InterpolationList& list_for(std::vector<InterpolationList>& lists, int target, const Stencil& stencil);
+
+  void connect_now(double t);
+  void cut_background();
+  void cut_body(int grid);
+  bool touches(int grid, int other);
+  bool cut_away(const Vec2& x) const;
+  void limit_lines(int grid, int lines);
+  void connect_all(bool trim);
+  void connect_grid(int grid);
+  void trim_lines();
+  void find_exposed();
+  void connect_run(int grid, int j, Interval run, const Level& level, std::vector<InterpolationList>& lists);
+  void count_exposed(const Stencil& stencil);
+  Start nearest_start(int i, int j) const;
+  std::optional<Stencil> donor_in(Start& start, const Vec2& x, const Level& level) const;
+  std::optional<Stencil> donor_anywhere(int target, const Vec2& x, const Level& level) const;
+  void orphan(int grid, int i, int j, const Vec2& x);
+  void report_orphans(double t, const char* what) const;
 };
 
 }  // namespace fsi::grid
