@@ -1,6 +1,6 @@
 #include "coupler/modal.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Cholesky>
 
 namespace fsi::coupler {
 

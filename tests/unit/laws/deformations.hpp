@@ -1,7 +1,7 @@
 #pragma once
 /// Deformation gradients, differences and index notation for the tests of the laws.
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <cmath>
 #include <vector>
 

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
+
 #include "deformations.hpp"
 #include "solid_solver/laws/linear_elastic.hpp"
 #include "solid_solver/laws/neo_hookean.hpp"

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
+
 #include "deformations.hpp"
 #include "every_law.hpp"
 #include "solid_solver/impedance.hpp"
