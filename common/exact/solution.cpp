@@ -17,8 +17,8 @@ namespace {
 /// Named numbers of a case's `reference` section; each must be asked for.
 class Numbers {
  public:
-  Numbers(const std::string& kind, const std::map<std::string, double>& numbers)
-      : kind_(kind), left_(numbers) {}
+  Numbers(std::string kind, std::map<std::string, double> numbers)
+      : kind_(std::move(kind)), left_(std::move(numbers)) {}
 
   double take(const std::string& name, double otherwise) {
     names_ += (names_.empty() ? "" : ", ") + name;
