@@ -174,12 +174,12 @@ int main(int argc, char** argv) {
   };
   const Player coupler([&](const Size& size) { play_coupler(run_for(size), size.points); });
   const Player solid([&](const Size& size) { play_solid(run_for(size), size.points); });
-  for (std::uint8_t number = 0; number < sizes.size(); ++number) {
+  for (std::size_t number = 0; number < sizes.size(); ++number) {
     const Size size = sizes.at(number);
     benchmark::RegisterBenchmark(fmt::format("bus_round_trip/points:{}", size.points).c_str(),
                                  [&, number, size](benchmark::State& bench) {
-                                   coupler.go(number);
-                                   solid.go(number);
+                                   coupler.go(static_cast<std::uint8_t>(number));
+                                   solid.go(static_cast<std::uint8_t>(number));
                                    round_trip(bench, run_for(size), size.points);
                                  })
         ->Iterations(size.steps)

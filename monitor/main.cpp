@@ -74,7 +74,8 @@ RunEntry choose_run(const std::string& wanted) {
 /// Takes in what can be heard within `seconds`.
 void listen(bus::Listener& listener, RunState& state, double seconds) {
   for (const wire::Telemetry& telemetry : listener.wait(seconds)) state.hear(telemetry, now());
-  if (listener.aborted() && !state.abort()) state.hear(*listener.aborted());
+  const auto& aborted = listener.aborted();
+  if (aborted && !state.abort()) state.hear(*aborted);
   state.count_programs(listener.programs(), now());
 }
 

@@ -146,10 +146,8 @@ std::string to_json(const RunState& state, double now) {
   for (const auto& [name, program] : state.programs()) {
     result["participants"][name] = program_json(program, state.silence(name, now));
   }
-  if (state.abort()) {
-    result["abort"] = {{"from", state.abort()->from},
-                       {"exit_code", state.abort()->exit_code},
-                       {"reason", state.abort()->reason}};
+  if (const auto& abort = state.abort()) {
+    result["abort"] = {{"from", abort->from}, {"exit_code", abort->exit_code}, {"reason", abort->reason}};
   }
   return result.dump(-1, ' ', false, json::error_handler_t::replace);
 }

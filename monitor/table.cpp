@@ -123,9 +123,9 @@ std::vector<std::string> table(const RunState& state, double now, Extent extent)
   for (const auto& part : {programs(state, now), healths(state), interfaces(state)}) {
     lines.insert(lines.end(), part.begin(), part.end());
   }
-  if (state.abort()) {
+  if (const auto& abort = state.abort()) {
     lines.emplace_back();
-    lines.push_back(fmt::format("{} ended the run: {}", state.abort()->from, state.abort()->reason));
+    lines.push_back(fmt::format("{} ended the run: {}", abort->from, abort->reason));
   }
   if (std::ssize(lines) > extent.rows) lines.resize(static_cast<std::size_t>(extent.rows));
   for (std::string& line : lines) line = cell(line, static_cast<std::size_t>(extent.columns));
@@ -141,7 +141,9 @@ std::string plain_line(const RunState& state) {
   for (const auto& [name, program] : state.programs()) {
     if (const auto share = computing_share(program)) line += fmt::format(" {}={:.0f}%", name, 100 * *share);
   }
-  if (state.abort()) line += fmt::format(" reason=\"{}: {}\"", state.abort()->from, state.abort()->reason);
+  if (const auto& abort = state.abort()) {
+    line += fmt::format(" reason=\"{}: {}\"", abort->from, abort->reason);
+  }
   return cell(line, line.size());
 }
 

@@ -48,8 +48,8 @@ struct Channel {
 /// One solver of the run.
 struct Member {
   std::string label;
-  std::optional<wire::Hello> hello;
-  std::optional<Peer> peer;
+  wire::Hello hello;
+  std::unique_ptr<Peer> peer;  ///< null until its hello came
   std::deque<Channel> channels;
   std::size_t first_slot = 0;  ///< place of the first interface among all predicted states
 };
@@ -108,7 +108,7 @@ struct CouplerSession::Implementation {
 
   bool all_matched() const {
     return std::ranges::all_of(members, [](const Member& member) {
-      return member.hello &&
+      return member.peer &&
              std::ranges::count_if(member.channels, &Channel::matched) == std::ssize(member.channels);
     });
   }
@@ -128,7 +128,7 @@ struct CouplerSession::Implementation {
     std::vector<std::string> missing, silent, here;
     for (const Member& member : members) {
       const bool matched = std::ranges::all_of(member.channels, &Channel::matched);
-      (!member.hello ? missing : !matched ? silent : here).push_back(member.label);
+      (!member.peer ? missing : !matched ? silent : here).push_back(member.label);
     }
     std::string text = fmt::format("after {} s", link.options().hello_timeout_s);
     if (!missing.empty()) text += fmt::format(" {} did not join", fmt::join(missing, ", "));
@@ -143,7 +143,7 @@ struct CouplerSession::Implementation {
     for (Member& member : members) {
       member.first_slot = slots;
       slots += member.channels.size();
-      all_hellos.push_back(*member.hello);
+      all_hellos.push_back(member.hello);
     }
     predicted.resize(slots);
     fresh.assign(slots, false);
@@ -177,13 +177,13 @@ struct CouplerSession::Implementation {
       return;
     }
     Member& member = members[static_cast<std::size_t>(place - who.begin())];
-    if (member.hello) {
-      if (member.hello->pid == hello.pid && member.hello->host == hello.host) return;
+    if (member.peer) {
+      if (member.hello.pid == hello.pid && member.hello.host == hello.host) return;
       throw Failure(ExitCode::user_mistake, fmt::format("two programs call themselves {} (pids {} and {})",
-                                                        label, member.hello->pid, hello.pid));
+                                                        label, member.hello.pid, hello.pid));
     }
     check_fits(label, hello);
-    member.peer.emplace(label, hello.host, hello.pid);
+    member.peer = std::make_unique<Peer>(label, hello.host, hello.pid);
     for (const wire::InterfaceInfo& info : hello.interfaces) {
       Channel& channel = member.channels.emplace_back(link.participant(), hello.name, info);
       link.waitset().attach(channel.reader.condition());

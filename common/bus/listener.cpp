@@ -18,8 +18,8 @@ constexpr double participant_lease_s = 10;
 }  // namespace
 
 struct Listener::Implementation {
-  explicit Implementation(const std::string& run_id)
-      : run(run_id),
+  explicit Implementation(std::string run_id)
+      : run(std::move(run_id)),
         domain(join_domain(run, participant_lease_s)),
         participant(create_participant(run)),
         waitset(participant),

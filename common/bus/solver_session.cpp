@@ -115,7 +115,7 @@ struct SolverSession::Implementation {
         throw PeerLost(fmt::format("the coupler speaks protocol {}, {} speaks {}", sample.protocol, self.name,
                                    self.protocol));
       }
-      if (!coupler) coupler.emplace("coupler", sample.host, sample.pid);
+      if (!coupler) coupler = std::make_unique<Peer>("coupler", sample.host, sample.pid);
       complete = sample.complete;
     });
     for (Channel& channel : channels) {
@@ -197,7 +197,7 @@ struct SolverSession::Implementation {
   Writer<amp_fsi_Hello> hello_writer;
   Reader<amp_fsi_Welcome> welcome_reader;
   std::deque<Channel> channels;
-  std::optional<Peer> coupler;
+  std::unique_ptr<Peer> coupler;  ///< null until its welcome came
   bool complete = false;
   std::optional<Clock::time_point> sent_at;  ///< last publish not answered yet
 };

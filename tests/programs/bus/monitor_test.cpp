@@ -35,7 +35,7 @@ Output monitor(const fs::path& registry, const std::string& arguments) {
 }
 
 class Monitor : public testing::Test {
- protected:
+ public:
   Monitor()
       : registry_(fs::temp_directory_path() / fmt::format("fsi-monitor-{}", getpid())), run_(own_run()) {
     fs::create_directories(registry_ / "amp-fsi");

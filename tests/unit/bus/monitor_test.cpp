@@ -38,14 +38,15 @@ RunEntry entry(const std::string& run, const std::string& name = "piston") {
 TEST(RunState, PaceAndRemainingTimeComeFromTheCoupler) {
   RunState state(entry("r"));
   EXPECT_EQ(state.status(), "waiting");
-  for (int k = 0; k <= 10; ++k) {
-    state.hear(telemetry("fluid", "fluid", 1000, 3.9), 0.1 * k);
-    state.hear(telemetry("coupler", "coupler", static_cast<std::uint64_t>(5 * k), 0.1 * k), 0.1 * k);
+  for (std::uint64_t k = 0; k <= 10; ++k) {
+    const double now = 0.1 * static_cast<double>(k);
+    state.hear(telemetry("fluid", "fluid", 1000, 3.9), now);
+    state.hear(telemetry("coupler", "coupler", 5 * k, now), now);
   }
   EXPECT_EQ(state.status(), "running");
   EXPECT_NEAR(state.steps_per_s(), 50, 1e-9);
   EXPECT_NEAR(state.progress(), 0.25, 1e-12);
-  EXPECT_NEAR(state.remaining_s().value(), 3, 1e-9);
+  EXPECT_NEAR(state.remaining_s().value_or(0), 3, 1e-9);
 }
 
 TEST(RunState, RunIsOverWhenItsProgramsAreGoneOrOneAborts) {
@@ -111,7 +112,7 @@ TEST(Table, DurationsReadLikeTime) {
 }
 
 class Registry : public testing::Test {
- protected:
+ public:
   Registry() : folder_(fs::temp_directory_path() / ("fsi-registry-" + std::to_string(getpid()))) {
     fs::create_directories(folder_);
   }
