@@ -71,12 +71,10 @@ Component::Component(grid::MovingGrid grid, const GasOptions& options, std::arra
       workspace_(grid_.layout().n1, sweep_rows),
       row_rates_(static_cast<std::size_t>(grid_.layout().n2)) {
   for (const Side side : all_sides) {
-    const auto size = 2 * static_cast<std::size_t>(grid_.side_size(side));
     WallMotion& wall = walls_[static_cast<std::size_t>(side)];
-    for (auto* values : {&wall.normal, &wall.velocity, &wall.acceleration, &wall.mid_velocity})
-      values->assign(size, 0.0);
+    wall = wall_at_rest(static_cast<std::size_t>(grid_.side_size(side)));
+    measure_normals(wall, grid_.x(), SidePoints(grid_.layout(), side));
   }
-  measure_normals();
 }
 
 void Component::fill(const StateField& initial, double t) {
@@ -105,61 +103,30 @@ void Component::fill(const StateField& initial, double t) {
   if (grid_.moves()) measure_initial_motion(t, 0.1 / fastest_point().rate);
 }
 
-/// Velocity and acceleration of the sides at t from their positions at t, t + delta and t + 2 delta; a grid that follows
-/// commands tells nothing about its future and starts without.
+/// A grid that follows commands tells nothing about its future and starts as if at rest.
 void Component::measure_initial_motion(double t, double delta) {
-  std::array<std::array<std::vector<double>, 4>, 3> x;
-  for (const std::size_t level : {2U, 1U, 0U}) {
+  std::array<std::array<std::vector<double>, 4>, 4> x;  // by side and level
+  for (const std::size_t level : {3U, 2U, 1U, 0U}) {
     grid_.move(t + static_cast<double>(level) * delta);
-    for (const Side side : all_sides) x[level][static_cast<std::size_t>(side)] = grid_.side_points(side);
+    for (const Side side : all_sides) x[static_cast<std::size_t>(side)][level] = grid_.side_points(side);
   }
-  for (const Side side : all_sides) {
-    const auto s = static_cast<std::size_t>(side);
-    WallMotion& wall = walls_[s];
-    for (std::size_t k = 0; k < wall.velocity.size(); ++k) {
-      const double x0 = x[0][s][k], x1 = x[1][s][k], x2 = x[2][s][k];
-      wall.velocity[k] = (2 * (x1 - x0) - 0.5 * (x2 - x0)) / delta;
-      wall.acceleration[k] = ((x2 - x1) - (x1 - x0)) / (delta * delta);
-      wall.mid_velocity[k] = wall.velocity[k];
-      starts_moving_ = starts_moving_ || x1 != x0;
-    }
+  for (std::size_t s = 0; s < 4; ++s) {
+    start_motion(walls_[s], x[s], delta);
+    prescribed_ = prescribed_ || x[s][0] != x[s][1];
   }
 }
 
 void Component::move(double t_new, double dt, std::span<const grid::SideCommand> commands) {
   grid_.move(t_new, commands);
-  const bool known = starts_moving_ || last_dt_ > 0;
+  const int order = prescribed_ ? 3 : last_dt_ > 0 ? 2 : 1;
   for (const Side side : all_sides) {
     WallMotion& wall = walls_[static_cast<std::size_t>(side)];
     const SidePoints points(grid_.layout(), side);
-    const auto n = static_cast<std::size_t>(points.n());
-    for (std::size_t k = 0; k < n; ++k) {
-      const Vec2 step = position(grid_.x(), points, static_cast<int>(k), 0) -
-                        position(grid_.x_old(), points, static_cast<int>(k), 0);
-      for (std::size_t c = 0; c < 2; ++c) {
-        const double mean = step[static_cast<int>(c)] / dt, before = wall.mid_velocity[c * n + k];
-        const double acceleration = known ? (mean - before) / (0.5 * (dt + last_dt_)) : 0.0;
-        wall.mid_velocity[c * n + k] = mean;
-        wall.acceleration[c * n + k] = acceleration;
-        wall.velocity[c * n + k] = mean + 0.5 * dt * acceleration;
-      }
-    }
+    advance_motion(wall, grid_.x(), grid_.x_old(), points, {dt, last_dt_, dt_before_, order});
+    measure_normals(wall, grid_.x(), points);
   }
+  dt_before_ = last_dt_;
   last_dt_ = dt;
-  measure_normals();
-}
-
-void Component::measure_normals() {
-  for (const Side side : all_sides) {
-    WallMotion& wall = walls_[static_cast<std::size_t>(side)];
-    const SidePoints points(grid_.layout(), side);
-    const auto n = static_cast<std::size_t>(points.n());
-    for (std::size_t k = 0; k < n; ++k) {
-      const Vec2 normal = inward_normal(grid_.x(), points, static_cast<int>(k));
-      wall.normal[k] = normal[0];
-      wall.normal[n + k] = normal[1];
-    }
-  }
 }
 
 void Component::advance(double t, double dt) {
@@ -220,19 +187,18 @@ FastestPoint Component::fastest_point() const {
 }
 
 std::vector<CheckpointArray> Component::checkpoint_arrays() {
-  std::vector<CheckpointArray> arrays{{"state", state_.values()},
-                                      {"rates", row_rates_},
-                                      {"last_dt", {&last_dt_, 1}},
-                                      {"p_floor", {&scheme_.p_floor, 1}},
-                                      {"first_order", {&counters_.first_order, 1}},
-                                      {"floors", {&counters_.floors, 1}},
-                                      {"steps", {&counters_.steps, 1}}};
+  std::vector<CheckpointArray> arrays{
+      {"state", state_.values()},         {"rates", row_rates_},
+      {"last_dt", {&last_dt_, 1}},        {"dt_before", {&dt_before_, 1}},
+      {"p_floor", {&scheme_.p_floor, 1}}, {"first_order", {&counters_.first_order, 1}},
+      {"floors", {&counters_.floors, 1}}, {"steps", {&counters_.steps, 1}}};
   for (const Side side : all_sides) {
     WallMotion& wall = walls_[static_cast<std::size_t>(side)];
     arrays.push_back({fmt::format("normal_{}", name_of(side)), wall.normal});
     arrays.push_back({fmt::format("velocity_{}", name_of(side)), wall.velocity});
     arrays.push_back({fmt::format("acceleration_{}", name_of(side)), wall.acceleration});
     arrays.push_back({fmt::format("mid_velocity_{}", name_of(side)), wall.mid_velocity});
+    arrays.push_back({fmt::format("bend_{}", name_of(side)), wall.bend});
   }
   return arrays;
 }

@@ -13,6 +13,7 @@
 #include "common/grid/moving_grid.hpp"
 #include "fluid_solver/gas_options.hpp"
 #include "fluid_solver/kernels/sweep.hpp"
+#include "fluid_solver/wall_motion.hpp"
 
 namespace fsi::fluid {
 
@@ -31,14 +32,6 @@ struct InterfaceValues {
 struct CheckpointArray {
   std::string name;
   std::span<double> values;
-};
-
-/// Motion of a side that goes with the grid, from the positions of its points at the last three levels.
-struct WallMotion {
-  std::vector<double> normal;        ///< unit normal into the grid, 2 n
-  std::vector<double> velocity;      ///< at the newest level, 2 n
-  std::vector<double> acceleration;  ///< over the last two steps, 2 n
-  std::vector<double> mid_velocity;  ///< mean over the last step, 2 n
 };
 
 /// Largest of a rate over the grid, and where.
@@ -87,11 +80,11 @@ class Component {
   std::array<WallMotion, 4> walls_;
   std::vector<double> row_rates_;  ///< largest wave rate of each row's inner points, kept from the sweep
   double last_dt_ = 0;             ///< of the last motion
-  bool starts_moving_ = false;     ///< the walls' velocities are known before the first step
+  double dt_before_ = 0;           ///< of the motion before
+  bool prescribed_ = false;        ///< the grid's motion is known beforehand
   Counters counters_;
 
   StepGrid step_grid() const { return {grid_.x_old(), grid_.x(), spacing_}; }
-  void measure_normals();
   void measure_initial_motion(double t, double delta);
   FastestPoint fastest_in(int j, Range range) const;
   [[noreturn]] void report_broken(double t) const;

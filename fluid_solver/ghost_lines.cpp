@@ -32,7 +32,8 @@ StateVector leaving(const StateVector& q, const StateVector& increment, const Ve
   const double du = n.dot(dv), dp = increment[3];
   const double plus = u + a > 0 ? 0.5 * (dp + z * du) : 0;
   const double minus = u - a > 0 ? 0.5 * (dp - z * du) : 0;
-  const bool carried = u > 0;  // entropy and shear go with the gas
+  const bool carried =
+      u > 1e-10 * a;  // entropy and shear go with the gas; gas at rest, up to round-off, carries nothing
   const Vec2 shear = carried ? Vec2(dv - du * n) : Vec2::Zero();
   const double entropy = carried ? increment[0] - dp / (a * a) : 0;
   const Vec2 dv_left = shear + (plus - minus) / z * n;

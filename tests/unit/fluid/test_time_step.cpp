@@ -1,0 +1,96 @@
+/// The largest stable step from the eigenvalue of the discrete operator.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <complex>
+
+#include "fluid_solver/time_step.hpp"
+#include "tests/unit/fluid/gas_runs.hpp"
+
+namespace fsi::fluid {
+namespace {
+
+/// How far Lambda dt lies out of the ellipse of stability: 1 on its edge.
+double reach(const Eigenvalue& lambda, double dt) {
+  const std::complex<double> z(-lambda.damping * dt - lambda.beta, lambda.waves * dt);
+  return std::hypot(z.real() / 2, z.imag() / 1);
+}
+
+TEST(Eq45StableStep, PutsTheEigenvalueOfEq44OnTheEdgeOfTheEllipse) {
+  for (const double damping : {0.0, 0.7, 40.0}) {
+    for (const double waves : {0.5, 3.0, 200.0}) {
+      for (const double beta : {0.0, 0.5, 1.5}) {
+        const Eigenvalue lambda{damping, waves, beta};
+        EXPECT_NEAR(reach(lambda, largest_stable_step(lambda)), 1,
+                    1e-12);  // one square root away from round-off
+      }
+    }
+  }
+}
+
+TEST(Eq45StableStep, ShrinksWithEveryCause) {
+  const Eigenvalue lambda{1, 2, 0.3};
+  const double dt = largest_stable_step(lambda);
+  EXPECT_LT(largest_stable_step({2, 2, 0.3}), dt);
+  EXPECT_LT(largest_stable_step({1, 3, 0.3}), dt);
+  EXPECT_LT(largest_stable_step({1, 2, 0.6}), dt);
+}
+
+GasSolver box(const GasOptions& options, const State& state, Vec2 size, double rotation = 0) {
+  const Mat2 turn{{std::cos(rotation), -std::sin(rotation)}, {std::sin(rotation), std::cos(rotation)}};
+  grid::GridDescription description{.n1 = 11, .n2 = 11, .mapping = [size, turn](double r, double s, double) {
+                                      return Vec2(turn * Vec2(r * size[0], s * size[1]));
+                                    }};
+  const StateField field = [state](double, double, double) { return state; };
+  return test::solver(description, options, {Outflow{}, Outflow{}, Outflow{}, Outflow{}}, field);
+}
+
+TEST(Eq44GasEigenvalue, SumsTheWavesOfBothDirections) {
+  // gas at rest with a = 2 on spacings 0.1 and 0.2: Lambda_i = 2/0.1 + 2/0.2
+  const GasOptions options{.gamma = 1.6, .cfl = 0.5};
+  EXPECT_NEAR(box(options, {1, 0, 0, 2.5}, {1, 2}).compute_time_step().dt, 0.5 / 30, 1e-14);
+  EXPECT_NEAR(box(options, {1, -1, 3, 2.5}, {1, 2}).compute_time_step().dt, 0.5 / 55, 1e-14);
+}
+
+TEST(Eq44GasEigenvalue, IsTheSameOnATurnedGrid) {
+  const GasOptions options{.cfl = 0.9};
+  const double angle = 0.6, u = 1.3, v = -0.4;
+  const State turned{1, std::cos(angle) * u - std::sin(angle) * v, std::sin(angle) * u + std::cos(angle) * v,
+                     0.8};
+  EXPECT_NEAR(box(options, turned, {1, 2}, angle).compute_time_step().dt,
+              box(options, {1, u, v, 0.8}, {1, 2}).compute_time_step().dt, 1e-14);
+}
+
+TEST(Eq44GasEigenvalue, CountsDiffusionAsItsRealPart) {
+  // -Lambda_r = 8 * 50 from undivided differences, Lambda_i = 30: the ellipse gives dt = 1 / sqrt(200^2 +
+  // 30^2)
+  const GasOptions options{.gamma = 1.6, .linear_diffusion = 50, .cfl = 1};
+  EXPECT_NEAR(box(options, {1, 0, 0, 2.5}, {1, 2}).compute_time_step().dt, 1 / std::hypot(200.0, 30.0),
+              1e-14);
+}
+
+TEST(Eq44GasEigenvalue, KnowsThatTheGridRunsWithTheGas) {
+  // gas and grid move together: after the first step only the sound waves count
+  const State state{1, 3, 0, 1 / 1.4};
+  grid::GridDescription description{
+      .n1 = 11,
+      .n2 = 11,
+      .mapping = [](double r, double s, double t) { return Vec2(r + 3 * t, s); },
+      .moving = true};
+  const StateField field = [state](double, double, double) { return state; };
+  GasSolver gas = test::solver(description, {.cfl = 1}, {Outflow{}, Outflow{}, Outflow{}, Outflow{}}, field);
+  gas.apply_fluid_bcs(0);
+  EXPECT_NEAR(gas.compute_time_step().dt, 1.0 / 50, 1e-12);
+  gas.move_grids(0.01, 0.01);
+  gas.advance_fluid(0.01, 0.01);
+  EXPECT_NEAR(gas.compute_time_step().dt, 1.0 / 20, 1e-12);
+}
+
+TEST(TimeStepReason, NamesGridPointAndPosition) {
+  const TimeStep step = box({}, {1, 0, 0, 1}, {1, 1}).compute_time_step();
+  EXPECT_NE(step.reason.find("grid \"grid\", point ("), std::string::npos) << step.reason;
+}
+
+}  // namespace
+}  // namespace fsi::fluid
