@@ -93,7 +93,9 @@ double ElasticPiston::departure(double x, double t) const {
                      0.5 * (data_.gamma + 1) * path_acceleration(tau) * (t - tau) - sound_speed(tau)};
   };
   double late = std::max(t, 0.0);
-  for (int k = 0; distance(late).first > 0 && k < 32; ++k) late += 2 * distance(late).first;
+  // on the interface itself the distance is round-off and must still move the bracket
+  const double least = 8 * std::numeric_limits<double>::epsilon() * late;
+  for (int k = 0; distance(late).first > 0 && k < 32; ++k) late += std::max(2 * distance(late).first, least);
   return root_between(distance, 0, late, t - (x - path(t)) / sound_speed(t));
 }
 
