@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/exceptions.h>
+#include <yaml-cpp/node/node.h>  // clang-tidy wants the definition of what parser.h declares
 #include <yaml-cpp/parser.h>
 
 #include <algorithm>
