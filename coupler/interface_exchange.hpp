@@ -11,7 +11,7 @@
 #include "coupler/interface_motion.hpp"
 #include "coupler/matching.hpp"
 #include "coupler/modal.hpp"
-#include "coupler/projection.hpp"
+#include "common/interface/riemann.hpp"
 
 namespace fsi::coupler {
 

@@ -8,7 +8,7 @@
 #include <Eigen/Core>
 #include <span>
 
-#include "coupler/projection.hpp"
+#include "common/interface/riemann.hpp"
 
 namespace fsi::coupler {
 

@@ -2,6 +2,8 @@
 
 #include <cstddef>
 
+#include "common/interface/riemann.hpp"
+
 namespace fsi::solid {
 
 std::vector<double> lagrange_weights(std::span<const double> t, double now) {
@@ -23,15 +25,13 @@ ClosedInterface close_with_robin(const RobinData& gas, double now, std::span<con
   for (std::size_t k = 0; k < n; ++k) {
     double r = 0;
     for (std::size_t level = 0; level < weights.size(); ++level) r += weights[level] * gas.r[level * n + k];
-    const double n1 = normal[k], n2 = normal[n + k];
-    const double det = Z[k] * Z[2 * n + k] - Z[n + k] * Z[n + k];
-    // m = Z^-1 n, so that 1/z_hat = n.m and n^T Z^-1 w = m.w
-    const double m1 = (Z[2 * n + k] * n1 - Z[n + k] * n2) / det;
-    const double m2 = (Z[k] * n2 - Z[n + k] * n1) / det;
-    const double z_hat = 1 / (n1 * m1 + n2 * m2);
-    const double outgoing = n1 * v[k] + n2 * v[n + k] - (m1 * w[k] + m2 * w[n + k]);
-    closed.v_n[k] = (z_hat * outgoing + r) / (z_hat + gas.z_f[k]);
-    closed.w_n[k] = r - gas.z_f[k] * closed.v_n[k];
+    Matrix<2> Z_k;
+    Z_k << Z[k], Z[n + k], Z[n + k], Z[2 * n + k];
+    const SolidPoint<2> solid{.v = {v[k], v[n + k]}, .w = {w[k], w[n + k]}, .Z = Z_k};
+    const Vector<2> normal_k(normal[k], normal[n + k]);
+    const NormalState state = between(normal_side(solid, normal_k), {.z = gas.z_f[k], .v_n = 0, .w_n = r});
+    closed.v_n[k] = state.v_n;
+    closed.w_n[k] = state.w_n;
   }
   return closed;
 }

@@ -6,7 +6,7 @@
 #include <random>
 
 #include "common/core/failure.hpp"
-#include "coupler/projection.hpp"
+#include "common/interface/riemann.hpp"
 
 namespace fsi::coupler {
 namespace {

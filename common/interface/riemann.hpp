@@ -17,7 +17,7 @@
 #include <Eigen/LU>
 #include <string>
 
-namespace fsi::coupler {
+namespace fsi {
 
 /// How the states of the two sides are combined.
 enum class Projection {
@@ -119,4 +119,4 @@ NormalState project(const SolidPoint<D>& solid, const NormalSide& gas, const Vec
   return between(how == Projection::full ? normal_side(solid, n) : simplified_side(solid, n), gas);
 }
 
-}  // namespace fsi::coupler
+}  // namespace fsi

@@ -1,10 +1,10 @@
-#include "coupler/projection.hpp"
+#include "common/interface/riemann.hpp"
 
 #include <fmt/format.h>
 
 #include "common/core/failure.hpp"
 
-namespace fsi::coupler {
+namespace fsi {
 
 Projection projection_named(const std::string& name) {
   if (name == "full") return Projection::full;
@@ -14,4 +14,4 @@ Projection projection_named(const std::string& name) {
       "interface.projection: there is no projection \"{}\"; write full, simplified or traditional", name));
 }
 
-}  // namespace fsi::coupler
+}  // namespace fsi

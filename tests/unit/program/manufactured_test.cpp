@@ -1,0 +1,50 @@
+#include "solid_solver/manufactured.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "solid_solver/laws/linear_elastic.hpp"
+#include "solid_solver/laws/neo_hookean.hpp"
+
+namespace fsi::solid {
+namespace {
+
+/// Plane p-wave along a direction: an exact solution of the linear law without any force.
+TEST(Manufactured, Eq2NeedsNoForceForAPlaneWaveOfTheLinearLaw) {
+  const LinearElastic law{1.3, 0.7};
+  const double rho = 2.0, c_p = std::sqrt((law.lambda + 2 * law.mu) / rho);
+  const Vec2 n(0.6, 0.8);
+  const Manufactured<LinearElastic> wave(
+      [=](double x, double y, double t) -> Vec2 {
+        return 0.01 * std::sin(3 * (n[0] * x + n[1] * y - c_p * t)) * n;
+      },
+      law, rho);
+  // Inertia alone is rho (3 c_p)^2 0.01 = 0.24; what is left is the error of the differences.
+  EXPECT_LT(wave.body_force(0.3, 0.2, 0.4).norm(), 1e-9);
+}
+
+TEST(Manufactured, ForceIsInertiaMinusTheDivergenceOfTheStressOfEq10) {
+  const NeoHookean law{1.1, 0.8};
+  const Manufactured<NeoHookean> motion(
+      [](double x, double y, double t) -> Vec2 {
+        return {0.05 * std::sin(2 * x + y) * std::cos(t), 0.04 * std::cos(x - 2 * y) * std::sin(t + 1)};
+      },
+      law, 1.5);
+  const double x = 0.2, y = -0.3, t = 0.7, h = 1e-3;
+  const auto P = [&](double a, double b) { return motion.state(a, b, t).P; };
+  const auto rate = [&](double a) { return motion.velocity(x, y, a); };
+  const Vec2 v_t = (8 * (rate(t + h) - rate(t - h)) - (rate(t + 2 * h) - rate(t - 2 * h))) / (12 * h);
+  const auto d = [&](auto component, double a, double b) {
+    return (8 * (component(P(x + a, y + b)) - component(P(x - a, y - b))) -
+            (component(P(x + 2 * a, y + 2 * b)) - component(P(x - 2 * a, y - 2 * b)))) /
+           (12 * h);
+  };
+  const Vec2 div(
+      d([](const Tensor2& p) { return p.a11; }, h, 0) + d([](const Tensor2& p) { return p.a21; }, 0, h),
+      d([](const Tensor2& p) { return p.a12; }, h, 0) + d([](const Tensor2& p) { return p.a22; }, 0, h));
+  EXPECT_LT((motion.body_force(x, y, t) - (1.5 * v_t - div)).norm(), 1e-9);
+}
+
+}  // namespace
+}  // namespace fsi::solid
