@@ -3,7 +3,12 @@
 
 #include "tests/programs/bus/processes.hpp"
 
+#include <netinet/in.h>
+#include <sys/socket.h>
+
+#include <algorithm>
 #include <memory>
+#include <random>
 
 #include "common/bus/listener.hpp"
 #include "tests/unit/bus/seats.hpp"
@@ -167,6 +172,38 @@ TEST(Interrupting, WaitEndsWithTheSignalsOwnCodeAndTheOthersLearnIt) {
   EXPECT_EQ(coupler.end(10), 143);
   EXPECT_EQ(fluid.end(10), 143);
   EXPECT_EQ(fluid.hear(), "coupler: ended on request (SIGTERM)");
+}
+
+/// Sends damaged packets that begin like RTPS to every port of a domain, until it is killed.
+void send_damaged_packets(std::uint32_t domain, const Process::Say& say) {
+  constexpr std::uint32_t first_port = 7400, ports_per_domain = 250, used_ports = 80;
+  const int out = socket(AF_INET, SOCK_DGRAM, 0);
+  std::mt19937 random(7);
+  std::array<unsigned char, 512> packet{};
+  for (std::uint32_t k = 0;; ++k) {
+    for (unsigned char& byte : packet) byte = static_cast<unsigned char>(random());
+    const std::array<unsigned char, 8> header = {'R', 'T', 'P', 'S', 2, 1, 1, 16};
+    std::ranges::copy(header, packet.begin());
+    constexpr std::array<unsigned char, 6> kinds = {0x06, 0x07, 0x08,
+                                                    0x09, 0x15, 0x16};  // ACKNACK ... DATA_FRAG
+    packet[20] = kinds.at(random() % kinds.size());
+    sockaddr_in to{};
+    to.sin_family = AF_INET;
+    to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    to.sin_port = htons(static_cast<std::uint16_t>(first_port + ports_per_domain * domain + k % used_ports));
+    sendto(out, packet.data(), 24 + random() % 400, 0, reinterpret_cast<const sockaddr*>(&to), sizeof to);
+    if (k == used_ports) say("sending");
+    if (k % 100 == 0) usleep(1000);
+  }
+}
+
+TEST(Damaged, PacketsFromStrangersNeitherEndNorFalsifyTheRun) {
+  const std::string run_id = own_run();
+  Process stranger([=](const auto& say) { send_damaged_packets(domain_of(run_id), say); });
+  ASSERT_EQ(stranger.hear(), "sending");
+  Trio run(options(run_id), 2000, 1000);
+  for (Process* process : {&run.fluid, &run.beam, &run.coupler})
+    EXPECT_EQ(process->end(100), 0) << process->hear();
 }
 
 TEST(Crowding, FullDomainIsSaidInWords) {
