@@ -124,7 +124,7 @@ std::optional<CellPosition> CellMap::find(const Vec2& position, int i, int j) co
 
 bool CellMap::invert(const Vec2& position, Stencil& stencil) const {
   constexpr int most_iterations = 12;
-  constexpr double converged = 1e-12;  // the step after such a one is smaller than round-off
+  constexpr double converged = 1e-7;  // the step after such a one would be its square: round-off
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
     const MapAt map(x, stencil);
     const Vec2 miss = position - map.x;

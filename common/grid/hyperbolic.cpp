@@ -35,7 +35,12 @@ double continued(double v0, double v1, double v2) {
 }  // namespace
 
 HyperbolicMarch::HyperbolicMarch(HyperbolicGrid grid)
-    : grid_(std::move(grid)), solver_(unknowns_of(grid_)), line_(solver_.rows().size()) {
+    : grid_(std::move(grid)),
+      solver_(unknowns_of(grid_)),
+      line_(solver_.rows().size()),
+      arc_(line_.size()),
+      smooth_(line_.size() + 2),
+      smooth_before_(line_.size() + 2) {
   if (!(grid_.spacing > 0 && grid_.growth > 0)) {
     throw UserMistake(fmt::format("grid \"{}\": spacing {} and growth {}; write positive numbers", grid_.name,
                                   grid_.spacing, grid_.growth));
@@ -96,25 +101,23 @@ void HyperbolicMarch::measure(ConstFieldView x, int j) {
     LinePoint& here = line_[static_cast<std::size_t>(k)];
     here.tangent = (forward + backward).normalized();
     here.normal = towards * Vec2(-here.tangent[1], here.tangent[0]);
-    here.arc = (forward.norm() + backward.norm()) / (after - before == 1 ? 1 : 2);
-    here.smooth = here.arc;
     here.blend = 0;
+    arc_[static_cast<std::size_t>(k)] = (forward.norm() + backward.norm()) / (after - before == 1 ? 1 : 2);
   }
 }
 
 /// Jacobi sweeps towards the mean of the neighbours.
 void HyperbolicMarch::smooth_arclength() {
-  const std::size_t last = line_.size() - 1;
+  const std::size_t n = arc_.size();
+  std::ranges::copy(arc_, smooth_.begin() + 1);
   for (int sweep = 0; sweep < grid_.sweeps; ++sweep) {
-    const double first_old = line_[0].smooth;
-    double before = closed() ? line_[last].smooth : line_[1].smooth;
-    for (std::size_t k = 0; k <= last; ++k) {
-      const double here = line_[k].smooth;
-      double after = k < last ? line_[k + 1].smooth : first_old;
-      if (k == last && !closed()) after = before;
-      line_[k].smooth = 0.25 * (before + 2 * here + after);
-      before = here;
-    }
+    smooth_.front() = closed() ? smooth_[n] : smooth_[2];
+    smooth_.back() = closed() ? smooth_[1] : smooth_[n - 1];
+    std::swap(smooth_, smooth_before_);
+    const double* from = smooth_before_.data();
+    double* to = smooth_.data();
+#pragma omp simd
+    for (std::size_t k = 1; k <= n; ++k) to[k] = 0.25 * (from[k - 1] + 2 * from[k] + from[k + 1]);
   }
 }
 
@@ -143,10 +146,10 @@ void HyperbolicMarch::fill_rows(ConstFieldView x, int j, double d) {
       continue;
     }
     const int before = k == 0 ? n - 1 : k - 1;
-    const double step = d * here.smooth / here.arc;
+    const double arc = arc_[at], smooth = smooth_[at + 1], step = d * smooth / arc;
     const bool near_end = !closed() && (k == 1 || k == n - 2);
-    const double eps = (near_end ? grid_.end_smoothing : grid_.smoothing) * std::min(1.0, d / here.smooth);
-    const Mat2 turn = (0.5 * (1 - here.blend) * step / here.arc) * here.tangent * here.normal.transpose();
+    const double eps = (near_end ? grid_.end_smoothing : grid_.smoothing) * std::min(1.0, d / smooth);
+    const Mat2 turn = (0.5 * (1 - here.blend) * step / arc) * here.tangent * here.normal.transpose();
     LineRow& row = solver_.rows()[at];
     row.below = -turn - eps * Mat2::Identity();
     row.above = turn - eps * Mat2::Identity();
@@ -163,7 +166,7 @@ void HyperbolicMarch::fill_end(std::size_t k, double d) {
   row.below = row.above = Mat2::Zero();
   if (!wall) {
     row.diagonal = Mat2::Identity();
-    row.right = d * line_[k].smooth / line_[k].arc * line_[k].normal;
+    row.right = d * smooth_[k + 1] / arc_[k] * line_[k].normal;
     return;
   }
   row.diagonal << -(*wall)[1], (*wall)[0], (*wall)[0], (*wall)[1];

@@ -56,16 +56,17 @@ class HyperbolicMarch {
  private:
   /// One point of the line marched from.
   struct LinePoint {
-    Vec2 tangent;   ///< unit
-    Vec2 normal;    ///< unit, towards the next line
-    double arc;     ///< distance between points here
-    double smooth;  ///< the same, smoothed
-    double blend;   ///< 1 at a wall, 0 far from it
+    Vec2 tangent;      ///< unit
+    Vec2 normal;       ///< unit, towards the next line
+    double blend = 0;  ///< 1 at a wall, 0 far from it
   };
 
   HyperbolicGrid grid_;
   LineSolver solver_;
   std::vector<LinePoint> line_;
+  std::vector<double> arc_;  ///< distance between points
+  std::vector<double> smooth_,
+      smooth_before_;  ///< the same, smoothed; point k at [k + 1], a neighbour beyond each end
 
   bool closed() const { return grid_.ends == Curve::closed; }
   int row_of(int line) const { return grid_.curve == Side::bottom ? line : grid_.lines - 1 - line; }

@@ -28,8 +28,10 @@ class LineSolver {
 
  private:
   std::vector<LineRow> rows_;
-  std::vector<Mat2> seam_;  ///< how each unknown answers to the last one
+  std::vector<Mat2> seam_;  ///< how each unknown answers to the last one of a closed line
   std::vector<Vec2> x_;
+
+  void solve_first(std::size_t count);
 };
 
 }  // namespace fsi::grid
