@@ -48,6 +48,17 @@ double corner_area(ConstFieldView x, int i, int j, int a, int b) {
 
 }  // namespace
 
+GridDescription marched_from(const HyperbolicGrid& grid, std::vector<double> curve) {
+  return {.name = grid.name,
+          .n1 = grid.points,
+          .n2 = grid.lines,
+          .mapping = {},
+          .periodic1 = grid.ends == Curve::closed,
+          .follows = true,
+          .hyperbolic = grid,
+          .curve = std::move(curve)};
+}
+
 MovingGrid::MovingGrid(GridDescription description, double t)
     : description_(std::move(description)),
       x_mapped_(Layout(description_.n1, description_.n2), 2),
@@ -57,9 +68,14 @@ MovingGrid::MovingGrid(GridDescription description, double t)
     throw UserMistake(fmt::format("grid \"{}\": {} x {} points are too few; each direction needs at least 5",
                                   name(), description_.n1, description_.n2));
   }
-  place(t);
-  std::ranges::copy(x_mapped_.values(), x_.values().begin());
-  std::ranges::copy(x_mapped_.values(), x_old_.values().begin());
+  if (description_.hyperbolic) march_.emplace(*description_.hyperbolic);
+  if (march_) {
+    march(t, {});
+  } else {
+    place(t);
+    std::ranges::copy(x_mapped_.values(), x_.values().begin());
+  }
+  std::ranges::copy(x_.values(), x_old_.values().begin());
   check(t);
 }
 
@@ -78,12 +94,29 @@ void MovingGrid::place(double t) {
 
 void MovingGrid::move(double t, std::span<const SideCommand> commands) {
   std::swap(x_, x_old_);
+  if (march_) {
+    march(t, commands);
+    return;
+  }
   if (description_.moving) place(t);
   std::ranges::copy(x_mapped_.values(), x_.values().begin());
   for (const SideCommand& command : commands) follow(command);
   ++move_count_;
   if (description_.shake > 0) shake();
   check(t);
+}
+
+/// Line 0 goes where its side is told, or stays; the other lines are marched from it, which checks them.
+void MovingGrid::march(double t, std::span<const SideCommand> commands) {
+  for (const SideCommand& command : commands) {
+    if (command.side != march_->grid().curve || command.x.size() != description_.curve.size()) {
+      throw std::logic_error(fmt::format(
+          "grid \"{}\": command for its {} side of {} numbers, but it is marched from {} on {}", name(),
+          name_of(command.side), command.x.size(), description_.curve.size(), name_of(march_->grid().curve)));
+    }
+    std::ranges::copy(command.x, description_.curve.begin());
+  }
+  march_->march(description_.curve, x_.view(), t);
 }
 
 void MovingGrid::follow(const SideCommand& command) {

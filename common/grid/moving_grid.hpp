@@ -3,12 +3,14 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "common/core/field.hpp"
 #include "common/core/types.hpp"
+#include "common/grid/hyperbolic.hpp"
 
 namespace fsi::grid {
 
@@ -26,7 +28,14 @@ struct GridDescription {
   bool follows = false;  ///< one of its sides is moved by commands
   double shake = 0;      ///< random displacement of every inner point at every step, in cells (tests)
   std::uint64_t shake_seed = 1;
+  /// Marched from `curve` in place of a mapping, and again at every move from the commanded points of its
+  /// side.
+  std::optional<HyperbolicGrid> hyperbolic = {};
+  std::vector<double> curve = {};  ///< 2 points, component-major
 };
+
+/// Description of a grid marched from a curve and following it.
+GridDescription marched_from(const HyperbolicGrid& grid, std::vector<double> curve);
 
 /// Commanded positions of the points of one side: n_d * n, component-major, n points along the side.
 struct SideCommand {
@@ -63,10 +72,12 @@ class MovingGrid {
  private:
   GridDescription description_;
   Field x_mapped_, x_, x_old_;
+  std::optional<HyperbolicMarch> march_;
   std::uint64_t move_count_ = 0;
 
   void place(double t);
   void follow(const SideCommand& command);
+  void march(double t, std::span<const SideCommand> commands);
   void shake();
   void check(double t) const;
 };

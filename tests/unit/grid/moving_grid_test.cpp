@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "common/core/failure.hpp"
+#include "common/grid/shapes/circle.hpp"
 
 namespace fsi::grid {
 namespace {
@@ -50,6 +51,24 @@ TEST(MovingGrid, ShakesInnerPointsOnlyAndTheSameWayEveryTime) {
   for (int j = 0; j < 11; ++j) {
     for (int i = 0; i < 11; ++i) EXPECT_EQ(a.x()(1, i, j), b.x()(1, i, j));
   }
+}
+
+TEST(MovingGrid, IsMarchedFromTheCommandedCurve) {
+  const HyperbolicGrid ring{.name = "ring", .points = 65, .lines = 6, .curve = Side::top, .spacing = 0.05};
+  std::vector<double> curve = points_on(circle({0, 0}, 1), 65);
+  MovingGrid grid(marched_from(ring, curve), 0);
+  EXPECT_TRUE(grid.moves());
+  EXPECT_TRUE(grid.periodic(0));
+  EXPECT_EQ(grid.side_points(Side::top), curve);
+  for (std::size_t k = 0; k < 65; ++k) curve[k] += 0.1;
+  const SideCommand commands[] = {{Side::top, curve}};
+  grid.move(0.1, commands);
+  EXPECT_EQ(grid.side_points(Side::top), curve);
+  // A shifted curve shifts the whole grid.
+  EXPECT_NEAR(grid.x()(0, 13, 0) - grid.x_old()(0, 13, 0), 0.1, 1e-14);
+  EXPECT_NEAR(grid.x()(1, 13, 7) - grid.x_old()(1, 13, 7), 0.0, 1e-14);
+  grid.move(0.2);
+  EXPECT_EQ(grid.side_points(Side::top), curve);
 }
 
 TEST(MovingGrid, NamesGridPointAndTimeOfAFoldedCell) {
