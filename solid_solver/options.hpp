@@ -35,9 +35,9 @@ enum class Limiter { none, minmod };
 struct SolidOptions {
   double rho = 1;                   ///< density of the reference configuration
   Limiter limiter = Limiter::none;  ///< of the slopes of v and P, and of the ghost extrapolation
-  Beta tangential_stress;           ///< beta^P of paper eq. (39)
-  Beta displacement;                ///< beta^u of paper eq. (40)
-  Beta relaxation;                  ///< beta^r of paper eq. (41)
+  Beta tangential_stress = {};      ///< beta^P of paper eq. (39)
+  Beta displacement = {};           ///< beta^u of paper eq. (40)
+  Beta relaxation = {};             ///< beta^r of paper eq. (41)
   double bulk_diffusion = 0;        ///< factor of undivided second differences of v and P [1/time]
   double cfl = 0.9;                 ///< safety factor C_CFL of the time step [-]
 };

@@ -72,10 +72,12 @@ class SolidBoundary {
   void fill_side(FieldView q, Side side, double t, const GhostRange& range) const;
   void set_tractions(FieldView q, double t, std::span<const InterfaceValues> projected);
   void find_traction(ConstFieldView q, Side side, double t);
+  double stretch_along(ConstFieldView q, Side side, int k) const;
   void find_projected_traction(ConstFieldView q, const InterfaceValues& values);
   void set_normal_stress(FieldView q, Side side) const;
   void follow_characteristics(FieldView q, Side side) const;
   void set_corner_stress(FieldView q) const;
+  void extend_stress_to_corners(FieldView q, Side side) const;
   void match_side(FieldView q, Side side, double t) const;
   void match_point(FieldView q, Side side, int k, double t) const;
   void match_slip_point(FieldView q, Side side, int k, double t) const;

@@ -15,6 +15,7 @@ void SolidBoundary<L>::apply(FieldView q, double t, std::span<const InterfaceVal
     if (loaded(side) || kind(side) == Kind::slip) match_side(q, side, t);
   }
   match_corners(q);
+  for (const Side side : all_sides) extend_stress_to_corners(q, side);
   fill_line(q, t, {.first_plane = plane::P11, .last_plane = plane::P22, .m = -1});
   fill_line(q, t, {.m = -2});
   fill_frame(q, t);
@@ -57,7 +58,7 @@ void SolidBoundary<L>::find_traction(ConstFieldView q, Side side, double t) {
     if (kind(side) == Kind::interface || !tau) continue;
     const Vec2 x = position(a), along = difference_along(grid_.x, line, 0, k);
     const Vec2 stretched = along + difference_along(q, line, plane::u1, k);
-    const double per_reference_area = stretched.norm() / along.norm();
+    const double per_reference_area = stretch_along(q, side, k);
     const double its_rate =
         stretched.dot(difference_along(q, line, plane::v1, k)) / (stretched.norm() * along.norm());
     const Vec2 now = tau(x.x(), x.y(), t);
@@ -67,15 +68,28 @@ void SolidBoundary<L>::find_traction(ConstFieldView q, Side side, double t) {
   }
 }
 
+/// |dx/ds| / |dx_bar/ds| = 1 / eta at point k of a side. At the corner with a side of given displacement or
+/// slip it is extrapolated along the side: one-sided differences of u are only of first order there.
+template <Law L>
+double SolidBoundary<L>::stretch_along(ConstFieldView q, Side side, int k) const {
+  const SideIndex line(layout(), side);
+  const auto stretch = [&](int at_k) {
+    const Vec2 along = difference_along(grid_.x, line, 0, at_k);
+    return (along + difference_along(q, line, plane::u1, at_k)).norm() / along.norm();
+  };
+  const Kind other = kind(neighbour(side, k != 0));
+  if (!end_of(line, k) || (other != Kind::displacement && other != Kind::slip)) return stretch(k);
+  const int step = k == 0 ? 1 : -1;
+  return extrapolated(stretch(k + step), stretch(k + 2 * step), stretch(k + 3 * step), limiter_);
+}
+
 /// T = (w_n / eta) n.
 template <Law L>
 void SolidBoundary<L>::find_projected_traction(ConstFieldView q, const InterfaceValues& values) {
   const SideIndex line(layout(), values.side);
   const auto n = static_cast<std::size_t>(line.n);
   for (std::size_t k = 0; k < n; ++k) {
-    const Vec2 along = difference_along(grid_.x, line, 0, static_cast<int>(k));
-    const Vec2 stretched = along + difference_along(q, line, plane::u1, static_cast<int>(k));
-    const double eta = along.norm() / stretched.norm();
+    const double eta = 1.0 / stretch_along(q, values.side, static_cast<int>(k));
     T_[index(values.side)][k] = values.w_n[k] / eta * Vec2(values.n[k], values.n[n + k]);
   }
 }
@@ -156,17 +170,36 @@ void SolidBoundary<L>::set_corner_stress(FieldView q) const {
       if (loaded(side) && loaded(other)) {
         s.P = stress_of_tractions(at(side, k).n0, T_[index(side)][static_cast<std::size_t>(k)],
                                   at(other, k_other).n0, T_[index(other)][static_cast<std::size_t>(k_other)]);
-      } else if (!inner(side, k) && !inner(other, k_other) && kind(side) != Kind::dirichlet &&
-                 kind(other) != Kind::dirichlet) {
+      } else if (kind(side) == Kind::displacement && kind(other) == Kind::displacement) {
         s.P = law_.P(plus(identity, gradient(q, side, k, plane::u1)));
-        for (const auto& [of, at_k] : {std::pair(side, k), std::pair(other, k_other)}) {
-          if (!loaded(of)) continue;
-          const Vec2 n0 = at(of, at_k).n0;
-          s.P = plus_dyad(s.P, n0, T_[index(of)][static_cast<std::size_t>(at_k)] - traction_of(s.P, n0));
-        }
       }
       store(q, a, s);
     }
+  }
+}
+
+/// At a corner of a loaded side with a side of given displacement or slip, and of a slip side with one of
+/// given displacement: P by extrapolation along the loaded or slip side, where it is P(F) or free to evolve;
+/// a given traction still holds. Differences of u are only of first order there.
+template <Law L>
+void SolidBoundary<L>::extend_stress_to_corners(FieldView q, Side side) const {
+  const SideIndex line(layout(), side);
+  for (const int k : {0, line.n - 1}) {
+    const Kind other = kind(neighbour(side, k != 0));
+    const bool to_slip = loaded(side) && other == Kind::slip;
+    const bool to_displacement = (loaded(side) || kind(side) == Kind::slip) && other == Kind::displacement;
+    if (!to_slip && !to_displacement) continue;
+    const int step = k == 0 ? 1 : -1;
+    for (int p = plane::P11; p <= plane::P22; ++p) {
+      double* P = q.plane(p);
+      P[line.at(k, 0)] = extrapolated(P[line.at(k + step, 0)], P[line.at(k + 2 * step, 0)],
+                                      P[line.at(k + 3 * step, 0)], limiter_);
+    }
+    if (!loaded(side)) continue;
+    SolidState s = load(q, line.at(k, 0));
+    const Vec2 n0 = at(side, k).n0;
+    s.P = plus_dyad(s.P, n0, T_[index(side)][static_cast<std::size_t>(k)] - traction_of(s.P, n0));
+    store(q, line.at(k, 0), s);
   }
 }
 

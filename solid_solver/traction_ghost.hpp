@@ -2,7 +2,7 @@
 /// Compatibility of stress and displacement at a boundary point: the derivative of u across a side whose
 /// traction is known, and both derivatives at a corner where two such sides meet.
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <cmath>
 #include <optional>
 
@@ -86,23 +86,10 @@ std::optional<Vec2> match_shear(const L& law, const BoundaryStrain& at, double s
   return std::nullopt;
 }
 
-/// The least change of `L` that gives K_ijkl L_kl = rate as far as stress can tell: a rotation of the corner
-/// changes no stress of an unloaded objective solid, so the weakest of the four directions is left as it is.
-inline Tensor2 least_change(const Stiffness& K, const Tensor2& defect) {
-  Eigen::Matrix4d M;
-  for (int c = 0; c < 4; ++c) {
-    const Tensor2 e =
-        contract(K, {c == 0 ? 1.0 : 0.0, c == 1 ? 1.0 : 0.0, c == 2 ? 1.0 : 0.0, c == 3 ? 1.0 : 0.0});
-    M.col(c) << e.a11, e.a12, e.a21, e.a22;
-  }
-  const Eigen::JacobiSVD<Eigen::Matrix4d> svd(M, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Eigen::Vector4d y =
-      svd.matrixU().transpose() * Eigen::Vector4d(defect.a11, defect.a12, defect.a21, defect.a22);
-  for (int c = 0; c < 3; ++c) y[c] /= svd.singularValues()[c];
-  y[3] = 0;
-  const Eigen::Vector4d x = svd.matrixV() * y;
-  return {x[0], x[1], x[2], x[3]};
-}
+/// The least change of a gradient L that changes K_ijkl L_kl by `defect`, as far as stress can tell: a
+/// rotation of the corner changes no stress of an unloaded objective solid, so the weakest of the four
+/// directions is left as it is.
+Tensor2 least_change(const Stiffness& K, const Tensor2& defect);
 
 inline Tensor2 minus(const Tensor2& a, const Tensor2& b) {
   return {a.a11 - b.a11, a.a12 - b.a12, a.a21 - b.a21, a.a22 - b.a22};

@@ -1,0 +1,129 @@
+// What holds on the sides after apply_solid_bcs.
+
+#include <gtest/gtest.h>
+
+#include "common/core/failure.hpp"
+#include "tests/convergence/solid/skewed_grid.hpp"
+#include "tests/convergence/solid/solvers.hpp"
+
+namespace fsi::solid {
+namespace {
+
+using Kind = Boundary::Kind;
+using test::skewed_grid;
+
+Vec2 small_motion(double x, double y, double) {
+  return {0.03 * std::sin(2 * x + y), 0.02 * std::cos(x - 2 * y)};
+}
+
+template <class L>
+class GivenTraction : public testing::Test {};
+using Laws = testing::Types<LinearElastic, SaintVenantKirchhoff, NeoHookean>;
+TYPED_TEST_SUITE(GivenTraction, Laws);
+
+TYPED_TEST(GivenTraction, Eq42HoldsPerCurrentAreaAndEq43HoldsWithTheGhostPoints) {
+  const TypeParam law{.lambda = 1.3, .mu = 0.9};
+  const Vec2 tau(0.02, -0.01);
+  Boundaries boundaries;
+  boundaries[1].vector = [=](double, double, double) { return tau; };
+  SolidSolver<TypeParam> solver(skewed_grid(12), law, {}, boundaries, 0);
+  solver.assign_initial_conditions(small_motion, small_motion);
+  const ConstFieldView q = solver.state(), x = solver.reference();
+  const ReferenceMetrics metrics(x);
+  for (int j = 1; j < 12; ++j) {
+    const SideMetrics m = side_metrics(metrics, q.layout, Side::right, j);
+    const SolidState s = load(q, q.layout.at(12, j));
+    const auto length = [&](bool deformed) {
+      const Vec2 d(x(0, 12, j + 1) - x(0, 12, j - 1), x(1, 12, j + 1) - x(1, 12, j - 1));
+      const Vec2 du(q(plane::u1, 12, j + 1) - q(plane::u1, 12, j - 1),
+                    q(plane::u2, 12, j + 1) - q(plane::u2, 12, j - 1));
+      return (deformed ? d + du : d).norm();
+    };
+    const Vec2 force = traction_of(s.P, m.n0) * length(false);
+    EXPECT_LT((force - tau * length(true)).norm(), 1e-15);
+    // The stress of the law with central differences through the ghost point is the stress of the boundary
+    // point.
+    const MappedRow row(metrics, j);
+    const Tensor2 P = law.P(deformation_gradient(row, StateRows(q, j), 12, 0.0));
+    EXPECT_LT((traction_of(P, m.n0) - traction_of(s.P, m.n0)).norm(), 1e-11);  // Newton's tolerance on strain
+    EXPECT_LT((traction_of(P, m.t0) - traction_of(s.P, m.t0)).norm(), 1e-11);
+  }
+}
+
+TEST(GivenDisplacement, HoldsAtEveryPointOfTheSideWithItsVelocity) {
+  Boundaries boundaries;
+  for (Boundary& boundary : boundaries) {
+    boundary.kind = Kind::displacement;
+    boundary.vector = [](double x, double y, double t) -> Vec2 { return (1 + t) * small_motion(x, y, t); };
+    boundary.velocity = small_motion;
+  }
+  SolidSolver<SaintVenantKirchhoff> solver(skewed_grid(12), {.lambda = 1, .mu = 1}, {}, boundaries, 0);
+  solver.assign_initial_conditions(small_motion, small_motion);
+  solver.advance_solid(0, 0.01);
+  solver.apply_solid_bcs(0.01);
+  const ConstFieldView q = solver.state(), x = solver.reference();
+  for (int k = 0; k <= 12; ++k) {
+    const Vec2 u = 1.01 * small_motion(x(0, 0, k), x(1, 0, k), 0);
+    EXPECT_EQ(q(plane::u1, 0, k), u.x());
+    EXPECT_EQ(q(plane::u2, 0, k), u.y());
+  }
+}
+
+TEST(SlipWall, HoldsTheNormalMotionAndTheShear) {
+  Boundaries boundaries;
+  boundaries[2].kind = Kind::slip;
+  SolidSolver<NeoHookean> solver(skewed_grid(12), {.lambda = 1, .mu = 1}, {}, boundaries, 0);
+  solver.assign_initial_conditions(small_motion, small_motion);
+  for (int i = 0; i <= 12; ++i) {
+    const SolidState s = load(solver.state(), solver.state().layout.at(i, 0));
+    EXPECT_NEAR(s.u.y(), 0, 1e-16);  // the wall is y = 0
+    EXPECT_NEAR(s.v.y(), 0, 1e-16);
+    const bool corner = i == 0 || i == 12;
+    EXPECT_NEAR(corner ? 0.0 : s.P.a21, 0, 1e-16);
+  }
+}
+
+/// Half of a square with a mirror on its left must do what the whole square does.
+TEST(Symmetry, HalfABodyMovesAsTheWholeOne) {
+  const auto block = [](int cells, double from) {
+    return grid::MovingGrid({.name = "block",
+                             .n1 = cells + 1,
+                             .n2 = 17,
+                             .mapping = [=](double r, double s, double) -> Vec2 {
+                               return {from + (1 - from) * r, s};
+                             }},
+                            0);
+  };
+  const VectorFunction at_rest = [](double, double, double) -> Vec2 { return {0, 0}; };
+  const VectorFunction kick = [](double x, double y, double) -> Vec2 {
+    return {0.1 * x * y, 0.1 * (1 - x * x) * y};
+  };
+  Boundaries whole, half;
+  half[0].kind = Kind::symmetry;
+  SolidSolver<SaintVenantKirchhoff> one(block(32, -1), {.lambda = 1, .mu = 1}, {}, whole, 0);
+  SolidSolver<SaintVenantKirchhoff> other(block(16, 0), {.lambda = 1, .mu = 1}, {}, half, 0);
+  one.assign_initial_conditions(at_rest, kick);
+  other.assign_initial_conditions(at_rest, kick);
+  for (int step = 0; step < 20; ++step) {
+    for (SolidSolver<SaintVenantKirchhoff>* solver : {&one, &other}) {
+      solver->advance_solid(step * 0.01, 0.01);
+      solver->apply_solid_bcs((step + 1) * 0.01);
+    }
+  }
+  for (int k = 0; k < plane::count; ++k) {
+    for (int j = 0; j < 17; ++j) {
+      for (int i = 0; i < 17; ++i)
+        EXPECT_NEAR(other.state()(k, i, j), one.state()(k, i + 16, j), 1e-13);  // round-off
+    }
+  }
+}
+
+TEST(PeriodicSides, MustComeInPairs) {
+  Boundaries boundaries;
+  boundaries[0].kind = Kind::periodic;
+  EXPECT_THROW(SolidSolver<LinearElastic>(skewed_grid(12), {.lambda = 1, .mu = 1}, {}, boundaries, 0),
+               UserMistake);
+}
+
+}  // namespace
+}  // namespace fsi::solid

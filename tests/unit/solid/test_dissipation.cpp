@@ -1,0 +1,104 @@
+// Dissipation and relaxation terms, each alone.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "solid_solver/dissipation.hpp"
+#include "solid_solver/ghost_lines.hpp"
+#include "solid_solver/laws/neo_hookean.hpp"
+#include "tests/convergence/solid/skewed_grid.hpp"
+
+namespace fsi::solid {
+namespace {
+
+TEST(Eq38Dissipation, HasNormOneAndIgnoresCubics) {
+  EXPECT_DOUBLE_EQ(fourth_difference(1, -1, 1, -1, 1), 1.0);
+  const auto cubic = [](double x) { return 2 - x + 3 * x * x - 0.5 * x * x * x; };
+  EXPECT_NEAR(fourth_difference(cubic(-2), cubic(-1), cubic(0), cubic(1), cubic(2)), 0, 1e-14);
+}
+
+/// Stress that varies along r1 only, in a sawtooth.
+Field sawtooth_along_r1(const Layout& layout) {
+  Field q(layout, plane::count);
+  for (int j = -2; j < layout.n2 + 2; ++j) {
+    for (int i = -2; i < layout.n1 + 2; ++i) {
+      const double s = i % 2 == 0 ? 1.0 : -1.0;
+      store(q.view(), layout.at(i, j),
+            {.u = Vec2(s, 2 * s), .v = Vec2::Zero(), .P = {s, 2 * s, 3 * s, 4 * s}});
+    }
+  }
+  return q;
+}
+
+TEST(Eq39Dissipation, LeavesTheTractionOnTheFacesAlone) {
+  const grid::MovingGrid grid = test::skewed_grid(12);
+  const ReferenceMetrics metrics(grid.x());
+  const Field q = sawtooth_along_r1(grid.layout());
+  Field next(grid.layout(), plane::count);
+  for (int j = 0; j < 13; ++j) {
+    add_tangential_stress_dissipation<MappedRow>(q.view(), next.view(), metrics, 0.5, j);
+    for (int i = 0; i < 13; ++i) {
+      const Vec2 n = metrics.at(i, j).r1.normalized(), t(-n.y(), n.x());
+      const Tensor2 change = load(next.view(), grid.layout().at(i, j)).P,
+                    P = load(q.view(), grid.layout().at(i, j)).P;
+      // n^T P belongs to waves along r1; t^T P is damped by beta / 2 = 0.25 of its sawtooth. Round-off of P
+      // = 4.
+      EXPECT_NEAR(n.x() * change.a11 + n.y() * change.a21, 0, 1e-15 * 20);
+      EXPECT_NEAR(n.x() * change.a12 + n.y() * change.a22, 0, 1e-15 * 20);
+      EXPECT_NEAR(t.x() * change.a11 + t.y() * change.a21, -0.25 * (t.x() * P.a11 + t.y() * P.a21), 1e-14);
+      EXPECT_NEAR(t.x() * change.a12 + t.y() * change.a22, -0.25 * (t.x() * P.a12 + t.y() * P.a22), 1e-14);
+    }
+  }
+}
+
+TEST(Eq40Dissipation, DampsASawtoothOfTheDisplacement) {
+  const Layout layout(12, 12);
+  const Field q = sawtooth_along_r1(layout);
+  Field next(layout, plane::count);
+  add_displacement_dissipation(q.view(), next.view(), 0.5, 4);
+  for (int i = 0; i < 12; ++i) {
+    EXPECT_DOUBLE_EQ(next(plane::u1, i, 4),
+                     -0.25 * q(plane::u1, i, 4));  // half of beta: one of two directions
+    EXPECT_EQ(next(plane::P11, i, 4), 0);
+  }
+}
+
+TEST(Eq41Relaxation, PullsTheStressOntoTheLaw) {
+  const grid::MovingGrid grid = test::skewed_grid(12);
+  const ReferenceMetrics metrics(grid.x());
+  const NeoHookean law{.lambda = 1.2, .mu = 0.8};
+  Field q(grid.layout(), plane::count), next(grid.layout(), plane::count);
+  const Tensor2 F = {1.1, 0.2, -0.1, 0.95}, wrong = {0.3, -0.2, 0.5, 0.1};
+  for (int j = -2; j < 15; ++j) {
+    for (int i = -2; i < 15; ++i) {
+      const double x = grid.x()(0, i, j), y = grid.x()(1, i, j);
+      const SolidState s = {
+          .u = {(F.a11 - 1) * x + F.a12 * y, F.a21 * x + (F.a22 - 1) * y}, .v = Vec2::Zero(), .P = wrong};
+      store(q.view(), grid.layout().at(i, j), s);
+      store(next.view(), grid.layout().at(i, j), s);
+    }
+  }
+  const Tensor2 right = law.P(F);
+  const MappedGradient4 gradient(grid.x(), metrics, 6);
+  add_relaxation(q.view(), next.view(), gradient, law, 1.0, 6);
+  for (int i = 0; i < 13; ++i) {
+    EXPECT_NEAR(next(plane::P11, i, 6), right.a11, 1e-12);  // differences of u amplify round-off by 1/h
+    EXPECT_NEAR(next(plane::P12, i, 6), right.a12, 1e-12);
+    EXPECT_NEAR(next(plane::P21, i, 6), right.a21, 1e-12);
+    EXPECT_NEAR(next(plane::P22, i, 6), right.a22, 1e-12);
+  }
+}
+
+TEST(BulkDiffusion, LeavesLinearFieldsAlone) {
+  const Layout layout(8, 8);
+  Field q(layout, plane::count), next(layout, plane::count);
+  for (int j = -2; j < 10; ++j) {
+    for (int i = -2; i < 10; ++i) q(plane::v1, i, j) = 3 + 2 * i - 5 * j;
+  }
+  add_bulk_diffusion(q.view(), next.view(), 0.1, 3);
+  for (int i = 0; i < 8; ++i) EXPECT_EQ(next(plane::v1, i, 3), 0);
+}
+
+}  // namespace
+}  // namespace fsi::solid

@@ -1,0 +1,91 @@
+// What the solid shows of an interface and what projected values do to it.
+
+#include <gtest/gtest.h>
+
+#include "tests/convergence/solid/skewed_grid.hpp"
+#include "tests/convergence/solid/solvers.hpp"
+
+namespace fsi::solid {
+namespace {
+
+using Kind = Boundary::Kind;
+
+Boundaries interface_on_top() {
+  Boundaries boundaries;
+  boundaries[2].kind = boundaries[0].kind = Kind::displacement;
+  boundaries[3].kind = Kind::interface;
+  return boundaries;
+}
+
+Vec2 bend(double x, double y, double) {
+  return {0.05 * x * y, -0.04 * x * x * y};
+}
+
+TEST(InterfaceState, ShowsTractionPerCurrentAreaAndTheImpedanceThatBelongsToIt) {
+  SolidSolver<NeoHookean> solver(test::skewed_grid(16), {.lambda = 1.2, .mu = 0.8}, {.rho = 2},
+                                 interface_on_top(), 0);
+  solver.assign_initial_conditions(bend, bend);
+  SolidInterface state;
+  solver.interface_state(Side::top, state);
+  ASSERT_EQ(state.x.size(), 34U);
+  EXPECT_EQ(state.fixed.front(), 1);  // the left side holds that corner
+  EXPECT_EQ(state.fixed.back(), 0);
+  EXPECT_NEAR(state.z_p, std::sqrt(2 * 2.8), 1e-14);
+  for (std::size_t k = 0; k < 17; ++k) {
+    EXPECT_GT(state.Z[k], 0);
+    EXPECT_GT(state.Z[k] * state.Z[34 + k], state.Z[17 + k] * state.Z[17 + k]);  // positive definite
+  }
+  // A solid at rest has the impedances of the p-wave along n0 and of the s-wave across it.
+  SolidSolver<NeoHookean> resting(test::unit_square(8), {.lambda = 1.2, .mu = 0.8}, {.rho = 2},
+                                  interface_on_top(), 0);
+  resting.assign_initial_conditions([](double, double, double) -> Vec2 { return {0, 0}; }, bend);
+  resting.interface_state(Side::top, state);
+  EXPECT_NEAR(state.Z[18 + 4], state.z_p, 1e-13);
+  EXPECT_NEAR(state.Z[4], std::sqrt(2 * 0.8), 1e-13);
+}
+
+TEST(ApplySolidBcs, PutsTheProjectedValuesOnTheInterface) {
+  SolidSolver<NeoHookean> solver(test::skewed_grid(16), {.lambda = 1.2, .mu = 0.8}, {.rho = 2},
+                                 interface_on_top(), 0);
+  solver.assign_initial_conditions(bend, bend);
+  std::vector<double> n(34), v_n(17, 0.03), w_n(17, -0.2);
+  for (std::size_t k = 0; k < 17; ++k) {
+    n[k] = std::sin(0.1);
+    n[17 + k] = std::cos(0.1);
+  }
+  SolidInterface before, after;
+  solver.interface_state(Side::top, before);
+  const InterfaceValues values[] = {{.side = Side::top, .n = n, .v_n = v_n, .w_n = w_n}};
+  solver.apply_solid_bcs(0, values);
+  solver.interface_state(Side::top, after);
+  for (std::size_t k = 1; k < 16; ++k) {
+    const Vec2 normal(n[k], n[17 + k]), tangent(-n[17 + k], n[k]);
+    const Vec2 v(after.v[k], after.v[17 + k]), v_before(before.v[k], before.v[17 + k]),
+        w(after.w[k], after.w[17 + k]);
+    EXPECT_NEAR(normal.dot(v), 0.03, 1e-15);
+    EXPECT_NEAR(tangent.dot(v), tangent.dot(v_before), 1e-15);  // slides freely
+    EXPECT_NEAR(normal.dot(w), -0.2, 1e-14);
+    EXPECT_NEAR(tangent.dot(w), 0, 1e-14);
+    EXPECT_EQ(after.x[k], before.x[k]);  // u is not projected
+  }
+}
+
+TEST(SideLoads, OfAUniformPressureAddUpToItsForce) {
+  Boundaries boundaries;
+  boundaries[1].vector = [](double, double, double) -> Vec2 { return {-0.1, 0}; };
+  SolidSolver<LinearElastic> solver(test::unit_square(10), {.lambda = 1, .mu = 1}, {}, boundaries, 0);
+  solver.assign_initial_conditions(
+      [](double, double, double) -> Vec2 {
+        return {0, 0};
+      },
+      [](double, double, double) -> Vec2 {
+        return {2, 0};
+      });
+  const SideLoad load = solver.side_load(Side::right);
+  EXPECT_NEAR(load.force.x(), -0.1, 1e-14);
+  EXPECT_NEAR(load.force.y(), 0, 1e-14);
+  EXPECT_NEAR(load.moment, 0.05, 1e-14);  // acts at y = 1/2
+}
+
+}  // namespace
+}  // namespace fsi::solid

@@ -1,0 +1,213 @@
+// The solver as a whole: what it keeps, and how it fails.
+
+#include <gtest/gtest.h>
+
+#include "common/core/failure.hpp"
+#include "tests/convergence/solid/skewed_grid.hpp"
+#include "tests/convergence/solid/solvers.hpp"
+
+namespace fsi::solid {
+namespace {
+
+using Kind = Boundary::Kind;
+
+template <class Solver>
+void advance(Solver& solver, int steps) {
+  double t = 0;
+  for (int k = 0; k < steps; ++k) {
+    const double dt = solver.compute_time_step().dt;
+    solver.advance_solid(t, dt);
+    t += dt;
+    solver.apply_solid_bcs(t);
+  }
+}
+
+constexpr SolidOptions full_dissipation = {.rho = 1.4,
+                                           .limiter = Limiter::minmod,
+                                           .tangential_stress = {.rate = 0.5, .scaled = 0.1},
+                                           .displacement = {.rate = 0.5, .scaled = 0.1},
+                                           .relaxation = {.rate = 0.5, .scaled = 0.1},
+                                           .bulk_diffusion = 0.25};
+
+template <class L>
+class Eq36RigidTranslation : public testing::Test {};
+using Laws = testing::Types<LinearElastic, SaintVenantKirchhoff, NeoHookean>;
+TYPED_TEST_SUITE(Eq36RigidTranslation, Laws);
+
+TYPED_TEST(Eq36RigidTranslation, StaysExactOnASkewedGridWithEverySideEq37) {
+  const Vec2 velocity(0.7, -0.4);
+  const StateFunction exact = [=](double, double, double t) {
+    return SolidState{.u = velocity * t, .v = velocity, .P = {}};
+  };
+  for (const Kind kind : {Kind::traction, Kind::displacement, Kind::dirichlet, Kind::interface}) {
+    Boundaries boundaries;
+    for (Boundary& boundary : boundaries) boundary.kind = kind;
+    if (kind == Kind::displacement) {
+      boundaries[0].vector = [=](double, double, double t) -> Vec2 { return velocity * t; };
+      boundaries[0].velocity = [=](double, double, double) { return velocity; };
+      boundaries[1] = boundaries[0];
+      boundaries[2].kind = boundaries[3].kind = Kind::traction;
+    }
+    if (kind == Kind::dirichlet)
+      boundaries[0].state = boundaries[1].state = boundaries[2].state = boundaries[3].state = exact;
+    SolidSolver<TypeParam> solver(test::skewed_grid(16), TypeParam{.lambda = 1, .mu = 1}, full_dissipation,
+                                  boundaries, 0);
+    solver.assign_initial_conditions(exact);
+    advance(solver, 40);
+    const Errors errors = solver.errors(exact, solver.t());
+    // Round-off of u = O(1), amplified by 1/h in the strains: 16 * 1e-16 a step.
+    EXPECT_LT(errors.u, 1e-12) << static_cast<int>(kind);
+    EXPECT_LT(errors.v, 1e-12) << static_cast<int>(kind);
+    EXPECT_LT(errors.P, 1e-12) << static_cast<int>(kind);
+  }
+}
+
+TEST(Eq37Displacement, FollowsAUniformForceAsAStoneFallsEq2) {
+  Boundaries all_free;
+  SolidSolver<NeoHookean> solver(test::skewed_grid(12), NeoHookean{.lambda = 1, .mu = 1}, {.rho = 2},
+                                 all_free, 0);
+  solver.set_body_force([](double, double, double) -> Vec2 { return {0, -6}; });
+  const StateFunction falling = [](double, double, double t) {
+    return SolidState{.u = Vec2(0, -1.5 * t * t), .v = Vec2(0, -3 * t), .P = {}};
+  };
+  solver.assign_initial_conditions(falling);
+  advance(solver, 30);
+  const Errors errors = solver.errors(falling, solver.t());
+  EXPECT_LT(errors.u, 1e-12);  // the scheme is exact for quadratic u(t); round-off over h
+  EXPECT_LT(errors.v, 1e-12);
+}
+
+TEST(Eq35Momentum, IsKeptToRoundOffInAPeriodicSolid) {
+  Boundaries boundaries;
+  for (Boundary& boundary : boundaries) boundary.kind = Kind::periodic;
+  grid::GridDescription description = {.name = "periodic", .n1 = 25, .n2 = 21};
+  description.periodic1 = description.periodic2 = true;
+  constexpr double turn = 6.283185307179586;
+  description.mapping = [](double r, double s, double) -> Vec2 {
+    return {r + 0.03 * std::sin(turn * s), s + 0.03 * std::sin(turn * r)};
+  };
+  SolidSolver<SaintVenantKirchhoff> solver(grid::MovingGrid(description, 0), {.lambda = 1, .mu = 1}, {},
+                                           boundaries, 0);
+  solver.assign_initial_conditions(
+      [](double x, double y, double) -> Vec2 {
+        return {0.02 * std::sin(turn * x), 0.01 * std::cos(turn * (x + y))};
+      },
+      [](double x, double y, double) -> Vec2 {
+        return {0.1 + 0.05 * std::cos(turn * y), 0.05 * std::sin(turn * x)};
+      });
+  // The control volumes weigh each point once: the scheme's own sum of momentum.
+  const auto momentum = [&] {
+    const ReferenceMetrics metrics(solver.reference());
+    Vec2 sum = Vec2::Zero();
+    for (int j = 0; j < 20; ++j) {
+      for (int i = 0; i < 24; ++i) {
+        const double area = 1.0 / metrics.values()(ReferenceMetrics::inverse_area, i, j);
+        sum += area * Vec2(solver.state()(plane::v1, i, j), solver.state()(plane::v2, i, j));
+      }
+    }
+    return sum;
+  };
+  const Vec2 before = momentum();
+  advance(solver, 50);
+  EXPECT_LT((momentum() - before).norm(), 1e-14);  // 50 steps of 480 terms of size 1e-3
+}
+
+TEST(Eq35Symmetry, MirroredDataStayMirroredToTheLastBit) {
+  constexpr int n = 16;
+  const auto grid = [] {
+    return grid::MovingGrid({.name = "mirror",
+                             .n1 = n + 1,
+                             .n2 = n + 1,
+                             .mapping = [](double r, double s, double) -> Vec2 {
+                               return {r - 0.5, s};
+                             }},
+                            0);
+  };
+  Boundaries boundaries;
+  boundaries[2].kind = Kind::displacement;
+  SolidSolver<SaintVenantKirchhoff> solver(grid(), {.lambda = 1, .mu = 1}, full_dissipation, boundaries, 0);
+  solver.assign_initial_conditions(
+      [](double, double, double) -> Vec2 {
+        return {0, 0};
+      },
+      [](double x, double y, double) -> Vec2 {
+        return {0.2 * x * y, 0.1 * y * (1 - x * x)};
+      });
+  advance(solver, 25);
+  const ConstFieldView q = solver.state();
+  for (int j = 0; j <= n; ++j) {
+    for (int i = 0; i <= n; ++i) {
+      EXPECT_EQ(q(plane::v1, i, j), -q(plane::v1, n - i, j));
+      EXPECT_EQ(q(plane::v2, i, j), q(plane::v2, n - i, j));
+      EXPECT_EQ(q(plane::P11, i, j), q(plane::P11, n - i, j));
+      EXPECT_EQ(q(plane::P12, i, j), -q(plane::P12, n - i, j));
+    }
+  }
+}
+
+TEST(BrokenNumbers, AreNamedWithStepTimeGridAndPoint) {
+  Boundaries all_free;
+  SolidSolver<NeoHookean> solver(test::unit_square(10), NeoHookean{.lambda = 1, .mu = 1}, {}, all_free, 0);
+  solver.assign_initial_conditions(
+      [](double, double, double) -> Vec2 {
+        return {0, 0};
+      },
+      [](double x, double y, double) -> Vec2 {
+        return {x > 0.45 && x < 0.55 && y > 0.45 && y < 0.55 ? 20.0 : 0.0, 0};
+      });
+  try {
+    advance(solver, 50);
+    FAIL() << "a velocity of twelve times the wave speed must break the material";
+  } catch (const NumbersBroke& failure) {
+    const std::string what = failure.what();
+    EXPECT_NE(what.find("step "), std::string::npos) << what;
+    EXPECT_NE(what.find("grid \"square\""), std::string::npos) << what;
+    EXPECT_NE(what.find("point ("), std::string::npos) << what;
+  }
+}
+
+TEST(SolidOptions, ThatCanNeverBeStableAreRefused) {
+  Boundaries all_free;
+  EXPECT_THROW(SolidSolver<NeoHookean>(test::unit_square(10), NeoHookean{.lambda = 1, .mu = 1},
+                                       {.relaxation = {.scaled = 2.5}}, all_free, 0),
+               UserMistake);
+}
+
+TEST(Probes, InterpolateLinearFieldsExactly) {
+  Boundaries all_free;
+  SolidSolver<LinearElastic> solver(test::skewed_grid(14), LinearElastic{.lambda = 1, .mu = 1}, {}, all_free,
+                                    0);
+  solver.assign_initial_conditions(
+      [](double x, double y, double) -> Vec2 {
+        return {0.01 * x, 0.02 * y};
+      },
+      [](double, double, double) -> Vec2 {
+        return {0, 0};
+      });
+  const SolidState s = solver.value(solver.locate(0.43, 0.37));
+  EXPECT_NEAR(s.u.x(), 0.0043, 1e-13);
+  EXPECT_NEAR(s.u.y(), 0.0074, 1e-13);
+  EXPECT_THROW(solver.locate(3, 3), UserMistake);
+}
+
+TEST(Totals, AreThoseOfASpinningSquare) {
+  Boundaries all_free;
+  SolidSolver<NeoHookean> solver(test::unit_square(20), NeoHookean{.lambda = 1, .mu = 1}, {.rho = 3},
+                                 all_free, 0);
+  solver.assign_initial_conditions(
+      [](double, double, double) -> Vec2 {
+        return {0, 0};
+      },
+      [](double x, double y, double) -> Vec2 {
+        return {0.5 - y, x - 0.5};
+      });
+  const Totals totals = solver.totals();
+  EXPECT_NEAR(totals.mass, 3, 1e-12);
+  EXPECT_NEAR(totals.momentum.norm(), 0, 1e-12);
+  EXPECT_NEAR(totals.angular_momentum, 0.5, 3e-3);  // rho / 6 on the unit square; trapezoidal rule, h = 1/20
+  EXPECT_NEAR(totals.kinetic_energy, 0.25, 2e-3);
+  EXPECT_NEAR(totals.strain_energy, 0, 1e-12);
+}
+
+}  // namespace
+}  // namespace fsi::solid
