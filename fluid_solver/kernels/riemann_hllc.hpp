@@ -16,7 +16,7 @@ namespace fsi::fluid {
 struct RiemannHllc {
   double gamma;
 
-  /// Flux of (1) minus what the moving face sweeps over, the second and third terms of (31).
+  /// Flux of paper eq. (1) minus what the moving face sweeps over, the second and third terms of (31).
   [[gnu::always_inline]] FaceFlux operator()(const FaceState& L, const FaceState& R, double g_n) const {
     const double gamma_1 = gamma - 1.0;
     const double a2_L = gamma * L.p / L.rho, a2_R = gamma * R.p / R.rho;

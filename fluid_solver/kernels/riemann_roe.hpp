@@ -21,9 +21,9 @@ struct RiemannRoe {
   double entropy_fix;                            ///< |lambda| is rounded off below entropy_fix * c [-]
   static constexpr double least_density = 1e-3;  ///< between the waves, as part of the mean density [-]
 
-  /// Flux of (1) minus what the moving face sweeps over, the second and third terms of (31). One root and one
-  /// division serve all Roe averages: sqrt(rho_L) / (sqrt(rho_L) + sqrt(rho_R)) = rho_L / (rho_L + sqrt(rho_L
-  /// rho_R)).
+  /// Flux of paper eq. (1) minus what the moving face sweeps over, the second and third terms of (31). One
+  /// root and one division serve all Roe averages: sqrt(rho_L) / (sqrt(rho_L) + sqrt(rho_R)) = rho_L / (rho_L
+  /// + sqrt(rho_L rho_R)).
   [[gnu::always_inline]] FaceFlux operator()(const FaceState& L, const FaceState& R, double g_n) const {
     const double gamma_1 = gamma - 1.0, enthalpy = gamma / gamma_1;
     const double rho = std::sqrt(L.rho * R.rho);
