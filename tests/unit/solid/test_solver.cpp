@@ -80,7 +80,10 @@ TEST(Eq37Displacement, FollowsAUniformForceAsAStoneFallsEq2) {
 TEST(Eq35Momentum, IsKeptToRoundOffInAPeriodicSolid) {
   Boundaries boundaries;
   for (Boundary& boundary : boundaries) boundary.kind = Kind::periodic;
-  grid::GridDescription description = {.name = "periodic", .n1 = 25, .n2 = 21};
+  grid::GridDescription description;
+  description.name = "periodic";
+  description.n1 = 25;
+  description.n2 = 21;
   description.periodic1 = description.periodic2 = true;
   constexpr double turn = 6.283185307179586;
   description.mapping = [](double r, double s, double) -> Vec2 {
