@@ -41,7 +41,7 @@ Vec2 beyond(const CartesianGrid& grid, const Vec2& end, const std::string& name,
   const auto side = static_cast<int>(std::ranges::min_element(distance) - distance.begin());
   if (!(distance[static_cast<std::size_t>(side)] < 1e-3 * h)) {
     throw NumbersBroke(fmt::format(
-        "t = {:.6g}, grid \"{}\": its curve ends at ({:.6g}, {:.6g}), off the boundary of grid \"{}\"", t,
+        R"(t = {:.6g}, grid "{}": its curve ends at ({:.6g}, {:.6g}), off the boundary of grid "{}")", t,
         name, end[0], end[1], grid.name));
   }
   const double step = (side % 2 == 0 ? -2 : 2) * h;
@@ -129,9 +129,9 @@ void CurveCut::sort_by_rows(int rows) {
 
 /// Rows with crossings know their first point's side; it changes from row to row only by flips.
 void CurveCut::find_starts(const CuttingCurve& curve, int rows, const std::string& name, double t) {
-  constexpr char unknown = 2;
+  constexpr unsigned char unknown = 2;
   starts_behind_.assign(static_cast<std::size_t>(rows), unknown);
-  const auto start = [this](int j) -> char& { return starts_behind_[static_cast<std::size_t>(j)]; };
+  const auto start = [this](int j) -> unsigned char& { return starts_behind_[static_cast<std::size_t>(j)]; };
   for (int j = 0; j < rows; ++j) {
     if (!crossings(j).empty()) start(j) = crossings(j).front().into_hole ? 0 : 1;
   }
@@ -152,7 +152,7 @@ void CurveCut::find_starts(const CuttingCurve& curve, int rows, const std::strin
         fmt::format("t = {:.6g}, grid \"{}\": its curve meets no line of the background", t, name));
   }
   const bool domain_inside = (area_of(curve) > 0) == curve.domain_left;
-  std::ranges::fill(starts_behind_, static_cast<char>(domain_inside ? 1 : 0));
+  std::ranges::fill(starts_behind_, static_cast<unsigned char>(domain_inside ? 1 : 0));
 }
 
 void CurveCut::append_holes(int row, int n1, std::vector<Interval>& parts) const {

@@ -69,7 +69,7 @@ class CurveCut {
   std::vector<Crossing> crossings_, sorted_;
   std::vector<std::size_t> first_;
   std::vector<Flip> flips_;
-  std::vector<char> starts_behind_;  ///< the side of each row's first point
+  std::vector<unsigned char> starts_behind_;  ///< the side of each row's first point
 
   void collect(const CartesianGrid& grid, const CuttingCurve& curve, const std::string& name, double t);
   void add_segment(const CartesianGrid& grid, const Vec2& a, const Vec2& b, int segment, bool domain_left);

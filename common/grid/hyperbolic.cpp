@@ -74,7 +74,7 @@ void HyperbolicMarch::march(std::span<const double> curve, FieldView x, double t
                                        grid_.name, curve.size(), n, x.layout.n1, x.layout.n2));
   }
   for (int c = 0; c < 2; ++c) {
-    std::copy_n(curve.begin() + c * grid_.points, grid_.points, x.row(c, row_of(0)));
+    std::copy_n(curve.begin() + (c == 0 ? 0 : grid_.points), grid_.points, x.row(c, row_of(0)));
     if (closed()) x(c, grid_.points - 1, row_of(0)) = x(c, 0, row_of(0));
   }
   double d = grid_.spacing;
@@ -124,11 +124,12 @@ void HyperbolicMarch::smooth_arclength() {
 /// Near an end that slides on a wall, normals turn into the wall's direction.
 void HyperbolicMarch::blend_into_walls() {
   for (std::size_t end = 0; end < 2; ++end) {
-    if (!grid_.walls[end]) continue;
+    const std::optional<Vec2>& direction = grid_.walls[end];
+    if (!direction) continue;
     const std::size_t reach = std::min(static_cast<std::size_t>(grid_.blend), line_.size() / 2);
     for (std::size_t k = 0; k <= reach; ++k) {
       LinePoint& here = line_[end == 0 ? k : line_.size() - 1 - k];
-      const Vec2 wall = here.normal.dot(*grid_.walls[end]) < 0 ? Vec2(-*grid_.walls[end]) : *grid_.walls[end];
+      const Vec2 wall = here.normal.dot(*direction) < 0 ? Vec2(-*direction) : *direction;
       here.blend = 1 - static_cast<double>(k) / static_cast<double>(reach + 1);
       here.normal = ((1 - here.blend) * here.normal + here.blend * wall).normalized();
     }
@@ -185,9 +186,10 @@ void HyperbolicMarch::place(FieldView x, int j, int j_next) {
     if (closed()) to[n] = to[0];
   }
   for (std::size_t end = 0; end < 2; ++end) {
-    if (closed() || !grid_.walls[end]) continue;
+    const std::optional<Vec2>& direction = grid_.walls[end];
+    if (closed() || !direction) continue;
     const int k = end == 0 ? 0 : grid_.points - 1;
-    const Vec2& wall = *grid_.walls[end];
+    const Vec2& wall = *direction;
     const Vec2 on_wall = point(x, k, j) + wall * wall.dot(step[static_cast<std::size_t>(k)]);
     x(0, k, j_next) = on_wall[0];
     x(1, k, j_next) = on_wall[1];

@@ -25,7 +25,7 @@ class Wanderer {
     double radius = 0.7;
   };
 
-  Wanderer(std::string name, int points, int lines, double spacing, Range range, unsigned seed)
+  Wanderer(std::string name, int points, int lines, double spacing, const Range& range, unsigned seed)
       : march_({.name = std::move(name),
                 .points = points,
                 .lines = lines,
@@ -71,7 +71,7 @@ class Wanderer {
 
   void place() {
     const int n = march_.grid().points;
-    std::vector<double> curve(static_cast<std::size_t>(2 * n));
+    std::vector<double> curve(2 * static_cast<std::size_t>(n));
     for (int k = 0; k < n; ++k) {
       const double angle = 2 * pi * (k % (n - 1)) / (n - 1);
       const double r = range_.radius * (1 + state_[3] * std::cos(2 * angle) +
