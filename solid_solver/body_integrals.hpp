@@ -119,7 +119,7 @@ void gather_interface(const SolidComponent<L>& component, const L& law, double r
     const Vec2 n0 = side_metrics(component.metrics(), layout, side, point).n0;
     const SolidState s = load(component.q(), line.at(point, 0));
     const Tensor2 F = component.deformation_gradient(p.i, p.j);
-    const double eta = area_ratio(F, n0);
+    const double eta = component.boundary().follows(side) ? area_ratio(F, n0) : 1.0;
     const SymmetricTensor2 Z = impedance_matrix(law.K(F), n0, rho, eta);
     const Vec2 w = eta * traction_of(s.P, n0);
     for (std::size_t c = 0; c < 2; ++c) {

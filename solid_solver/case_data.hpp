@@ -108,6 +108,7 @@ class CaseData {
   Boundary boundary(Side side) const {
     const BoundarySpec& spec = spec_.boundary[static_cast<std::size_t>(side)];
     Boundary result;
+    result.load = spec.on_reference ? LoadConfiguration::reference : LoadConfiguration::current;
     switch (spec.kind) {
       case BoundaryKind::interface:
         result.kind = Boundary::Kind::interface;
@@ -170,23 +171,26 @@ class CaseData {
     const grid::MovingGrid reference = grid();
     auto x = reference.side_points(side);
     auto n = grid::normals(x, grid::Curve::open, grid::outward(side));
-    return [m = manufactured_, x = std::move(x), n = std::move(n)](double x1, double x2, double t) -> Vec2 {
-      const std::size_t count = x.size() / 2;
-      std::size_t nearest = 0;
-      double best = std::numeric_limits<double>::infinity();
-      for (std::size_t k = 0; k < count; ++k) {
-        const double distance = std::hypot(x[k] - x1, x[count + k] - x2);
-        if (distance < best) {
-          best = distance;
-          nearest = k;
-        }
-      }
-      const double n1 = n[nearest], n2 = n[count + nearest];
-      const Tensor2 F = m->deformation_gradient(x1, x2, t);
-      const Tensor2 P = m->state(x1, x2, t).P;
-      const double eta = 1 / std::hypot(-F.a11 * n2 + F.a12 * n1, -F.a21 * n2 + F.a22 * n1);
-      return {eta * (n1 * P.a11 + n2 * P.a21), eta * (n1 * P.a12 + n2 * P.a22)};
-    };
+    const bool on_reference = spec_.boundary[static_cast<std::size_t>(side)].on_reference;
+    return
+        [=, m = manufactured_, x = std::move(x), n = std::move(n)](double x1, double x2, double t) -> Vec2 {
+          const std::size_t count = x.size() / 2;
+          std::size_t nearest = 0;
+          double best = std::numeric_limits<double>::infinity();
+          for (std::size_t k = 0; k < count; ++k) {
+            const double distance = std::hypot(x[k] - x1, x[count + k] - x2);
+            if (distance < best) {
+              best = distance;
+              nearest = k;
+            }
+          }
+          const double n1 = n[nearest], n2 = n[count + nearest];
+          const Tensor2 F = m->deformation_gradient(x1, x2, t);
+          const Tensor2 P = m->state(x1, x2, t).P;
+          const double stretch = std::hypot(-F.a11 * n2 + F.a12 * n1, -F.a21 * n2 + F.a22 * n1);
+          const double eta = on_reference ? 1 : 1 / stretch;
+          return {eta * (n1 * P.a11 + n2 * P.a21), eta * (n1 * P.a12 + n2 * P.a22)};
+        };
   }
 
   const SolidSpec& spec_;

@@ -42,11 +42,19 @@ struct SolidOptions {
   double cfl = 0.9;                 ///< safety factor C_CFL of the time step [-]
 };
 
+/// The configuration whose area and normal the load of a side belongs to.
+enum class LoadConfiguration {
+  current,    ///< the deformed body: eta of paper eq. (13), a pressure along the present normal
+  reference,  ///< the undeformed body: eta = 1, a pressure along n0, as in small-strain theory. Differs from
+              ///< the paper: with the linear law, ripples of an interface that follows its load grow without
+              ///< bound, the shorter the faster, once the load is a few shear moduli (docs/theory_solid.md)
+};
+
 /// Condition on one side of the reference grid.
 struct Boundary {
   enum class Kind {
     interface,     ///< the gas is on the other side: values come with apply_solid_bcs
-    traction,      ///< `vector(x, y, t)` is the traction per unit current area; empty means free
+    traction,      ///< `vector(x, y, t)` is the traction per unit area; empty means free
     displacement,  ///< u = `vector(x, y, t)`, v = `velocity(x, y, t)`; empty means clamped
     slip,          ///< n0 . u = 0 and no shear
     symmetry,      ///< mirror images across a straight side
@@ -54,9 +62,10 @@ struct Boundary {
     periodic       ///< continues at the opposite side
   };
   Kind kind = Kind::traction;
-  VectorFunction vector;
-  VectorFunction velocity;
-  StateFunction state;
+  LoadConfiguration load = LoadConfiguration::current;
+  VectorFunction vector = {};
+  VectorFunction velocity = {};
+  StateFunction state = {};
 };
 
 using Boundaries = std::array<Boundary, 4>;  ///< left, right, bottom, top

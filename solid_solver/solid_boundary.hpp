@@ -46,6 +46,8 @@ class SolidBoundary {
   Kind kind(Side side) const { return kinds_[index(side)]; }
   /// True when point k of a side also lies on a side whose motion is given.
   bool fixed(Side side, int k) const;
+  /// The load of a side follows the deformation: its area and its normal are the present ones.
+  bool follows(Side side) const { return boundaries_[index(side)].load == LoadConfiguration::current; }
 
  private:
   static std::size_t index(Side side) { return static_cast<std::size_t>(side); }

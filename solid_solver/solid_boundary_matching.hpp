@@ -59,8 +59,9 @@ void SolidBoundary<L>::find_traction(ConstFieldView q, Side side, double t) {
     const Vec2 x = position(a), along = difference_along(grid_.x, line, 0, k);
     const Vec2 stretched = along + difference_along(q, line, plane::u1, k);
     const double per_reference_area = stretch_along(q, side, k);
-    const double its_rate =
-        stretched.dot(difference_along(q, line, plane::v1, k)) / (stretched.norm() * along.norm());
+    const double its_rate = follows(side) ? stretched.dot(difference_along(q, line, plane::v1, k)) /
+                                                (stretched.norm() * along.norm())
+                                          : 0.0;
     const Vec2 now = tau(x.x(), x.y(), t);
     const Vec2 now_rate = (tau(x.x(), x.y(), t + delta) - tau(x.x(), x.y(), t - delta)) / (2.0 * delta);
     T = now * per_reference_area;
@@ -68,10 +69,12 @@ void SolidBoundary<L>::find_traction(ConstFieldView q, Side side, double t) {
   }
 }
 
-/// |dx/ds| / |dx_bar/ds| = 1 / eta at point k of a side. At the corner with a side of given displacement or
-/// slip it is extrapolated along the side: one-sided differences of u are only of first order there.
+/// |dx/ds| / |dx_bar/ds| = 1 / eta at point k of a side, 1 for tractions per reference area. At the corner
+/// with a side of given displacement or slip it is extrapolated along the side: one-sided differences of u
+/// are only of first order there.
 template <Law L>
 double SolidBoundary<L>::stretch_along(ConstFieldView q, Side side, int k) const {
+  if (!follows(side)) return 1.0;
   const SideIndex line(layout(), side);
   const auto stretch = [&](int at_k) {
     const Vec2 along = difference_along(grid_.x, line, 0, at_k);
@@ -83,14 +86,16 @@ double SolidBoundary<L>::stretch_along(ConstFieldView q, Side side, int k) const
   return extrapolated(stretch(k + step), stretch(k + 2 * step), stretch(k + 3 * step), limiter_);
 }
 
-/// T = (w_n / eta) n.
+/// T = (w_n / eta) n, or w_n n0 for loads on the reference configuration.
 template <Law L>
 void SolidBoundary<L>::find_projected_traction(ConstFieldView q, const InterfaceValues& values) {
   const SideIndex line(layout(), values.side);
   const auto n = static_cast<std::size_t>(line.n);
   for (std::size_t k = 0; k < n; ++k) {
     const double eta = 1.0 / stretch_along(q, values.side, static_cast<int>(k));
-    T_[index(values.side)][k] = values.w_n[k] / eta * Vec2(values.n[k], values.n[n + k]);
+    const Vec2 normal =
+        follows(values.side) ? Vec2(values.n[k], values.n[n + k]) : at(values.side, static_cast<int>(k)).n0;
+    T_[index(values.side)][k] = values.w_n[k] / eta * normal;
   }
 }
 

@@ -95,6 +95,9 @@ BoundarySpec build_boundary(const Reader& reader, const Owner& owner, const Node
     result.from_reference = reader.from_reference(*value, path);
     if (!result.from_reference) result.vector = reader.vector(*value);
   }
+  std::string load = "current";
+  Reader::assign(node, "load", load);
+  result.on_reference = load == "reference";
   if (const Node* velocity = node.find("velocity")) result.velocity = reader.vector(*velocity);
   return result;
 }

@@ -59,6 +59,7 @@ struct BoundarySpec {
   std::optional<GasExpressions> state;  ///< gas inflow, dirichlet
   std::optional<VectorExpressions> vector;    ///< solid: traction per unit current area, or displacement
   std::optional<VectorExpressions> velocity;  ///< solid displacement: its time derivative, where given
+  bool on_reference = false;                  ///< solid: the load belongs to the reference configuration
 };
 
 struct GasScheme {

@@ -212,9 +212,10 @@ void check_reference(const Case& problem, const Node& root) {
                         const Node& node) {
     if (!spec.from_reference) return;
     const std::string path = fmt::format("{}.boundary.{}", owner, name_of(side));
-    if (problem.reference.kind == "piston_1d") {
+    if (problem.reference.kind == "piston_1d" || problem.reference.kind == "rotating_disk") {
       fail(node.place, path,
-           "reference `piston_1d` is known at output times only; give the boundary data here");
+           fmt::format("reference `{}` is known at output times only; give the boundary data here",
+                       problem.reference.kind));
     }
     const bool is_formula =
         problem.reference.kind == "expressions" || problem.reference.kind == "manufactured";
@@ -254,7 +255,7 @@ void check_expectations(const Case& problem, const Node& root) {
   static const std::vector<std::string> quantities{
       "status",       "reason", "t",         "steps",    "dt",          "wall_s",
       "participants", "errors", "interface", "counters", "conservation"};
-  static const std::vector<std::string> errors{"rho", "v1", "v2", "T", "p", "u_bar", "v_bar", "P_bar"};
+  static const std::vector<std::string> errors{"rho", "v1", "v2", "T", "rho_mean", "u_bar", "v_bar", "P_bar"};
   std::vector<std::string> programs = solid_names(problem);
   if (problem.fluid) programs.emplace_back("fluid");
   programs.emplace_back("coupler");

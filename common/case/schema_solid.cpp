@@ -11,13 +11,23 @@ using std::array;
 using std::string_view;
 constexpr array<string_view, 1> or_reference{"reference"};
 
+constexpr array<string_view, 2> load_words{"current", "reference"};
+constexpr Key load_key{
+    .name = "load",
+    .type = Type::word,
+    .meaning =
+        "configuration whose area (13) and normal the load belongs to; `reference` is small-strain theory",
+    .fallback = "current",
+    .words = load_words};
+constexpr array solid_interface_keys{load_key};
 constexpr array traction_keys{
     Key{.name = "value",
         .type = Type::vector,
-        .meaning = "traction per unit current area",
+        .meaning = "traction per unit area",
         .unit = "pressure",
         .required = true,
         .words = or_reference},
+    load_key,
 };
 constexpr array displacement_keys{
     Key{.name = "value",
@@ -40,7 +50,7 @@ constexpr array solid_dirichlet_keys{
         .words = or_reference},
 };
 constexpr array solid_boundary_variants{
-    Variant{"interface", "the gas is on the other side", {}},
+    Variant{"interface", "the gas is on the other side", solid_interface_keys},
     Variant{"slip_wall", "no displacement along the normal, no shear", {}},
     Variant{"symmetry", "mirror images across a straight side", {}},
     Variant{"traction", "the traction is imposed", traction_keys},
