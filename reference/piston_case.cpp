@@ -2,12 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <memory>
 
 #include "common/core/failure.hpp"
 #include "common/exact/solution.hpp"
+#include "reference/chain.hpp"
 
 namespace fsi::reference {
 
@@ -93,12 +92,7 @@ PistonProblem piston_from_case(const Case& problem) {
     piston.v_0 = [exact](double x) { return exact->solid(x, 0, 0).v[0]; };
   }
   piston.gas_0 = gas_of(fluid, exact);
-  piston.times = problem.output.times;
-  piston.times.push_back(problem.time.end);
-  piston.times.push_back(0);
-  std::ranges::sort(piston.times);
-  const auto same = [](double a, double b) { return std::fabs(a - b) <= 1e-12 * std::max(1.0, b); };
-  piston.times.erase(std::unique(piston.times.begin(), piston.times.end(), same), piston.times.end());
+  piston.times = output_times(problem.output.times, problem.time.end);
   return piston;
 }
 

@@ -4,58 +4,25 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 #include <variant>
 
 #include "common/core/failure.hpp"
 #include "common/exact/table.hpp"
-#include "solid_solver/laws/linear_elastic.hpp"
-#include "solid_solver/laws/neo_hookean.hpp"
-#include "solid_solver/laws/saint_venant_kirchhoff.hpp"
+#include "reference/chain.hpp"
 
 namespace fsi::reference {
 
 namespace {
 
 using Row = std::vector<double>;
-using AnyLaw = std::variant<solid::LinearElastic, solid::SaintVenantKirchhoff, solid::NeoHookean>;
 
 /// Part of the largest stable step that is used.
 constexpr double safety = 0.9;
 /// Steps after which the stable step is measured again.
 constexpr int block = 32;
 
-AnyLaw law_named(const PistonProblem& problem) {
-  const AnyLaw laws[] = {solid::LinearElastic{.lambda = problem.lambda, .mu = problem.mu},
-                         solid::SaintVenantKirchhoff{.lambda = problem.lambda, .mu = problem.mu},
-                         solid::NeoHookean{.lambda = problem.lambda, .mu = problem.mu}};
-  for (const auto& law : laws) {
-    if (std::visit([&](const auto& known) { return known.name == problem.law; }, law)) return law;
-  }
-  throw UserMistake(
-      fmt::format("the one-dimensional reference knows no law '{}'; write linear_elastic, "
-                  "saint_venant_kirchhoff or neo_hookean",
-                  problem.law));
-}
-
 solid::Tensor2 uniaxial(double stretch) {
   return {.a11 = stretch, .a12 = 0, .a21 = 0, .a22 = 1};
-}
-
-/// Values at the n + 1 ends of n springs from those in their middles: cubic inside, quadratic at the ends.
-Row at_masses(std::span<const double> middle) {
-  const std::size_t n = middle.size();
-  Row values(n + 1);
-  for (std::size_t k = 2; k + 1 < n; ++k) {
-    values[k] = (9 * (middle[k - 1] + middle[k]) - middle[k - 2] - middle[k + 1]) / 16;
-  }
-  const auto at_end = [](double a, double b, double c) { return (15 * a - 10 * b + 3 * c) / 8; };
-  const auto next_to_end = [](double a, double b, double c) { return (3 * a + 6 * b - c) / 8; };
-  values[0] = at_end(middle[0], middle[1], middle[2]);
-  values[1] = next_to_end(middle[0], middle[1], middle[2]);
-  values[n] = at_end(middle[n - 1], middle[n - 2], middle[n - 3]);
-  values[n - 1] = next_to_end(middle[n - 1], middle[n - 2], middle[n - 3]);
-  return values;
 }
 
 /// Derivative of the drive by a fourth-order difference.
@@ -254,14 +221,6 @@ PistonOutput Chain<L>::output() const {
   return result;
 }
 
-double largest_difference(const Row& a, const Row& x, const exact::CubicTable& table, std::size_t column) {
-  double largest = 0;
-  for (std::size_t k = 0; k < a.size(); ++k) {
-    if (x[k] <= table.back()) largest = std::max(largest, std::fabs(a[k] - table(x[k])[column]));
-  }
-  return largest;
-}
-
 }  // namespace
 
 std::vector<PistonOutput> solve_piston(const PistonProblem& problem, int points) {
@@ -275,7 +234,7 @@ std::vector<PistonOutput> solve_piston(const PistonProblem& problem, int points)
         }
         return outputs;
       },
-      law_named(problem));
+      law_named(problem.law, problem.lambda, problem.mu));
 }
 
 PistonDifference compare(const std::vector<PistonOutput>& fine, const std::vector<PistonOutput>& coarse) {

@@ -90,11 +90,30 @@ constexpr array piston_1d_keys{
         .fallback = "3200",
         .range = {.low = 100, .high = 1e6}},
 };
+constexpr array rotating_disk_keys{
+    Key{.name = "omega_0",
+        .meaning = "rotation rate: the disk starts with the angular velocity omega_0 (4 r (1 - r))^4",
+        .unit = "1/time",
+        .fallback = "0.1"},
+    Key{.name = "b",
+        .meaning = "radius of a rigid circular wall around the gas",
+        .unit = "length",
+        .fallback = "a gas without end",
+        .range = {.low = 1, .low_open = true}},
+    Key{.name = "points",
+        .type = Type::integer,
+        .meaning = "points per unit length of the fine run",
+        .unit = "1/length",
+        .fallback = "3200",
+        .range = {.low = 100, .high = 1e6}},
+};
 constexpr array reference_variants{
     Variant{"none", "no reference solution, no errors", {}},
     Variant{"elastic_piston", "exact solution of the elastic piston", elastic_piston_keys},
     Variant{"riemann", "exact solution of the Riemann problem", riemann_keys},
     Variant{"piston_1d", "a fine one-dimensional run of the same case", piston_1d_keys},
+    Variant{"rotating_disk", "a fine run of the unit disk that turns in a gas, in the radius alone",
+            rotating_disk_keys},
     Variant{"expressions", "formulas", expressions_keys},
     Variant{"manufactured", "a motion made exact by a body force", manufactured_keys},
 };

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "common/core/failure.hpp"
+#include "common/exact/disk_table.hpp"
 #include "common/exact/elastic_piston.hpp"
 #include "common/exact/riemann.hpp"
 #include "common/exact/table.hpp"
@@ -73,11 +74,12 @@ std::unique_ptr<Solution> make_solution(const std::string& kind, const std::map<
     if (kind == "elastic_piston") return make_elastic_piston({kind, numbers});
     if (kind == "riemann") return make_riemann_tube({kind, numbers});
     if (kind == "piston_1d") return std::make_unique<PistonTable>(run_dir + "/reference.h5");
+    if (kind == "rotating_disk") return std::make_unique<DiskTable>(run_dir + "/reference.h5");
   } catch (const std::invalid_argument& error) {
     throw UserMistake(fmt::format("reference: {}: {}", kind, error.what()));
   }
   throw UserMistake(
-      fmt::format("reference: no solution is named '{}'; write elastic_piston, riemann or piston_1d", kind));
+      fmt::format("reference: no solution is named '{}'; write elastic_piston, riemann, piston_1d or rotating_disk", kind));
 }
 
 }  // namespace fsi::exact

@@ -28,7 +28,7 @@ class Solution {
 };
 
 /// Solution named `kind` with the data `numbers` of a case's `reference` section; a tabulated one
-/// (`piston_1d`) is read from `run_dir`/reference.h5.
+/// (`piston_1d`, `rotating_disk`) is read from `run_dir`/reference.h5.
 /// @throws UserMistake naming an unknown kind or number @throws OutputFailed when the table cannot be read
 std::unique_ptr<Solution> make_solution(const std::string& kind, const std::map<std::string, double>& numbers,
                                         const std::string& run_dir);

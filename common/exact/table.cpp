@@ -63,22 +63,22 @@ PistonTable::PistonTable(const std::string& path) {
   }
 }
 
-std::size_t PistonTable::index_of(double t) const {
-  for (std::size_t k = 0; k < times_.size(); ++k) {
-    if (std::fabs(times_[k] - t) <= 1e-9 * std::max(1.0, std::fabs(t))) return k;
+std::size_t index_of_time(const std::vector<double>& times, double t) {
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    if (std::fabs(times[k] - t) <= 1e-9 * std::max(1.0, std::fabs(t))) return k;
   }
   throw UserMistake(fmt::format(
       "the reference solution is not tabulated at t = {}; it has t = {}. Add the time to output.times", t,
-      fmt::join(times_, ", ")));
+      fmt::join(times, ", ")));
 }
 
 GasState PistonTable::gas(double x, double /*y*/, double t) const {
-  const auto values = gas_[index_of(t)](x);
+  const auto values = gas_[index_of_time(times_, t)](x);
   return {.rho = values[0], .v1 = values[1], .v2 = 0, .p = values[2]};
 }
 
 SolidState PistonTable::solid(double x_bar, double /*y_bar*/, double t) const {
-  const auto values = solid_[index_of(t)](x_bar);
+  const auto values = solid_[index_of_time(times_, t)](x_bar);
   SolidState state;
   state.u[0] = values[0];
   state.v[0] = values[1];

@@ -26,6 +26,9 @@ class CubicTable {
   std::vector<std::vector<double>> columns_;
 };
 
+/// Index of the time `t` in `times`. @throws UserMistake naming the times there are
+std::size_t index_of_time(const std::vector<double>& times, double t);
+
 /// The piston in uniaxial strain: motion along x only, the same for every y. Asked at a time that is not in
 /// the table it throws: the table is a yardstick at output times, not a source of boundary data.
 class PistonTable final : public Solution {
@@ -41,8 +44,6 @@ class PistonTable final : public Solution {
  private:
   std::vector<double> times_;
   std::vector<CubicTable> gas_, solid_;
-
-  std::size_t index_of(double t) const;
 };
 
 }  // namespace fsi::exact

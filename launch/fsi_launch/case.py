@@ -7,7 +7,10 @@ from dataclasses import dataclass
 from fsi_launch import paths
 from fsi_launch.failure import Failure, INTERNAL_ERROR, UserMistake
 
-REFERENCE_PROGRAMS = {"piston_1d": "reference_piston"}  # reference kinds computed by a program of their own
+REFERENCE_PROGRAMS = {  # reference kinds computed by a program of their own
+    "piston_1d": "reference_piston",
+    "rotating_disk": "reference_disk",
+}
 
 
 @dataclass

@@ -1,0 +1,83 @@
+#include "reference/disk_file.hpp"
+
+#include <algorithm>
+
+#include "common/io/atomic_file.hpp"
+#include "common/io/grid_writer.hpp"
+#include "common/io/hdf5.hpp"
+
+namespace fsi::reference {
+
+namespace {
+
+constexpr double DiskDifference::*quantities[] = {&DiskDifference::rho,   &DiskDifference::v,
+                                                  &DiskDifference::p,     &DiskDifference::u_bar,
+                                                  &DiskDifference::v_bar, &DiskDifference::P_bar};
+
+void write_errors(io::Hdf5& group, const DiskDifference& error) {
+  group.write_attribute("estimated_error_rho", error.rho);
+  group.write_attribute("estimated_error_v", error.v);
+  group.write_attribute("estimated_error_p", error.p);
+  group.write_attribute("estimated_error_u_bar", error.u_bar);
+  group.write_attribute("estimated_error_v_bar", error.v_bar);
+  group.write_attribute("estimated_error_P_bar", error.P_bar);
+}
+
+void write_output(io::Hdf5 group, const DiskOutput& output, const DiskDifference& error) {
+  group.write_attribute("t", output.t);
+  group.write_attribute("energy", output.totals.energy());
+  group.write_attribute("kinetic_energy_solid", output.totals.kinetic_solid);
+  group.write_attribute("kinetic_energy_gas", output.totals.kinetic_gas);
+  group.write_attribute("strain_energy", output.totals.strain);
+  group.write_attribute("gas_energy", output.totals.gas);
+  group.write_attribute("angular_momentum", output.totals.angular_momentum);
+  write_errors(group, error);
+  io::Hdf5 solid = group.make_group("solid");
+  solid.write("r_bar", output.r_bar);
+  solid.write("u1", output.u1);
+  solid.write("u2", output.u2);
+  solid.write("v1", output.v1);
+  solid.write("v2", output.v2);
+  solid.write("P11", output.P11);
+  solid.write("P12", output.P12);
+  solid.write("P21", output.P21);
+  solid.write("P22", output.P22);
+  io::Hdf5 gas = group.make_group("gas");
+  gas.write("r", output.r);
+  gas.write("rho", output.rho);
+  gas.write("v", output.v);
+  gas.write("p", output.p);
+}
+
+}  // namespace
+
+DiskDifference largest(const std::vector<DiskDifference>& all) {
+  DiskDifference result;
+  for (const auto& one : all) {
+    for (const auto quantity : quantities) result.*quantity = std::max(result.*quantity, one.*quantity);
+  }
+  return result;
+}
+
+std::vector<DiskDifference> estimated_errors(const std::vector<DiskOutput>& fine,
+                                             const std::vector<DiskOutput>& half) {
+  std::vector<DiskDifference> errors;
+  for (std::size_t k = 0; k < fine.size(); ++k) {
+    errors.push_back(compare(fine[k], half[k]));
+    for (const auto quantity : quantities) errors.back().*quantity /= 3;
+  }
+  return errors;
+}
+
+void write_disk_table(const std::string& path, const std::vector<DiskOutput>& outputs,
+                      const std::vector<DiskDifference>& errors) {
+  io::Hdf5 file = io::Hdf5::create(io::aside(path));
+  write_errors(file, largest(errors));
+  for (std::size_t k = 0; k < outputs.size(); ++k) {
+    write_output(file.make_group(io::output_name(k)), outputs[k], errors[k]);
+  }
+  file.close();
+  io::rename_into_place(path);
+}
+
+}  // namespace fsi::reference

@@ -1,0 +1,111 @@
+// A case file as a rotating disk.
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "common/core/failure.hpp"
+#include "reference/disk_case.hpp"
+
+namespace fsi::reference {
+namespace {
+
+class DiskCase : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
+    path = testing::TempDir() + "fsi_disk_case_" + info->name() + ".yaml";
+  }
+  void TearDown() override { std::filesystem::remove(path); }
+
+  /// The pieces a test varies; of the grids the reference takes no notice.
+  Case read(const std::string& v, const std::string& reference, const std::string& rho = "14",
+            const std::string& rim = "interface") {
+    std::ofstream(path) << R"(
+title: rotating disk
+parameters: {omega_0: 0.2}
+grid: {factor: 2}
+time: {end: 1}
+fluid:
+  gamma: 1.4
+  p_e: 10
+  grid: {x: [1, 2], y: [0, 0.2], spacing: h}
+  boundary: {left: {kind: interface, solid: disk}, right: outflow, bottom: symmetry, top: symmetry}
+  initial: {rho: )" << rho
+                        << R"(, v: [0, 0], p: 10}
+solids:
+  disk:
+    law: neo_hookean
+    rho: 2
+    lambda: 3
+    mu: 4
+    grid: {x: [0, 1], y: [0, 0.2], spacing: h}
+    boundary: {left: free, right: )"
+                        << rim << R"(, bottom: symmetry, top: symmetry}
+    initial: {v: )" << v << R"(}
+reference: {kind: rotating_disk, )"
+                        << reference << R"(}
+output: {times: [0.5]}
+)";
+    return load_case(path);
+  }
+
+  void expect_mistake(const Case& problem, const std::string& word) {
+    try {
+      disk_from_case(problem);
+      FAIL() << "must be refused";
+    } catch (const UserMistake& mistake) {
+      EXPECT_NE(std::string(mistake.what()).find(word), std::string::npos) << mistake.what();
+    }
+  }
+
+  std::string path;
+  const std::string rotation =
+      "[\"-y * omega_0 * (4 * r * (1 - r))^4\", \"x * omega_0 * (4 * r * (1 - r))^4\"]";
+};
+
+TEST_F(DiskCase, TakesMaterialGasMotionAndTimesFromTheFile) {
+  const Case problem = read(rotation, "omega_0: omega_0, b: 1.75, points: 400");
+  const DiskProblem disk = disk_from_case(problem);
+  EXPECT_EQ(disk.law, "neo_hookean");
+  EXPECT_EQ(disk.rho_bar, 2);
+  EXPECT_EQ(disk.lambda, 3);
+  EXPECT_EQ(disk.mu, 4);
+  EXPECT_EQ(disk.gamma, 1.4);
+  EXPECT_EQ(disk.rho_0, 14);
+  EXPECT_EQ(disk.p_0, 10);
+  EXPECT_EQ(disk.p_e, 10);
+  EXPECT_EQ(disk.b, 1.75);
+  EXPECT_DOUBLE_EQ(disk.v_theta(0.5), 0.1);  // V = omega_0 at half the radius
+  EXPECT_EQ(disk.times, (std::vector<double>{0, 0.5, 1}));
+  EXPECT_EQ(disk_points_from_case(problem), 400);
+}
+
+TEST_F(DiskCase, WithoutAWallTheGasHasNoEnd) {
+  const Case problem = read(rotation, "omega_0: omega_0");
+  EXPECT_EQ(disk_from_case(problem).b, 0);
+  EXPECT_EQ(disk_points_from_case(problem), 3200);
+}
+
+TEST_F(DiskCase, TheGasPressesOnTheConfigurationTheCaseNames) {
+  EXPECT_FALSE(disk_from_case(read(rotation, "omega_0: omega_0")).load_on_reference);
+  const Case problem = read(rotation, "omega_0: omega_0", "14", "{kind: interface, load: reference}");
+  EXPECT_TRUE(disk_from_case(problem).load_on_reference);
+}
+
+TEST_F(DiskCase, AnotherMotionOfTheSolidIsRefused) {
+  expect_mistake(read("[\"-y\", x]", "omega_0: omega_0"), "initial.v");
+  expect_mistake(read(rotation, "omega_0: 0.3"), "initial.v");
+}
+
+TEST_F(DiskCase, AGasThatIsNotUniformIsRefused) {
+  expect_mistake(read(rotation, "omega_0: omega_0", "14 + x"), "at rest");
+}
+
+TEST_F(DiskCase, AWallInsideTheDiskIsRefused) {
+  EXPECT_THROW(read(rotation, "omega_0: omega_0, b: 0.9"), UserMistake);
+}
+
+}  // namespace
+}  // namespace fsi::reference
