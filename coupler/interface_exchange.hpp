@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "common/interface/riemann.hpp"
 #include "common/wire/messages.hpp"
 #include "coupler/interface_motion.hpp"
 #include "coupler/matching.hpp"
 #include "coupler/modal.hpp"
-#include "common/interface/riemann.hpp"
 
 namespace fsi::coupler {
 

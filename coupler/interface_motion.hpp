@@ -34,9 +34,10 @@ void arclength(std::span<const double> x, std::span<double> s);
 /// Velocity and acceleration of the interface points, and the position they are commanded to.
 class InterfaceMotion {
  public:
-  explicit InterfaceMotion(std::size_t points) : v_(2 * points), a_(2 * points) {}
+  explicit InterfaceMotion(std::size_t points) : v_(2 * points), a_(2 * points), mean_(2 * points) {}
 
-  /// Projected velocity at the end of a step of size `dt` (0: the first exchange, no acceleration yet).
+  /// Projected velocity at the end of a step of size `dt` (0: the first exchange, no acceleration yet). The
+  /// acceleration is of second order from the third velocity on.
   void take(std::span<const double> v, double dt);
   /// Position after the next step, x_s + dt v + dt^2/2 a. It starts from the solid's own position, so that
   /// what the gas and the solid differ by now is gone after the step.
@@ -45,6 +46,9 @@ class InterfaceMotion {
 
  private:
   std::vector<double> v_, a_;
+  std::vector<double> mean_;  ///< mean acceleration of the last step
+  double dt_ = 0;             ///< its size
+  int steps_ = 0;
 };
 
 }  // namespace fsi::coupler

@@ -78,8 +78,9 @@ std::unique_ptr<Solution> make_solution(const std::string& kind, const std::map<
   } catch (const std::invalid_argument& error) {
     throw UserMistake(fmt::format("reference: {}: {}", kind, error.what()));
   }
-  throw UserMistake(
-      fmt::format("reference: no solution is named '{}'; write elastic_piston, riemann, piston_1d or rotating_disk", kind));
+  throw UserMistake(fmt::format(
+      "reference: no solution is named '{}'; write elastic_piston, riemann, piston_1d or rotating_disk",
+      kind));
 }
 
 }  // namespace fsi::exact

@@ -74,6 +74,8 @@ void CompositeGrid::trim_lines() {
 }
 
 void CompositeGrid::connect_grid(int grid) {
+  // The chord of two curve points may cut off half a thin line.
+  constexpr Level present{.before = false, .behind_curve = 0.5, .outside = 0};
   const PointSets& sets = part(grid).now;
   for (int j = 0; j < part(grid).layout.n2; ++j) {
     if (sets.valid.row(j).size() == sets.discretised.row(j).size() &&
@@ -82,19 +84,18 @@ void CompositeGrid::connect_grid(int grid) {
     }
     runs_.clear();
     subtract(sets.valid.row(j), sets.discretised.row(j), runs_);
-    for (const Interval& run : runs_)
-      connect_run(grid, j, run, Level{.before = false, .behind_curve = 0.5}, interpolation_);
+    for (const Interval& run : runs_) connect_run(grid, j, run, present, interpolation_);
   }
 }
 
 void CompositeGrid::find_exposed() {
+  constexpr Level past{.before = true, .behind_curve = 2, .outside = 1};
   for (InterpolationList& list : exposed_) list.clear();
   for (int grid = 0; grid < grids(); ++grid) {
     for (int j = 0; j < part(grid).layout.n2; ++j) {
       runs_.clear();
       subtract(part(grid).now.valid.row(j), part(grid).before.valid.row(j), runs_);
-      for (const Interval& run : runs_)
-        connect_run(grid, j, run, Level{.before = true, .behind_curve = 2}, exposed_);
+      for (const Interval& run : runs_) connect_run(grid, j, run, past, exposed_);
     }
   }
 }
@@ -108,7 +109,7 @@ void CompositeGrid::connect_run(int grid, int j, Interval run, const Level& leve
     const Vec2 x = position_of(grid, i, j, level);
     std::optional<Stencil> stencil;
     if (grid > 0) {
-      stencil = find_stencil(background_, donors_of(0, level), x);
+      stencil = find_stencil(background_, donors_of(0, level), x, level.outside);
       if (stencil) stencil->grid = 0;
     } else {
       if (start.grid == 0) start = nearest_start(i, j);
@@ -130,12 +131,10 @@ void CompositeGrid::connect_run(int grid, int j, Interval run, const Level& leve
 }
 
 void CompositeGrid::count_exposed(const Stencil& stencil) {
+  const double last = stencil.width - 1;
+  const bool within = stencil.r >= 0 && stencil.r <= last && stencil.s >= 0 && stencil.s <= last;
   ++counts_.exposed;
-  if (stencil.grid == 0) return;
-  const double behind = curve_below(stencil.grid) ? -stencil.s : stencil.s - (stencil.width - 1);
-  const bool at_curve =
-      curve_below(stencil.grid) ? stencil.j == 0 : stencil.j + stencil.width == body(stencil.grid).n2;
-  if (at_curve && behind > 0) ++counts_.extrapolated;
+  if (!within) ++counts_.extrapolated;
 }
 
 /// The cell at the crossing of a curve nearest to a background point.

@@ -52,7 +52,8 @@ struct OverlapCounts {
   std::size_t width_2 = 0;       ///< of these with two donors per direction: second order only
   std::size_t implicit = 0;      ///< of these with donors that are interpolated themselves
   std::size_t exposed = 0;       ///< points that were unused before
-  std::size_t extrapolated = 0;  ///< of these behind the old curve, less than a cell
+  std::size_t extrapolated =
+      0;  ///< of these behind the old curve or out of the background, by less than two lines
   bool operator==(const OverlapCounts&) const = default;
 };
 
@@ -104,7 +105,8 @@ class CompositeGrid {
   /// Positions and point sets of one time: that of the update or the one before.
   struct Level {
     bool before = false;
-    double behind_curve = 0;  ///< how far behind a curve a donor stencil may reach, in points
+    double behind_curve = 0;  ///< how far behind a curve a donor stencil may reach, in lines
+    double outside = 0;       ///< how far out of the background, in cells
   };
   /// Cell of a body-fitted grid from which a search starts; grid 0: none known.
   struct Start {

@@ -146,10 +146,12 @@ CellPosition find_cell(const CartesianGrid& grid, const Vec2& position) {
   return {.i = i, .j = j, .r = r - i, .s = s - j};
 }
 
-std::optional<Stencil> find_stencil(const CartesianGrid& grid, const Donors& donors, const Vec2& position) {
+std::optional<Stencil> find_stencil(const CartesianGrid& grid, const Donors& donors, const Vec2& position,
+                                    double outside) {
   const CellPosition cell = find_cell(grid, position);
-  const auto outside = [](double part) { return !(part >= -rounding && part <= 1 + rounding); };
-  if (outside(cell.r) || outside(cell.s)) return {};
+  const double room = outside + rounding;
+  const auto far = [room](double part) { return !(part >= -room && part <= 1 + room); };
+  if (far(cell.r) || far(cell.s)) return {};
   return first_legal(grid.layout(), donors, cell, [&](Stencil& stencil) {
     stencil.r = cell.i - stencil.i + cell.r;
     stencil.s = cell.j - stencil.j + cell.s;

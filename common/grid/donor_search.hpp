@@ -59,8 +59,10 @@ struct Reach {
 };
 
 /// The best legal stencil for a position: width 3 before width 2, discretised donors before interpolated
-/// ones, then the one that has the position most in its middle. Nothing where there is none.
-std::optional<Stencil> find_stencil(const CartesianGrid& grid, const Donors& donors, const Vec2& position);
+/// ones, then the one that has the position most in its middle. Nothing where there is none. `outside`: how
+/// far from a Cartesian grid the position may lie, in cells.
+std::optional<Stencil> find_stencil(const CartesianGrid& grid, const Donors& donors, const Vec2& position,
+                                    double outside);
 std::optional<Stencil> find_stencil(const CellMap& cells, const Donors& donors, const Vec2& position,
                                     const CellPosition& near, const Reach& reach);
 

@@ -178,17 +178,25 @@ const Crossing* CurveCut::nearest(int i, int j, int reach) const {
   return best;
 }
 
+/// Crossings into the region behind the curve less those out of it, from outside up to column i of a row.
+int CurveCut::depth(int i, int row) const {
+  int sum = starts_behind_[static_cast<std::size_t>(row)];
+  for (const Crossing& crossing : crossings(row)) {
+    if (crossing.column <= i) sum += crossing.into_hole ? 1 : -1;
+  }
+  return sum;
+}
+
 bool CurveCut::behind(const CartesianGrid& grid, const Vec2& position) const {
   const int i = std::clamp(static_cast<int>((position[0] - grid.x_a) / grid.dx()), 0, grid.n1 - 1);
   const int j = std::clamp(first_above(position[1], grid.y_a, grid.dy(), grid.n2) - 1, 0, grid.n2 - 1);
-  int sum = starts_behind_[static_cast<std::size_t>(j)];
+  const int above = std::min(j + 1, grid.n2 - 1), right = std::min(i + 1, grid.n1 - 1);
+  const bool corner = depth(i, j) > 0;
+  const bool uniform = (depth(right, j) > 0) == corner && (depth(i, above) > 0) == corner &&
+                       (depth(right, above) > 0) == corner;
   const Crossing* near = nearest(i, j, 2);
-  if (near == nullptr || std::abs(near->column - i) > 3) {
-    for (const Crossing& crossing : crossings(j)) {
-      if (crossing.column <= i) sum += crossing.into_hole ? 1 : -1;
-    }
-    return sum > 0;
-  }
+  if (uniform && (near == nullptr || std::abs(near->column - i) > 3)) return corner;
+  int sum = starts_behind_[static_cast<std::size_t>(j)];
   for (const Flip& flip : flips_) {
     if (flip.y > grid.y(j) && flip.y <= position[1]) sum += flip.into_hole ? 1 : -1;
   }

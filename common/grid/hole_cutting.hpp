@@ -49,7 +49,7 @@ class CurveCut {
   void append_holes(int row, int n1, std::vector<Interval>& parts) const;
   /// Crossing nearest to point (i, j) within `reach` rows, null where there is none.
   const Crossing* nearest(int i, int j, int reach) const;
-  /// Is a position within the grid behind the curve? Cheap where no row meets the curve nearby.
+  /// Is a position within the grid behind the curve? Cheap away from the curve.
   bool behind(const CartesianGrid& grid, const Vec2& position) const;
 
  private:
@@ -71,6 +71,7 @@ class CurveCut {
   std::vector<Flip> flips_;
   std::vector<unsigned char> starts_behind_;  ///< the side of each row's first point
 
+  int depth(int i, int row) const;
   void collect(const CartesianGrid& grid, const CuttingCurve& curve, const std::string& name, double t);
   void add_segment(const CartesianGrid& grid, const Vec2& a, const Vec2& b, int segment, bool domain_left);
   void sort_by_rows(int rows);

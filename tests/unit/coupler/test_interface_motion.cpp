@@ -141,6 +141,18 @@ TEST(InterfaceMotion, PredictsAnAcceleratedPathToThirdOrderPerStep) {
   EXPECT_GE(std::log2(error(0.02) / error(0.01)), 2.9);
 }
 
+TEST(InterfaceMotion, AccelerationIsExactWhenItGrowsLinearlyWhateverTheSteps) {
+  InterfaceMotion motion(1);
+  const auto take = [&](double t, double dt) {
+    motion.take(std::vector<double>{0.3 * t + 0.7 * t * t, -t * t}, dt);
+  };
+  take(1.0, 0);
+  take(1.1, 0.1);
+  take(1.35, 0.25);
+  EXPECT_NEAR(motion.a()[0], 0.3 + 1.4 * 1.35, 1e-13);
+  EXPECT_NEAR(motion.a()[1], -2 * 1.35, 1e-13);
+}
+
 TEST(InterfaceMotion, UniformMotionStartsWithoutAcceleration) {
   InterfaceMotion motion(2);
   const std::vector<double> v{0.5, 0.5, -0.25, -0.25};
