@@ -62,7 +62,7 @@ output: {times: [0.5]}
 
   std::string path;
   const std::string rotation =
-      "[\"-y * omega_0 * (4 * r * (1 - r))^4\", \"x * omega_0 * (4 * r * (1 - r))^4\"]";
+      R"(["-y * omega_0 * (4 * r * (1 - r))^4", "x * omega_0 * (4 * r * (1 - r))^4"])";
 };
 
 TEST_F(DiskCase, TakesMaterialGasMotionAndTimesFromTheFile) {
@@ -95,7 +95,7 @@ TEST_F(DiskCase, TheGasPressesOnTheConfigurationTheCaseNames) {
 }
 
 TEST_F(DiskCase, AnotherMotionOfTheSolidIsRefused) {
-  expect_mistake(read("[\"-y\", x]", "omega_0: omega_0"), "initial.v");
+  expect_mistake(read(R"(["-y", x])", "omega_0: omega_0"), "initial.v");
   expect_mistake(read(rotation, "omega_0: 0.3"), "initial.v");
 }
 

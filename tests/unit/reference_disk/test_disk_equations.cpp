@@ -100,6 +100,7 @@ TEST(Eq50RotatingDisk, RotatedStressHasThePrintedComponentsOfTheSaintVenantKirch
 TEST(Eq48RotatingDisk, TheGasKeepsMassMomentumAndEnergyInSpace) {
   const auto& outputs = around_t();
   std::vector<exact::CubicTable> tables;
+  tables.reserve(outputs.size());
   for (const auto& out : outputs) tables.emplace_back(out.r, std::vector{out.rho, out.v, out.p});
   // Conserved variables and fluxes of the first, second and third row.
   struct Row {
