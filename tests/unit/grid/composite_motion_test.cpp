@@ -118,14 +118,18 @@ void expect_exposed_values(const CompositeGrid& grids, const Kinds& before,
     views.push_back(fields.back().view());
   }
   grids.fill_exposed(views);
+  double worst = 0;
   for (int g = 0; g < grids.grids(); ++g) {
     for (int j = 0; j < grids.layout(g).n2; ++j) {
       for (const Interval& run : grids.valid(g).row(j)) {
-        for (int i = run.begin; i < run.end; ++i)
-          EXPECT_NEAR(views[static_cast<std::size_t>(g)](0, i, j), linear(place(g, i, j)), 1e-12);
+        for (int i = run.begin; i < run.end; ++i) {
+          const double error = std::abs(views[static_cast<std::size_t>(g)](0, i, j) - linear(place(g, i, j)));
+          if (!(error <= worst) && !std::isnan(worst)) worst = error;  // NaN stays
+        }
       }
     }
   }
+  EXPECT_LT(worst, 1e-12);  // extrapolation by two lines magnifies round-off
 }
 
 TEST(CompositeMotion, ThousandRandomMotionsKeepEveryInvariant) {
@@ -147,7 +151,7 @@ TEST(CompositeMotion, ThousandRandomMotionsKeepEveryInvariant) {
     CompositeGrid fresh(square(2, h), {ring.body()});
     fresh.connect(now, step);
     expect_same(grids, fresh);
-    if (step % 50 == 0) expect_exposed_values(grids, before, x);
+    if (step % 10 == 0) expect_exposed_values(grids, before, x);
     exposed += grids.counts().exposed;
     extrapolated += grids.counts().extrapolated;
     before = checker.kinds();
@@ -176,10 +180,10 @@ TEST(CompositeMotion, ThousandMotionsWithTrimmedLinesExposeNothingWithoutAValue)
 }
 
 TEST(CompositeMotion, BodiesPulledThroughEachOthersGridsConnectOrSayWhatFailed) {
-  const double h = 0.05;
-  Wanderer a("a", 61, 9, h, {.centre = {-0.65, 0.1}, .half_width = 0.35, .radius = 0.5}, 2);
-  Wanderer b("b", 61, 9, h, {.centre = {0.65, -0.1}, .half_width = 0.35, .radius = 0.5}, 3);
-  CompositeGrid grids(square(1.75, h), {a.body(), b.body()});
+  const double h = 0.07;
+  Wanderer a("a", 45, 9, h, {.centre = {-0.65, 0.1}, .half_width = 0.25, .radius = 0.5}, 2);
+  Wanderer b("b", 45, 9, h, {.centre = {0.65, -0.1}, .half_width = 0.25, .radius = 0.5}, 3);
+  CompositeGrid grids(square(1.82, h), {a.body(), b.body()});
   bool connected = false;
   int successes = 0, cut = 0;
   Kinds before;
@@ -205,6 +209,9 @@ TEST(CompositeMotion, BodiesPulledThroughEachOthersGridsConnectOrSayWhatFailed) 
       cut += std::ranges::count(before[1], PointKind::unused) > 0 ? 1 : 0;
     } catch (const NumbersBroke& broke) {
       const std::string words = broke.what();
+      // Bodies come too close, even into each other; points uncovered by a small motion always have old
+      // values.
+      EXPECT_EQ(words.find("uncovered"), std::string::npos) << words;
       EXPECT_NE(words.find("point ("), std::string::npos) << words;
       EXPECT_NE(words.find("such points)"), std::string::npos) << words;
     }

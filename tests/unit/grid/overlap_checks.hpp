@@ -182,6 +182,8 @@ class OverlapChecker {
 
   void check_list(const InterpolationList& list, std::span<const ConstFieldView> x, const Kinds& kinds,
                   Marks& targets) const {
+    double sum_error = 0, place_error = 0;
+    std::size_t illegal = 0;
     const Layout to = grids_.layout(list.target_grid), from = grids_.layout(list.donor_grid);
     for (std::size_t k = 0; k < list.size(); ++k) {
       const auto place = [](const Layout& shape, std::int32_t offset) {
@@ -203,11 +205,14 @@ class OverlapChecker {
         mean += w * position(list.donor_grid, a, b, x);
         sum += w;
       }
-      EXPECT_TRUE(legal) << "grid " << list.target_grid << " point " << i << ", " << j;
-      EXPECT_NEAR(sum, 1, 1e-14);  // nine products of rounded numbers
-      // The stencil's own map leads to the point: Newton's last step was below 1e-12 cells.
-      EXPECT_LT((mean - position(list.target_grid, i, j, x)).norm(), 1e-13);
+      illegal += legal ? 0U : 1U;
+      sum_error = std::max(sum_error, std::abs(sum - 1));
+      place_error = std::max(place_error, (mean - position(list.target_grid, i, j, x)).norm());
     }
+    EXPECT_EQ(illegal, 0U) << "points of grid " << list.target_grid << " with donors that may not give";
+    EXPECT_LT(sum_error, 1e-14);  // nine products of rounded numbers
+    // The stencil's own map leads to the point: Newton's next step would be round-off.
+    EXPECT_LT(place_error, 1e-13);
   }
 
   template <class Wanted>
