@@ -9,14 +9,15 @@ from pathlib import Path
 
 ROOT = Path(os.environ.get("FSI_ROOT") or Path(__file__).resolve().parents[3])
 
-# Largest errors at h = 1/80: twice what a one-dimensional program with the same scheme reaches at h = 1/160, times 4.
-# They hold for every density ratio; u_bar, v_bar and P_bar are given where that program's figures are known.
-GAS = {"rho": 1.6e-5, "v1": 3.2e-5}
-SOLID = {"0.1": {"u_bar": 4.4e-5, "v_bar": 1.5e-5, "P_bar": 3.2e-6}, "1": {"u_bar": 1.5e-5, "v_bar": 4.0e-6, "P_bar": 7.6e-6},
-         "1000": {"u_bar": 1.4e-5, "v_bar": 4.6e-6, "P_bar": 5.0e-3}}
-LEVELS = "2,4,8"
-# The least-squares rates over these coarse grids scatter by about a tenth around two.
-MIN_RATE = 1.85
+# Errors at h = 1/160: twice those of an independent one-dimensional program with the same order. The gas's hold for every density
+# ratio; u_bar, v_bar and P_bar (its sigma times rho_bar c_p^2) are given where that program's figures are known.
+GAS = {"rho": 4.0e-6, "v1": 8.0e-6}
+SOLID = {"0.1": {"u_bar": 1.1e-5, "v_bar": 3.8e-6, "P_bar": 8.1e-7}, "1": {"u_bar": 3.8e-6, "v_bar": 1.0e-6, "P_bar": 1.9e-6},
+         "1000": {"u_bar": 3.6e-6, "v_bar": 1.2e-6, "P_bar": 1.25e-3}}
+# Only the finest pair of grids is judged: on coarser ones errors of opposite sign can cancel and hide the order.
+LEVELS = "8,16"
+MIN_RATE = 1.9
+ALL = ("rho", "v1", "T", "u_bar", "v_bar", "P_bar")
 
 
 class Study(unittest.TestCase):
@@ -29,9 +30,8 @@ class Study(unittest.TestCase):
             self.assertEqual(answer.returncode, 0, answer.stderr)
             return json.loads(Path(f"{scratch}/s/converge.json").read_text(encoding="utf-8"))
 
-    def assert_second_order(self, table, bounds, names=("rho", "v1", "T", "u_bar", "v_bar", "P_bar"),
-                            min_rate=MIN_RATE):
+    def assert_second_order(self, table, bounds, names=ALL):
         for name in names:
-            self.assertGreaterEqual(table["fitted"][name], min_rate, (name, table["errors"][name]))
+            self.assertGreaterEqual(table["rates"][name][-1], MIN_RATE, (name, table["errors"][name]))
         for name, bound in bounds.items():
             self.assertLess(table["errors"][name][-1], bound, name)

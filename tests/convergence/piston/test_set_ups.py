@@ -18,7 +18,7 @@ class SetUps(Study):
             self.assertAlmostEqual(v / straight["errors"]["v1"][k], 1, delta=1e-6)
 
     def test_traditional_scheme_works_for_a_heavy_solid(self):
-        table = self.converge("interface.projection=traditional", "parameters.density_ratio=1000")
+        table = self.converge("interface.projection=traditional", "parameters.density_ratio=1000", levels="4,8")
         self.assert_second_order(table, {}, names=("rho", "v1", "T", "u_bar"))
 
 
