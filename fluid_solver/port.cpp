@@ -157,12 +157,6 @@ void FluidParticipant::fill(std::size_t k, wire::PredictedInterface& predicted) 
   predicted.p = std::move(state.p);
   predicted.z_f = std::move(state.z_f);
   predicted.p_e = spec_.p_e;
-  const Totals totals = solver_.totals();
-  predicted.mass = totals.mass;
-  predicted.momentum1 = totals.momentum1;
-  predicted.momentum2 = totals.momentum2;
-  predicted.energy = totals.energy;
-  predicted.angular_momentum = totals.angular_momentum;
 }
 
 void FluidParticipant::apply_bcs(double t, ProjectedStates projected) {

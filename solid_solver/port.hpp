@@ -76,12 +76,6 @@ class SolidParticipant final : public Participant {
     predicted.Z = interface_.Z;
     predicted.fixed = interface_.fixed;
     predicted.z_p = interface_.z_p;
-    const Totals totals = solver_.totals();
-    predicted.mass = totals.mass;
-    predicted.energy = totals.energy();
-    predicted.momentum1 = totals.momentum[0];
-    predicted.momentum2 = totals.momentum[1];
-    predicted.angular_momentum = totals.angular_momentum;
   }
 
   void apply_bcs(double t, ProjectedStates projected) override {
@@ -116,10 +110,9 @@ class SolidParticipant final : public Participant {
   void write_tables(double t, double /*dt*/, ProjectedStates /*projected*/) override {
     if (forces_) {
       const SideLoad load = solver_.side_load(*side_);
-      const Totals totals = solver_.totals();
       const Pose pose = pose_of(solver_.reference(), solver_.state());
       forces_->row({t, load.force[0], load.force[1], load.moment, load.power, pose.centre[0], pose.centre[1],
-                    totals.momentum[0] / totals.mass, totals.momentum[1] / totals.mass, pose.angle});
+                    pose.velocity[0], pose.velocity[1], pose.angle});
     }
     if (probe_table_) {
       std::vector<double> row{t};

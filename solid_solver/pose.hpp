@@ -7,11 +7,12 @@
 namespace fsi::solid {
 
 struct Pose {
-  Vec2 centre = Vec2::Zero();  ///< of mass, in physical space
-  double angle = 0;            ///< of the rotation that fits the motion best [rad], in (-pi, pi]
+  Vec2 centre = Vec2::Zero();    ///< of mass, in physical space
+  Vec2 velocity = Vec2::Zero();  ///< of the centre
+  double angle = 0;              ///< of the rotation that fits the motion best [rad], in (-pi, pi]
 };
 
-/// `reference`: planes x_bar1, x_bar2; `state`: planes u1, u2 first. Homogeneous density.
+/// `reference`: planes x_bar1, x_bar2; `state`: planes u1, u2, v1, v2 first. Homogeneous density.
 Pose pose_of(ConstFieldView reference, ConstFieldView state);
 
 }  // namespace fsi::solid

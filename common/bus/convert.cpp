@@ -157,12 +157,7 @@ amp_fsi_PredictedInterface borrow(const wire::PredictedInterface& predicted) {
           .modal = borrow(predicted.modal),
           .health = borrow(predicted.health),
           .compute_s = predicted.compute_s,
-          .wait_s = predicted.wait_s,
-          .mass = predicted.mass,
-          .energy = predicted.energy,
-          .momentum1 = predicted.momentum1,
-          .momentum2 = predicted.momentum2,
-          .angular_momentum = predicted.angular_momentum};
+          .wait_s = predicted.wait_s};
 }
 
 amp_fsi_ProjectedInterface borrow(const wire::ProjectedInterface& projected) {
@@ -276,11 +271,6 @@ void copy(const amp_fsi_PredictedInterface& from, wire::PredictedInterface& to) 
   copy(from.health, to.health);
   to.compute_s = from.compute_s;
   to.wait_s = from.wait_s;
-  to.mass = from.mass;
-  to.energy = from.energy;
-  to.momentum1 = from.momentum1;
-  to.momentum2 = from.momentum2;
-  to.angular_momentum = from.angular_momentum;
 }
 
 void copy(const amp_fsi_ProjectedInterface& from, wire::ProjectedInterface& to) {

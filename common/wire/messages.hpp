@@ -75,8 +75,6 @@ struct PredictedInterface {
   Health health;
   double compute_s = 0;  ///< since the run began
   double wait_s = 0;
-  double mass = 0, energy = 0, momentum1 = 0, momentum2 = 0,
-         angular_momentum = 0;  ///< totals over the body of gas or solid
 };
 
 /// Coupler -> solver, one per step and interface: projected state at t, and everything needed for the next
