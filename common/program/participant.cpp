@@ -1,5 +1,7 @@
 #include "common/program/participant.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "common/bus/solo_session.hpp"
@@ -34,6 +36,18 @@ wire::Telemetry telemetry_of(const Setup& setup, const io::Part& part, const Par
   return telemetry;
 }
 
+/// Runs a time loop; where the numbers break, the message says in which step.
+template <class Loop>
+void with_step_number(const io::Part& part, const Loop& loop) {
+  try {
+    loop();
+  } catch (const NumbersBroke& broke) {
+    const std::string words = broke.what();
+    if (words.starts_with("step ")) throw;
+    throw NumbersBroke(fmt::format("step {}, {}", part.steps + 1, words));
+  }
+}
+
 /// One solver in a coupled run: one message out and one in, per step and interface.
 class CoupledRun {
  public:
@@ -48,7 +62,7 @@ class CoupledRun {
 
   void run() {
     try {
-      loop();
+      with_step_number(part_, [this] { loop(); });
       session_.leave();
     } catch (const Failure& failure) {
       session_.abort(failure.code(), failure.what());
@@ -150,7 +164,7 @@ void run_alone(const Setup& setup, io::Part& part, Participant& solver) {
   solver.apply_bcs(t, {});
   solver.write_tables(t, 0, {});
   if (schedule.output_at_start()) solver.write_fields(t, 0);
-  try {
+  const auto loop = [&] {
     for (bool end = false; !end;) {
       if (!obey(session)) {
         part.status = "stopped";
@@ -171,6 +185,9 @@ void run_alone(const Setup& setup, io::Part& part, Participant& solver) {
       if (session.telemetry_due()) session.publish(telemetry_of(setup, part, solver, step.dt, bid.reason));
       end = step.end;
     }
+  };
+  try {
+    with_step_number(part, loop);
   } catch (const Failure& failure) {
     session.abort(failure.code(), failure.what());
     throw;
