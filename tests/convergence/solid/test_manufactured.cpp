@@ -15,13 +15,15 @@ namespace {
 /// Sides left, right, bottom, top by letter: x exact, d displacement, t traction, s slip.
 struct Setup {
   std::string sides;
-  double q = 0.4;       ///< 0 makes y = 0 a slip wall of the motion
-  double rate_P = 1.9;  ///< least rate of P between h = 1/32 and 1/64
+  Shape shape = skewed_position;
+  double q = 0.4;  ///< 0 makes y = 0 a slip wall of the motion
+  Beta relaxation = {.scaled = 0.5};
 };
 
 template <class L>
-Boundary boundary_of(char letter, Side side, const ManufacturedMotion<L>& motion) {
+Boundary boundary_of(const Setup& setup, Side side, const ManufacturedMotion<L>& motion) {
   Boundary boundary;
+  const char letter = setup.sides[static_cast<std::size_t>(side)];
   if (letter == 'x') {
     boundary.kind = Boundary::Kind::dirichlet;
     boundary.state = [motion](double x, double y, double t) { return motion.state(x, y, t); };
@@ -31,8 +33,8 @@ Boundary boundary_of(char letter, Side side, const ManufacturedMotion<L>& motion
     boundary.velocity = [motion](double x, double y, double t) { return motion.v(x, y, t); };
   } else if (letter == 't') {
     boundary.kind = Boundary::Kind::traction;
-    boundary.vector = [motion, side](double x, double y, double t) {
-      return motion.traction(skewed_normal(side, x, y), x, y, t);
+    boundary.vector = [motion, side, shape = setup.shape](double x, double y, double t) {
+      return motion.traction(normal_of(shape, side, x, y), x, y, t);
     };
   } else {
     boundary.kind = Boundary::Kind::slip;
@@ -48,15 +50,14 @@ Errors run(const Setup& setup, int cells) {
   const SolidOptions options = {.rho = 1.2,
                                 .tangential_stress = {.scaled = 0.1},
                                 .displacement = {.scaled = 0.1},
-                                .relaxation = {.rate = 1.0}};
+                                .relaxation = setup.relaxation};
   const ManufacturedMotion<L> motion(law, options.rho, setup.q);
   Boundaries boundaries;
   for (const Side side : all_sides) {
-    const auto k = static_cast<std::size_t>(side);
-    boundaries[k] = boundary_of(setup.sides[k], side, motion);
+    boundaries[static_cast<std::size_t>(side)] = boundary_of(setup, side, motion);
   }
   const StateFunction exact = [&](double x, double y, double t) { return motion.state(x, y, t); };
-  SolidSolver<L> solver(skewed_grid(cells), law, options, boundaries, 0);
+  SolidSolver<L> solver(grid_of(setup.shape, cells), law, options, boundaries, 0);
   solver.set_body_force([&](double x, double y, double t) { return motion.force(x, y, t); });
   solver.assign_initial_conditions(exact);
   double t = 0;
@@ -75,10 +76,8 @@ Errors run(const Setup& setup, int cells) {
   return largest;
 }
 
-/// Rates between the two grids at least 1.9 for u and v, and errors below bounds that are twice what is
-/// measured: the amplitude of u is 0.03, of v 0.09 and of P about 0.2. P is second order at all points but
-/// corners where two kinds of condition meet: u is not smooth there on the scale of the grid, and its
-/// differences lose up to half an order at that one point (1.5 to 1.8 measured).
+/// Rates between the two grids at least 1.9, and errors below bounds that are about one and a half times what
+/// is measured: the amplitude of u is 0.03, of v 0.09 and of P about 0.2.
 template <class L>
 void expect_second_order(const Setup& setup) {
   const Errors coarse = run<L>(setup, 32), fine = run<L>(setup, 64);
@@ -86,7 +85,7 @@ void expect_second_order(const Setup& setup) {
                            fmt::format(": u {:.2e} v {:.2e} P {:.2e}", fine.u, fine.v, fine.P);
   EXPECT_GE(std::log2(coarse.u / fine.u), 1.9) << what;
   EXPECT_GE(std::log2(coarse.v / fine.v), 1.9) << what;
-  EXPECT_GE(std::log2(coarse.P / fine.P), setup.rate_P) << what;
+  EXPECT_GE(std::log2(coarse.P / fine.P), 1.9) << what;
   EXPECT_LT(fine.u, 2e-5) << what;
   EXPECT_LT(fine.v, 6e-5) << what;
   EXPECT_LT(fine.P, 2.5e-4) << what;
@@ -97,23 +96,41 @@ class Eq32ManufacturedMotion : public testing::Test {};
 using Laws = testing::Types<LinearElastic, SaintVenantKirchhoff, NeoHookean>;
 TYPED_TEST_SUITE(Eq32ManufacturedMotion, Laws);
 
+/// The exact stress on these sides overdetermines the problem: with a scaled relaxation it makes the errors
+/// of coarse grids smaller than those of given displacement, and the rates with it. The other part of the
+/// coefficient is taken instead.
 TYPED_TEST(Eq32ManufacturedMotion, IsSecondOrderInsideExactSides) {
-  expect_second_order<TypeParam>({"xxxx", 0.4, 1.9});
+  expect_second_order<TypeParam>({.sides = "xxxx", .relaxation = {.rate = 1.0}});
 }
 TYPED_TEST(Eq32ManufacturedMotion, IsSecondOrderWithGivenDisplacement) {
-  expect_second_order<TypeParam>({"dddd", 0.4, 1.85});
+  expect_second_order<TypeParam>({.sides = "dddd"});
 }
 TYPED_TEST(Eq32ManufacturedMotion, Eq43IsSecondOrderWithGivenTraction) {
-  expect_second_order<TypeParam>({"tttt", 0.4, 1.9});
+  expect_second_order<TypeParam>({.sides = "tttt"});
 }
+
+// Where two kinds of condition meet at more than a certain angle, the solution of the equations of elasticity
+// for general data, and with it the error of order h^2, has infinite stress at the corner: u ~ r^a, a < 1.
+// The stress of every second-order scheme is then of order 1 + a at that corner. Limits: 56.5 degrees for
+// traction against displacement (with this lambda / mu), 90 for either against slip. See
+// docs/theory_solid.md.
 TYPED_TEST(Eq32ManufacturedMotion, IsSecondOrderWhereTractionMeetsDisplacement) {
-  expect_second_order<TypeParam>({"ttdd", 0.4, 1.5});
+  expect_second_order<TypeParam>({.sides = "ttdt", .shape = trapezoid});
 }
 TYPED_TEST(Eq32ManufacturedMotion, IsSecondOrderWhereDisplacementMeetsSlip) {
-  expect_second_order<TypeParam>({"ddst", 0.0, 1.7});
+  expect_second_order<TypeParam>({.sides = "ddsd", .shape = slightly_tapered, .q = 0});
 }
 TYPED_TEST(Eq32ManufacturedMotion, IsSecondOrderWhereTractionMeetsSlip) {
-  expect_second_order<TypeParam>({"ttst", 0.0, 1.7});
+  expect_second_order<TypeParam>({.sides = "ttst", .shape = slightly_tapered, .q = 0});
+}
+
+/// At 107 degrees between traction and displacement a = 0.645; u and v keep their order. The bound leaves
+/// room for the grids being coarse.
+TYPED_TEST(Eq32ManufacturedMotion, LosesOrderOfStressOnlyWhereACornerIsSingular) {
+  const Errors coarse = run<TypeParam>({.sides = "ttdd"}, 32), fine = run<TypeParam>({.sides = "ttdd"}, 64);
+  EXPECT_GE(std::log2(coarse.u / fine.u), 1.9);
+  EXPECT_GE(std::log2(coarse.v / fine.v), 1.9);
+  EXPECT_GE(std::log2(coarse.P / fine.P), 1.45);
 }
 
 }  // namespace

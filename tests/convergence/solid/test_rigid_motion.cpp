@@ -13,7 +13,7 @@ namespace {
 constexpr SolidOptions small_dissipation = {.rho = 1,
                                             .tangential_stress = {.scaled = 0.1},
                                             .displacement = {.scaled = 0.1},
-                                            .relaxation = {.rate = 0.5}};
+                                            .relaxation = {.scaled = 0.5}};
 
 Vec2 turned(double angle, double x, double y) {
   return {std::cos(angle) * x - std::sin(angle) * y, std::sin(angle) * x + std::cos(angle) * y};
@@ -47,7 +47,7 @@ TYPED_TEST_SUITE(Eq36RigidRotation, ObjectiveLaws);
 
 TYPED_TEST(Eq36RigidRotation, MakesStressOnlyByTruncationOfSecondOrder) {
   const Errors coarse = rotate<TypeParam>(32, 1.0), fine = rotate<TypeParam>(64, 1.0);
-  EXPECT_GE(std::log2(coarse.P / fine.P), 1.85) << coarse.P << " " << fine.P;
+  EXPECT_GE(std::log2(coarse.P / fine.P), 1.9) << coarse.P << " " << fine.P;
   EXPECT_LT(fine.P, 1.2e-3);  // a turn by one radian strains a linear law by 0.46
   EXPECT_LT(fine.u, 1e-3);
 }
@@ -56,8 +56,8 @@ struct Drift {
   double energy = 0, angular_momentum = 0, momentum = 0;
 };
 
-/// Free unit block, set spinning as if rigid; relative drifts after one turn.
-Drift spin(int cells) {
+/// Free unit block, set spinning as if rigid; relative drifts after some turns.
+Drift spin(int cells, double turns) {
   const double omega = 0.5;
   Boundaries all_free;
   SolidSolver<NeoHookean> solver(grid::MovingGrid({.name = "block",
@@ -76,7 +76,7 @@ Drift spin(int cells) {
         return {-omega * y, omega * x};
       });
   const Totals before = solver.totals();
-  const double t_end = 2 * std::numbers::pi / omega;
+  const double t_end = turns * 2 * std::numbers::pi / omega;
   double t = 0;
   while (t < t_end - 1e-12) {
     const double dt = std::min(solver.compute_time_step().dt, t_end - t);
@@ -90,16 +90,25 @@ Drift spin(int cells) {
           .momentum = after.momentum.norm()};
 }
 
-TEST(Eq35SpinningBlock, LosesEnergyAndAngularMomentumAtSecondOrderOrLess) {
-  const Drift coarse = spin(24), fine = spin(48);
+/// The first turn; measured 2e-4 and 2e-5 for the angular momentum, third order.
+TEST(Eq35SpinningBlock, DriftsLessThanSecondOrderPerTurn) {
+  const Drift coarse = spin(24, 1), fine = spin(48, 1);
   RecordProperty("energy_drift_per_turn_h_1_48", std::to_string(fine.energy));
   RecordProperty("angular_momentum_drift_per_turn_h_1_48", std::to_string(fine.angular_momentum));
-  EXPECT_GE(std::log2(coarse.angular_momentum / fine.angular_momentum), 1.8)
+  EXPECT_GE(std::log2(coarse.angular_momentum / fine.angular_momentum), 1.9)
       << coarse.angular_momentum << " " << fine.angular_momentum;
-  EXPECT_GE(std::log2(coarse.energy / fine.energy), 1.5) << coarse.energy << " " << fine.energy;
-  EXPECT_LT(fine.angular_momentum, 5e-3);
-  EXPECT_LT(fine.energy, 5e-2);
+  EXPECT_LT(fine.angular_momentum, 5e-5);
+  EXPECT_LT(coarse.energy, 1e-4);
+  EXPECT_LT(fine.energy, 2e-5);
   EXPECT_LT(fine.momentum, 1e-10);  // zero by symmetry; round-off of 1e3 steps
+}
+
+/// Nothing grows: the drift of twenty turns is twenty times that of one.
+TEST(Eq41SpinningBlock, KeepsEnergyAndAngularMomentumOverManyTurns) {
+  const Drift one = spin(24, 1), twenty = spin(24, 20);
+  EXPECT_LT(twenty.angular_momentum, 40 * one.angular_momentum);
+  EXPECT_LT(twenty.angular_momentum, 5e-3);
+  EXPECT_LT(twenty.energy, 5e-3);
 }
 
 }  // namespace
