@@ -6,6 +6,8 @@ from dataclasses import dataclass
 import h5py
 import numpy as np
 
+COORDINATES = ("x", "x1", "x2", "x1_bar", "x2_bar")  # "x" holds x1 and x2 side by side, for ParaView
+
 
 @dataclass
 class Grid:
@@ -48,7 +50,7 @@ class Table:
 
 
 def _read_grid(name, group):
-    fields = {key: np.asarray(group[key]) for key in group if key not in ("x1", "x2", "x1_bar", "x2_bar")}
+    fields = {key: np.asarray(group[key]) for key in group if key not in COORDINATES}
     return Grid(name, np.asarray(group["x1"]), np.asarray(group["x2"]), fields)
 
 
