@@ -14,6 +14,15 @@ set(FSI_MARCH native CACHE STRING "Instruction set of the kernels (-march=...); 
 option(FSI_SANITIZE "Build with the address and undefined-behaviour sanitizers" OFF)
 option(FSI_BENCH "Build the micro-benchmarks" ON)
 
+# A compiler cache sees nothing through precompiled headers, so a build with one goes without them, and notices includes
+# that are missing.
+if(CMAKE_CXX_COMPILER_LAUNCHER)
+  set(precompiled OFF)
+else()
+  set(precompiled ON)
+endif()
+option(FSI_PRECOMPILED "Parse the headers most sources begin with once, before all sources" ${precompiled})
+
 # The kernels need -fno-math-errno -fno-trapping-math to vectorise; never -ffast-math.
 # Contraction is pinned so that vector bodies and their tails round alike.
 add_library(fsi_settings INTERFACE)
@@ -22,7 +31,8 @@ target_compile_options(fsi_settings INTERFACE
   -march=${FSI_MARCH} -fno-math-errno -fno-trapping-math -ffp-contract=fast -fopenmp-simd
   $<$<CONFIG:Release>:-O3>)
 if(FSI_SANITIZE)
-  target_compile_options(fsi_settings INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer)
+  target_compile_options(fsi_settings INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer
+    -g1)  # names and lines for the reports; more would double the size of everything
   target_link_options(fsi_settings INTERFACE -fsanitize=address,undefined)
 endif()
 
@@ -30,3 +40,4 @@ find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(fmt REQUIRED)
 find_package(spdlog REQUIRED)
 find_package(Threads REQUIRED)
+target_link_libraries(fsi_settings INTERFACE Eigen3::Eigen fmt::fmt)

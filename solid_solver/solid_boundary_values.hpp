@@ -2,6 +2,8 @@
 /// SolidBoundary, first half: values that are given on the sides, and ghost points that follow from them by
 /// extrapolation, reflection or repetition.
 
+#include <algorithm>
+
 #include "solid_solver/solid_boundary.hpp"
 
 namespace fsi::solid {

@@ -62,6 +62,20 @@ class Includes(unittest.TestCase):
         self.assertEqual(len(offences("includes", common__core__a_DOT_cpp=text)), 1)
 
 
+class Headers(unittest.TestCase):
+    def test_name_needs_its_header(self):
+        found = offences("headers", common__a_DOT_cpp="#include <string>\n\nstd::vector<std::string> words;\n")
+        self.assertEqual(found, ["common/a.cpp:3: uses what <vector> declares, without including it"])
+
+    def test_header_of_the_tree_may_bring_it(self):
+        text = '#include "common/a.hpp"\nstd::vector<int> a;\nauto b = fmt::text();\n'
+        header = "#include <vector>\n#include <fmt/core.h>\n"
+        self.assertEqual(offences("headers", common__a_DOT_hpp=header, common__b_DOT_cpp=text), [])
+
+    def test_comments_and_longer_names_use_nothing(self):
+        self.assertEqual(offences("headers", common__a_DOT_cpp="// std::vector\nint TEST_CASES = std::max_align;\n"), [])
+
+
 class LengthsAndWords(unittest.TestCase):
     def test_long_file(self):
         self.assertEqual(offences("lengths", common__a_DOT_cpp="x\n" * 400), [])

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <random>
+#include <vector>
 
 #include "common/core/failure.hpp"
 #include "common/interface/riemann.hpp"

@@ -1,6 +1,7 @@
 #pragma once
 /// Gas runs of the tests: grids, solutions and a time loop without coupler.
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numbers>

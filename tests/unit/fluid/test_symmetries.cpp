@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "common/core/failure.hpp"
 #include "tests/unit/fluid/gas_runs.hpp"
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <cmath>
 
 #include "deformations.hpp"
 #include "solid_solver/laws/linear_elastic.hpp"

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "deformations.hpp"
 #include "every_law.hpp"
 

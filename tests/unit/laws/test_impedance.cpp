@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <vector>
 
 #include "deformations.hpp"
 #include "every_law.hpp"
