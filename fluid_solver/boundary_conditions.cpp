@@ -31,13 +31,16 @@ class BoundaryConditions {
         x_(component.grid().x()),
         layout_(q_.layout) {}
 
-  void apply() {
+  void set_points() {
     each<Interface>([this](const SidePoints& side) { set_interface(side); });
     each<SlipWall>([this](const SidePoints& side) { set_slip_wall(side); });
     each<Symmetry>([this](const SidePoints& side) { set_symmetry(side); });
     each<Inflow>([this](const SidePoints& side) { set_inflow(side); });
     each<Dirichlet>([this](const SidePoints& side) { set_dirichlet(side); });
     each<Periodic>([this](const SidePoints& side) { set_periodic(side); });
+  }
+
+  void set_ghosts() {
     mirror(0);
     for (const Side side : all_sides) ghosts(SidePoints(layout_, side));
     for (const Side side : {Side::left, Side::right}) {
@@ -174,7 +177,9 @@ class BoundaryConditions {
 
   /// Where two sides meet that are no mirrors: q(-a, -b) = q(-a, 0) + q(0, -b) - q(0, 0).
   void corner(Side side, Side other) {
-    if (is_mirror(component_.boundary(side)) || is_mirror(component_.boundary(other))) return;
+    for (const Side one : {side, other}) {
+      if (is_mirror(component_.boundary(one)) || is<Idle>(component_.boundary(one))) return;
+    }
     const int i0 = at_upper_end(side) ? layout_.n1 - 1 : 0, j0 = at_upper_end(other) ? layout_.n2 - 1 : 0;
     const int out1 = at_upper_end(side) ? 1 : -1, out2 = at_upper_end(other) ? 1 : -1;
     const StateVector q0 = load(q_, {i0, j0});
@@ -190,8 +195,12 @@ class BoundaryConditions {
 
 }  // namespace
 
-void apply_boundary_conditions(Component& component, const BoundaryTask& task) {
-  BoundaryConditions(component, task).apply();
+void set_boundary_points(Component& component, const BoundaryTask& task) {
+  BoundaryConditions(component, task).set_points();
+}
+
+void set_ghosts(Component& component, const BoundaryTask& task) {
+  BoundaryConditions(component, task).set_ghosts();
 }
 
 void mirror_ghosts(Component& component) {

@@ -21,12 +21,15 @@ namespace fsi::fluid {
 struct BoundaryTask {
   double t = 0;
   const GasOptions& options;
-  std::span<const InterfaceValues> interfaces;
+  std::span<const InterfaceValues> interfaces;  ///< of this grid
 };
 
-/// Boundary points, ghosts and corners at time t. @throws NumbersBroke where an interface pressure is not
-/// positive
-void apply_boundary_conditions(Component& component, const BoundaryTask& task);
+/// Boundary points at time t; of several grids, all get theirs before values are interpolated.
+/// @throws NumbersBroke where an interface pressure is not positive
+void set_boundary_points(Component& component, const BoundaryTask& task);
+
+/// Ghosts and corners at time t.
+void set_ghosts(Component& component, const BoundaryTask& task);
 
 /// Ghosts of the mirror sides only: after initial data were given everywhere.
 void mirror_ghosts(Component& component);

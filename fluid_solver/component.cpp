@@ -37,6 +37,15 @@ std::optional<Spacing> lattice_of(const grid::MovingGrid& grid) {
   return Spacing{dx, dy};
 }
 
+grid::RowSets all_points(const Layout& layout) {
+  grid::RowSets all;
+  for (int j = 0; j < layout.n2; ++j) {
+    all.append(grid::Interval{0, layout.n1});
+    all.end_row();
+  }
+  return all;
+}
+
 AnyRiemann riemann_of(const GasOptions& options) {
   if (options.riemann == Riemann::hllc) return RiemannHllc{options.gamma};
   return RiemannRoe{options.gamma, options.entropy_fix};
@@ -70,6 +79,8 @@ Component::Component(grid::MovingGrid grid, const GasOptions& options, std::arra
       next_(grid_.layout(), 4),
       workspace_(grid_.layout().n1, sweep_rows),
       row_rates_(static_cast<std::size_t>(grid_.layout().n2)) {
+  const grid::RowSets all = all_points(grid_.layout());
+  use_points(all, all);
   for (const Side side : all_sides) {
     WallMotion& wall = walls_[static_cast<std::size_t>(side)];
     wall = wall_at_rest(static_cast<std::size_t>(grid_.side_size(side)));
@@ -77,15 +88,44 @@ Component::Component(grid::MovingGrid grid, const GasOptions& options, std::arra
   }
 }
 
+void Component::use_points(const grid::RowSets& discretised, const grid::RowSets& valid) {
+  discretised_ = discretised;
+  valid_ = valid;
+  gather_runs();
+}
+
+void Component::gather_runs() {
+  const int n2 = grid_.layout().n2;
+  row_runs_.resize(static_cast<std::size_t>(n2));
+  for (int j = 0; j < n2; ++j) {
+    std::vector<Range>& row = row_runs_[static_cast<std::size_t>(j)];
+    row.clear();
+    for (const grid::Interval& run : discretised_.row(j)) row.push_back({run.begin, run.end});
+  }
+  runs_.assign(row_runs_);
+}
+
 void Component::fill(const StateField& initial, double t) {
+  const Layout& shape = grid_.layout();
+  double p_most = 0;
+  for (int j = -Layout::ghosts; j < shape.n2 + Layout::ghosts; ++j)
+    p_most = std::max(p_most, fill_row(j, initial, t));
+  scheme_.p_floor = floor_part * p_most;
+  std::ranges::copy(state_.values(), next_.values().begin());
+}
+
+/// Fills a row with its ghosts; returns its largest pressure at valid points.
+double Component::fill_row(int j, const StateField& initial, double t) {
   const ConstFieldView x = grid_.x();
   const Layout& shape = grid_.layout();
   const FieldView q = state_.view();
+  StateVector last = {1, 0, 0, 1};  // a state that does no harm
   double p_most = 0;
-  for (int j = -Layout::ghosts; j < shape.n2 + Layout::ghosts; ++j) {
-    for (int i = -Layout::ghosts; i < shape.n1 + Layout::ghosts; ++i) {
+  for (int i = -Layout::ghosts; i < shape.n1 + Layout::ghosts; ++i) {
+    const int i_in = std::clamp(i, 0, shape.n1 - 1), j_in = std::clamp(j, 0, shape.n2 - 1);
+    if (valid_.contains(i_in, j_in)) {
       const State s = initial(x(0, i, j), x(1, i, j), t);
-      const bool inside = i >= 0 && i < shape.n1 && j >= 0 && j < shape.n2;
+      const bool inside = i == i_in && j == j_in;
       if (inside && !(s.rho > 0 && s.p > 0 && std::isfinite(s.rho + s.p + s.v1 + s.v2))) {
         throw UserMistake(fmt::format(
             "grid \"{}\": initial state at ({:.6g}, {:.6g}): rho = {:.3g}, v = ({:.3g}, {:.3g}), p = {:.3g}; "
@@ -93,12 +133,22 @@ void Component::fill(const StateField& initial, double t) {
             grid_.name(), x(0, i, j), x(1, i, j), s.rho, s.v1, s.v2, s.p));
       }
       if (inside) p_most = std::max(p_most, s.p);
-      store(q, {i, j}, to_vector(s));
+      last = to_vector(s);
     }
+    store(q, {i, j}, last);
   }
-  scheme_.p_floor = floor_part * p_most;
+  return p_most;
+}
+
+void Component::start(double t) {
+  const Layout& shape = grid_.layout();
   for (int j = 1; j < shape.n2 - 1; ++j) {
-    row_rates_[static_cast<std::size_t>(j)] = fastest_in(j, {1, shape.n1 - 1}).rate;
+    double& most = row_rates_[static_cast<std::size_t>(j)];
+    most = 0;
+    for (const Range& run : runs_.advanced(j)) {
+      const Range inner{std::max(run.first, 1), std::min(run.last, shape.n1 - 1)};
+      if (inner.first < inner.last) most = std::max(most, fastest_in(j, inner).rate);
+    }
   }
   if (grid_.moves()) measure_initial_motion(t, 0.1 / fastest_point().rate);
 }
@@ -131,7 +181,8 @@ void Component::move(double t_new, double dt, std::span<const grid::SideCommand>
 
 void Component::advance(double t, double dt) {
   const SweepCounts counts =
-      sweep(state_.view(), next_.view(), step_grid(), dt, scheme_, {workspace_, row_rates_});
+      sweep({.q = state_.view(), .q_new = next_.view(), .grid = step_grid(), .runs = runs_, .dt = dt},
+            scheme_, {workspace_, row_rates_});
   std::swap(state_, next_);
   counters_.first_order += counts.first_order;
   counters_.floors += counts.floors;
@@ -145,7 +196,7 @@ void Component::report_broken(double t) const {
   for (int j = 0; j < shape.n2; ++j) {
     for (int i = 0; i < shape.n1; ++i) {
       const double rho = q(0, i, j), p = q(3, i, j);
-      if (rho > 0 && std::fabs(p) < 1e300) continue;
+      if ((rho > 0 && std::fabs(p) < 1e300) || !discretised_.contains(i, j)) continue;
       throw NumbersBroke(
           fmt::format("t = {:.6g}, grid \"{}\", point ({}, {}) at ({:.6g}, {:.6g}): rho = {:.3g}, p = {:.3g}",
                       t, grid_.name(), i, j, x(0, i, j), x(1, i, j), rho, p));
@@ -169,19 +220,24 @@ FastestPoint Component::fastest_in(int j, Range range) const {
 FastestPoint Component::fastest_point() const {
   const int n1 = grid_.layout().n1, n2 = grid_.layout().n2;
   FastestPoint fastest;
-  const auto compare = [&fastest](const FastestPoint& other) {
-    if (!(other.rate <= fastest.rate)) fastest = other;
+  const auto compare = [&](int j, Range part) {
+    for (const Range& run : runs_.advanced(j)) {
+      const Range range{std::max(run.first, part.first), std::min(run.last, part.last)};
+      if (range.first >= range.last) continue;
+      const FastestPoint other = fastest_in(j, range);
+      if (!(other.rate <= fastest.rate)) fastest = other;
+    }
   };
   if (scheme_.viscosity.any()) {
-    for (int j = 0; j < n2; ++j) compare(fastest_in(j, {0, n1}));
+    for (int j = 0; j < n2; ++j) compare(j, {0, n1});
     return fastest;
   }
   const auto inner = std::max_element(row_rates_.begin() + 1, row_rates_.end() - 1);
-  compare(fastest_in(static_cast<int>(inner - row_rates_.begin()), {1, n1 - 1}));
-  for (const int j : {0, n2 - 1}) compare(fastest_in(j, {0, n1}));
+  compare(static_cast<int>(inner - row_rates_.begin()), {1, n1 - 1});
+  for (const int j : {0, n2 - 1}) compare(j, {0, n1});
   for (int j = 1; j < n2 - 1; ++j) {
-    compare(fastest_in(j, {0, 1}));
-    compare(fastest_in(j, {n1 - 1, n1}));
+    compare(j, {0, 1});
+    compare(j, {n1 - 1, n1});
   }
   return fastest;
 }

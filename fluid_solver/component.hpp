@@ -10,6 +10,7 @@
 
 #include "common/core/field.hpp"
 #include "common/core/types.hpp"
+#include "common/grid/intervals.hpp"
 #include "common/grid/moving_grid.hpp"
 #include "fluid_solver/gas_options.hpp"
 #include "fluid_solver/kernels/sweep.hpp"
@@ -26,6 +27,7 @@ struct InterfaceValues {
   std::span<const double> w_n;  ///< w_n^I = p_e - p^I, n
   std::span<const double> v;    ///< velocity of the wall points, 2 n
   std::span<const double> a;    ///< acceleration of the wall points, 2 n
+  int grid = 0;                 ///< component grid it belongs to
 };
 
 /// A named piece of state, to be written to a checkpoint or overwritten from one.
@@ -49,7 +51,13 @@ struct Counters {
 
 class Component {
  public:
+  /// All points are advanced and valid.
   Component(grid::MovingGrid grid, const GasOptions& options, std::array<Boundary, 4> boundaries);
+
+  /// From now on only these points are advanced, and only these have a value.
+  void use_points(const grid::RowSets& discretised, const grid::RowSets& valid);
+  const grid::RowSets& discretised() const { return discretised_; }
+  const grid::RowSets& valid() const { return valid_; }
 
   const grid::MovingGrid& grid() const { return grid_; }
   /// Primitive state: planes rho, v1, v2, p.
@@ -61,8 +69,11 @@ class Component {
   /// True on a rectangular grid at rest with equal spacings along the axes.
   bool cartesian() const { return spacing_.has_value(); }
 
-  /// Sets every point, ghosts included. @throws UserMistake at a density or pressure that is not positive
+  /// Sets every valid point and its ghosts; points without a value get one of their neighbours'.
+  /// @throws UserMistake at a density or pressure that is not positive
   void fill(const StateField& initial, double t);
+  /// Measures wave rates and the motion of the sides from the initial state.
+  void start(double t);
   void move(double t_new, double dt, std::span<const grid::SideCommand> commands);
   /// One step: state() becomes the predicted state at t, with ghosts out of date. @throws NumbersBroke
   void advance(double t, double dt);
@@ -76,7 +87,10 @@ class Component {
   std::optional<Spacing> spacing_;
   Scheme scheme_;
   Field state_, next_;
-  mutable Workspace workspace_;  ///< scratch, no part of the state
+  grid::RowSets discretised_, valid_;
+  SweepRuns runs_;
+  std::vector<std::vector<Range>> row_runs_;  ///< work memory
+  mutable Workspace workspace_;               ///< scratch, no part of the state
   std::array<WallMotion, 4> walls_;
   std::vector<double> row_rates_;  ///< largest wave rate of each row's inner points, kept from the sweep
   double last_dt_ = 0;             ///< of the last motion
@@ -85,6 +99,8 @@ class Component {
   Counters counters_;
 
   StepGrid step_grid() const { return {grid_.x_old(), grid_.x(), spacing_}; }
+  void gather_runs();
+  double fill_row(int j, const StateField& initial, double t);
   void measure_initial_motion(double t, double delta);
   FastestPoint fastest_in(int j, Range range) const;
   [[noreturn]] void report_broken(double t) const;

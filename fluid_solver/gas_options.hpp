@@ -49,7 +49,9 @@ struct Dirichlet {
 };
 /// The last point of a line is the first point of the next period.
 struct Periodic {};
+/// Nothing is done: no advanced point lies there (its points interpolate or are not used).
+struct Idle {};
 
-using Boundary = std::variant<Interface, SlipWall, Symmetry, Inflow, Outflow, Dirichlet, Periodic>;
+using Boundary = std::variant<Interface, SlipWall, Symmetry, Inflow, Outflow, Dirichlet, Periodic, Idle>;
 
 }  // namespace fsi::fluid

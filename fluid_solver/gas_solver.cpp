@@ -49,45 +49,124 @@ GasOptions checked(const GasOptions& options) {
   return options;
 }
 
+std::vector<GasPart> one_part(grid::MovingGrid grid, std::array<Boundary, 4> boundaries) {
+  std::vector<GasPart> parts;
+  parts.push_back({std::move(grid), std::move(boundaries)});
+  return parts;
+}
+
+/// The background as the overlap knows it.
+grid::CartesianGrid background_of(const grid::MovingGrid& grid) {
+  const ConstFieldView x = grid.x();
+  const int n1 = x.layout.n1, n2 = x.layout.n2;
+  return {.name = grid.name(),
+          .n1 = n1,
+          .n2 = n2,
+          .x_a = x(0, 0, 0),
+          .x_b = x(0, n1 - 1, 0),
+          .y_a = x(1, 0, 0),
+          .y_b = x(1, 0, n2 - 1)};
+}
+
 }  // namespace
 
 GasSolver::GasSolver(grid::MovingGrid grid, const GasOptions& options, std::array<Boundary, 4> boundaries,
                      double t0)
-    : options_(checked(options)), component_(std::move(grid), options, std::move(boundaries)), t_(t0) {
-  std::array<Boundary, 4> given;
-  for (const Side side : all_sides) given[static_cast<std::size_t>(side)] = component_.boundary(side);
-  check_periods(component_.grid(), given);
+    : GasSolver(one_part(std::move(grid), std::move(boundaries)), {}, options, t0) {}
+
+GasSolver::GasSolver(std::vector<GasPart> parts, std::vector<grid::BodyFittedGrid> bodies,
+                     const GasOptions& options, double t0)
+    : options_(checked(options)), t_(t0) {
+  require(parts.size() == bodies.size() + 1,
+          fmt::format("gas: {} grids for {} curves; write one background and a grid for each curve",
+                      parts.size(), bodies.size()));
+  components_.reserve(parts.size());
+  for (GasPart& part : parts) {
+    check_periods(part.grid, part.boundaries);
+    components_.emplace_back(std::move(part.grid), options_, std::move(part.boundaries));
+  }
+  if (bodies.empty()) return;
+  require(components_.front().cartesian(),
+          fmt::format("grid \"{}\": the background of body-fitted grids must "
+                      "be a rectangle at rest",
+                      components_.front().grid().name()));
+  composite_.emplace(background_of(components_.front().grid()), std::move(bodies));
+  std::vector<ConstFieldView> x;
+  for (int k = 1; k < grids(); ++k) x.push_back(grid(k).x());
+  composite_->connect(x, t0);
+  use_points();
+}
+
+void GasSolver::use_points() {
+  for (std::size_t k = 0; k < components_.size(); ++k) {
+    const int grid = static_cast<int>(k);
+    components_[k].use_points(composite_->discretised(grid), composite_->valid(grid));
+  }
+}
+
+std::span<const FieldView> GasSolver::gather_fields() {
+  fields_.clear();
+  for (Component& component : components_) fields_.push_back(component.state());
+  return fields_;
 }
 
 void GasSolver::assign_initial_conditions(const StateField& initial) {
-  component_.fill(initial, t_);
-  mirror_ghosts(component_);
+  for (Component& component : components_) {
+    component.fill(initial, t_);
+    mirror_ghosts(component);
+    component.start(t_);
+  }
 }
 
 TimeStep GasSolver::compute_time_step() const {
-  const FastestPoint fastest = component_.fastest_point();
-  const ConstFieldView q = component_.state(), x = component_.grid().x();
+  const Component* slowest = nullptr;
+  FastestPoint fastest;
+  for (const Component& component : components_) {
+    const FastestPoint here = component.fastest_point();
+    if (slowest != nullptr && here.rate <= fastest.rate) continue;
+    slowest = &component;
+    fastest = here;
+  }
+  const ConstFieldView q = slowest->state(), x = slowest->grid().x();
   const int i = fastest.i, j = fastest.j;
   const double a = std::sqrt(options_.gamma * q(3, i, j) / q(0, i, j));
   return {.dt = options_.cfl / fastest.rate,
           .reason = fmt::format(
               "gas: grid \"{}\", point ({}, {}) at ({:.4g}, {:.4g}), |v| = {:.3g}, a = {:.3g}",
-              component_.grid().name(), i, j, x(0, i, j), x(1, i, j), std::hypot(q(1, i, j), q(2, i, j)), a)};
+              slowest->grid().name(), i, j, x(0, i, j), x(1, i, j), std::hypot(q(1, i, j), q(2, i, j)), a)};
 }
 
 void GasSolver::move_grids(double t_new, double dt, std::span<const grid::SideCommand> commands) {
-  if (!component_.grid().moves()) return;
-  component_.move(t_new, dt, commands);
+  bool moved = false;
+  for (std::size_t k = 0; k < components_.size(); ++k) {
+    Component& component = components_[k];
+    if (!component.grid().moves()) continue;
+    commands_.clear();
+    for (const grid::SideCommand& command : commands) {
+      if (command.grid == static_cast<int>(k)) commands_.push_back(command);
+    }
+    component.move(t_new, dt, commands_);
+    moved = true;
+  }
+  if (composite_ && moved) update_overlapping_grid(t_new);
+}
+
+void GasSolver::update_overlapping_grid(double t_new) {
+  positions_.clear();
+  for (int k = 1; k < grids(); ++k) positions_.push_back({grid(k).x(), grid(k).x_old()});
+  composite_->update(positions_, t_new);
+  use_points();
+  composite_->fill_exposed(gather_fields());
 }
 
 void GasSolver::advance_fluid(double t, double dt) {
-  component_.advance(t, dt);
+  for (Component& component : components_) component.advance(t, dt);
   t_ = t;
 }
 
-GasInterface GasSolver::interface_state(Side side) const {
-  const ConstFieldView q = component_.state(), x = component_.grid().x();
-  const SidePoints points(component_.grid().layout(), side);
+GasInterface GasSolver::interface_state(Side side, int grid) const {
+  const ConstFieldView q = state(grid), x = this->grid(grid).x();
+  const SidePoints points(q.layout, side);
   const auto n = static_cast<std::size_t>(points.n());
   GasInterface gas{std::vector<double>(2 * n), std::vector<double>(2 * n), std::vector<double>(n),
                    std::vector<double>(n)};
@@ -104,11 +183,33 @@ GasInterface GasSolver::interface_state(Side side) const {
 }
 
 void GasSolver::apply_fluid_bcs(double t, std::span<const InterfaceValues> interfaces) {
-  apply_boundary_conditions(component_, {.t = t, .options = options_, .interfaces = interfaces});
+  const auto each = [&](const auto& action) {
+    for (std::size_t k = 0; k < components_.size(); ++k) {
+      interfaces_.clear();
+      for (const InterfaceValues& values : interfaces) {
+        if (values.grid == static_cast<int>(k)) interfaces_.push_back(values);
+      }
+      action(components_[k], BoundaryTask{.t = t, .options = options_, .interfaces = interfaces_});
+    }
+  };
+  each([](Component& component, const BoundaryTask& task) { set_boundary_points(component, task); });
+  if (composite_) composite_->interpolate(gather_fields());
+  each([](Component& component, const BoundaryTask& task) { set_ghosts(component, task); });
+}
+
+std::size_t GasSolver::points() const {
+  std::size_t points = 0;
+  for (const Component& component : components_) points += component.valid().points();
+  return points;
 }
 
 std::vector<CheckpointArray> GasSolver::checkpoint_arrays() {
-  std::vector<CheckpointArray> arrays = component_.checkpoint_arrays();
+  std::vector<CheckpointArray> arrays;
+  for (Component& component : components_) {
+    for (CheckpointArray& array : component.checkpoint_arrays()) {
+      arrays.push_back({fmt::format("{}.{}", component.grid().name(), array.name), array.values});
+    }
+  }
   arrays.push_back({"t", {&t_, 1}});
   return arrays;
 }

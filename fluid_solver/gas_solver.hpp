@@ -4,7 +4,8 @@
 ///     receive projected values -> apply_fluid_bcs -> move_grids -> advance_fluid -> interface_state ->
 ///     publish
 ///
-/// One component grid now; everything that belongs to one grid lives in Component.
+/// One grid, or a Cartesian background with body-fitted grids before it. Everything that belongs to one grid
+/// lives in Component; what couples them, in CompositeGrid.
 
 #include <array>
 #include <cstdint>
@@ -13,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "common/grid/composite_grid.hpp"
 #include "common/grid/moving_grid.hpp"
 #include "fluid_solver/component.hpp"
 #include "fluid_solver/gas_options.hpp"
@@ -51,24 +53,39 @@ struct GasErrors {
   double rho = 0, v1 = 0, v2 = 0, T = 0;
 };
 
+/// One component grid and what holds on its sides, in the order left, right, bottom, top.
+struct GasPart {
+  grid::MovingGrid grid;
+  std::array<Boundary, 4> boundaries;
+};
+
 class GasSolver {
  public:
+  /// `parts` are the background, a rectangle at rest, and the body-fitted grids that `bodies` describe in
+  /// their order; without bodies there is one part of any kind.
+  /// @throws UserMistake where boundaries and grids do not fit or an option is out of range; NumbersBroke
+  /// where the grids do not overlap enough
+  GasSolver(std::vector<GasPart> parts, std::vector<grid::BodyFittedGrid> bodies, const GasOptions& options,
+            double t0);
   /// `boundaries` in the order left, right, bottom, top.
   /// @throws UserMistake where boundaries and grid do not fit or an option is out of range
   GasSolver(grid::MovingGrid grid, const GasOptions& options, std::array<Boundary, 4> boundaries, double t0);
 
-  /// Sets every point, ghosts included. @throws UserMistake at a density or pressure that is not positive
+  /// Sets every valid point, ghosts included. @throws UserMistake at a density or pressure that is not
+  /// positive
   void assign_initial_conditions(const StateField& initial);
   /// Works on the projected as on the predicted state. (44), (45)
   TimeStep compute_time_step() const;
-  /// Moves the grid to t_new = t + dt; interface sides go where they are told.
+  /// Moves the grids to t_new = t + dt; interface sides go where they are told. Points that were unused
+  /// before get values of the present time.
+  /// @throws NumbersBroke at a folded cell, or where a point finds no donor
   void move_grids(double t_new, double dt, std::span<const grid::SideCommand> commands = {});
   /// Predicted state at t, all points, boundary points included, without interface conditions; the grid was
   /// moved before.
   /// @throws NumbersBroke at a density or pressure that is no longer a number or not positive
   void advance_fluid(double t, double dt);
   /// The gas along a side, for the projection.
-  GasInterface interface_state(Side side) const;
+  GasInterface interface_state(Side side, int grid = 0) const;
   /// Boundary conditions at t: boundary points, then ghosts. Every interface side needs its values.
   void apply_fluid_bcs(double t, std::span<const InterfaceValues> interfaces = {});
 
@@ -80,12 +97,18 @@ class GasSolver {
   std::optional<State> probe(double x, double y) const;
 
   /// Primitive state: planes rho, v1, v2, p.
-  ConstFieldView state() const { return component_.state(); }
+  ConstFieldView state(int grid = 0) const { return component(grid).state(); }
   /// Conserved state: planes rho, rho v1, rho v2, rho E; ghosts included.
   Field conserved() const;
-  const grid::MovingGrid& grid() const { return component_.grid(); }
+  const grid::MovingGrid& grid(int grid = 0) const { return component(grid).grid(); }
+  int grids() const { return static_cast<int>(components_.size()); }
+  /// Points of a grid that have a value.
+  const grid::RowSets& valid(int grid = 0) const { return component(grid).valid(); }
+  /// How the grids overlap; null where there is one only.
+  const grid::CompositeGrid* composite() const { return composite_ ? &*composite_ : nullptr; }
   const GasOptions& options() const { return options_; }
-  std::size_t points() const { return component_.grid().layout().points(); }
+  /// Points that have a value, of all grids.
+  std::size_t points() const;
   double time() const { return t_; }
 
   /// Everything besides the grid that a restart needs, under fixed names, to be written or overwritten in
@@ -94,8 +117,18 @@ class GasSolver {
 
  private:
   GasOptions options_;
-  Component component_;
+  std::vector<Component> components_;
+  std::optional<grid::CompositeGrid> composite_;
+  std::vector<FieldView> fields_;               ///< work memory: the state of each grid
+  std::vector<InterfaceValues> interfaces_;     ///< work memory: those of one grid
+  std::vector<grid::SideCommand> commands_;     ///< work memory: those of one grid
+  std::vector<grid::GridPositions> positions_;  ///< work memory
   double t_;
+
+  const Component& component(int grid) const { return components_[static_cast<std::size_t>(grid)]; }
+  std::span<const FieldView> gather_fields();
+  void use_points();
+  void update_overlapping_grid(double t_new);
 };
 
 }  // namespace fsi::fluid

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "fluid_solver/gas_solver.hpp"
 
@@ -78,71 +79,93 @@ std::optional<Place> find_cell(ConstFieldView x, const Vec2& point) {
   return std::nullopt;
 }
 
-}  // namespace
-
-Totals GasSolver::totals() const {
-  const grid::MovingGrid& grid = component_.grid();
-  const ConstFieldView q = component_.state(), x = grid.x();
-  Totals totals;
+/// Sums over the points of one grid.
+void add_totals(const GasSolver& solver, int k, Totals& totals) {
+  const grid::MovingGrid& grid = solver.grid(k);
+  const ConstFieldView q = solver.state(k), x = grid.x();
+  const double internal = 1 / (solver.options().gamma - 1);
   for (int j = 0; j < grid.layout().n2 - (grid.periodic(1) ? 1 : 0); ++j) {
     for (int i = 0; i < grid.layout().n1 - (grid.periodic(0) ? 1 : 0); ++i) {
       const double mass = clipped_volume(grid, i, j) * q(0, i, j), v1 = q(1, i, j), v2 = q(2, i, j);
       totals.mass += mass;
       totals.momentum1 += mass * v1;
       totals.momentum2 += mass * v2;
-      totals.energy += mass * (q(3, i, j) / ((options_.gamma - 1) * q(0, i, j)) + 0.5 * (v1 * v1 + v2 * v2));
+      totals.energy += mass * (internal * q(3, i, j) / q(0, i, j) + 0.5 * (v1 * v1 + v2 * v2));
       totals.angular_momentum += mass * (x(0, i, j) * v2 - x(1, i, j) * v1);
     }
   }
+}
+
+}  // namespace
+
+Totals GasSolver::totals() const {
+  Totals totals;
+  for (int k = 0; k < grids(); ++k) add_totals(*this, k, totals);
   return totals;
 }
 
 Health GasSolver::health() const {
-  const ConstFieldView q = component_.state();
-  Health health{.min_rho = q(0, 0, 0),
-                .min_p = q(3, 0, 0),
-                .first_order_fallbacks = static_cast<std::uint64_t>(component_.counters().first_order),
-                .floors = static_cast<std::uint64_t>(component_.counters().floors)};
-  for (int j = 0; j < q.layout.n2; ++j) {
-    const double *rho = q.row(0, j), *p = q.row(3, j);
-    health.min_rho = std::min(health.min_rho, *std::min_element(rho, rho + q.layout.n1));
-    health.min_p = std::min(health.min_p, *std::min_element(p, p + q.layout.n1));
+  constexpr double none = std::numeric_limits<double>::infinity();
+  Health health{.min_rho = none, .min_p = none};
+  double first_order = 0, floors = 0;
+  for (const Component& component : components_) {
+    const ConstFieldView q = component.state();
+    for (int j = 0; j < q.layout.n2; ++j) {
+      const double *rho = q.row(0, j), *p = q.row(3, j);
+      for (const grid::Interval& run : component.valid().row(j)) {
+        health.min_rho = std::min(health.min_rho, *std::min_element(rho + run.begin, rho + run.end));
+        health.min_p = std::min(health.min_p, *std::min_element(p + run.begin, p + run.end));
+      }
+    }
+    first_order += component.counters().first_order;
+    floors += component.counters().floors;
   }
+  health.first_order_fallbacks = static_cast<std::uint64_t>(first_order);
+  health.floors = static_cast<std::uint64_t>(floors);
   return health;
 }
 
 GasErrors GasSolver::errors(const StateField& exact, double t) const {
-  const ConstFieldView q = component_.state(), x = component_.grid().x();
   GasErrors errors;
   const auto raise = [](double& most, double value) {
     if (!(value <= most)) most = value;
   };
-  for (int j = 0; j < q.layout.n2; ++j) {
-    for (int i = 0; i < q.layout.n1; ++i) {
-      const State s = exact(x(0, i, j), x(1, i, j), t);
-      raise(errors.rho, std::fabs(q(0, i, j) - s.rho));
-      raise(errors.v1, std::fabs(q(1, i, j) - s.v1));
-      raise(errors.v2, std::fabs(q(2, i, j) - s.v2));
-      raise(errors.T, std::fabs(q(3, i, j) / q(0, i, j) - s.p / s.rho));
+  for (const Component& component : components_) {
+    const ConstFieldView q = component.state(), x = component.grid().x();
+    for (int j = 0; j < q.layout.n2; ++j) {
+      for (const grid::Interval& run : component.valid().row(j)) {
+        for (int i = run.begin; i < run.end; ++i) {
+          const State s = exact(x(0, i, j), x(1, i, j), t);
+          raise(errors.rho, std::fabs(q(0, i, j) - s.rho));
+          raise(errors.v1, std::fabs(q(1, i, j) - s.v1));
+          raise(errors.v2, std::fabs(q(2, i, j) - s.v2));
+          raise(errors.T, std::fabs(q(3, i, j) / q(0, i, j) - s.p / s.rho));
+        }
+      }
     }
   }
   return errors;
 }
 
 std::optional<State> GasSolver::probe(double x, double y) const {
-  const std::optional<Place> place = find_cell(component_.grid().x(), Vec2(x, y));
-  if (!place) return std::nullopt;
-  const ConstFieldView q = component_.state();
-  const auto [i, j, r, s] = *place;
-  const auto value = [&, i = i, j = j, r = r, s = s](int k) {
-    return (1 - s) * ((1 - r) * q(k, i, j) + r * q(k, i + 1, j)) +
-           s * ((1 - r) * q(k, i, j + 1) + r * q(k, i + 1, j + 1));
-  };
-  return State{.rho = value(0), .v1 = value(1), .v2 = value(2), .p = value(3)};
+  for (int k = grids() - 1; k >= 0; --k) {  // body-fitted grids come first
+    const std::optional<Place> place = find_cell(grid(k).x(), Vec2(x, y));
+    if (!place) continue;
+    const auto [i, j, r, s] = *place;
+    const grid::Interval both{i, i + 2};
+    if (!valid(k).contains(both, j) || !valid(k).contains(both, j + 1)) continue;
+    const ConstFieldView q = state(k);
+    const auto value = [&, i = i, j = j, r = r, s = s](int plane) {
+      return (1 - s) * ((1 - r) * q(plane, i, j) + r * q(plane, i + 1, j)) +
+             s * ((1 - r) * q(plane, i, j + 1) + r * q(plane, i + 1, j + 1));
+    };
+    return State{.rho = value(0), .v1 = value(1), .v2 = value(2), .p = value(3)};
+  }
+  return std::nullopt;
 }
 
 Field GasSolver::conserved() const {
-  const ConstFieldView q = component_.state();
+  const ConstFieldView q = state();
   Field conserved(q.layout, 4);
   for (int j = -Layout::ghosts; j < q.layout.n2 + Layout::ghosts; ++j) {
     for (int i = -Layout::ghosts; i < q.layout.n1 + Layout::ghosts; ++i) {

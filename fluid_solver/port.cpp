@@ -8,6 +8,7 @@
 #include <map>
 #include <utility>
 
+#include "common/case/composite_from_case.hpp"
 #include "common/program/grid_from_case.hpp"
 #include "common/program/reference_from_case.hpp"
 
@@ -58,6 +59,8 @@ Boundary boundary_of(const BoundarySpec& spec, Side side,
       return Dirichlet{data()};
     case BoundaryKind::periodic:
       return Periodic{};
+    case BoundaryKind::none:
+      return Idle{};
     case BoundaryKind::traction:
     case BoundaryKind::displacement:
       break;
@@ -82,27 +85,44 @@ GasOptions options_of(const Case& problem) {
           .cfl = problem.time.cfl};
 }
 
-GasSolver solver_of(const Case& problem, const std::shared_ptr<const exact::Solution>& reference) {
-  const FluidSpec& spec = *problem.fluid;
+std::array<Boundary, 4> boundaries_of(const std::array<BoundarySpec, 4>& specs,
+                                      const std::shared_ptr<const exact::Solution>& reference) {
   std::array<Boundary, 4> boundaries;
-  bool follows = false;
   for (const Side side : all_sides) {
     const auto k = static_cast<std::size_t>(side);
-    boundaries[k] = boundary_of(spec.boundary[k], side, reference);
-    follows = follows || spec.boundary[k].kind == BoundaryKind::interface;
+    boundaries[k] = boundary_of(specs[k], side, reference);
   }
-  return {grid::MovingGrid(grid_from_case(spec.grid, follows), 0), options_of(problem), std::move(boundaries),
-          0};
+  return boundaries;
+}
+
+bool meets_a_solid(const std::array<BoundarySpec, 4>& specs) {
+  return std::ranges::find(specs, BoundaryKind::interface, &BoundarySpec::kind) != specs.end();
+}
+
+GasSolver solver_of(const Case& problem, const std::shared_ptr<const exact::Solution>& reference) {
+  const FluidSpec& spec = *problem.fluid;
+  std::vector<GasPart> parts;
+  parts.push_back({grid::MovingGrid(grid_from_case(spec.grid, meets_a_solid(spec.boundary)), 0),
+                   boundaries_of(spec.boundary, reference)});
+  for (const BodyFittedSpec& fitted : spec.body_fitted) {
+    parts.push_back({grid::MovingGrid(grid_from_case(fitted), 0), boundaries_of(fitted.boundary, reference)});
+  }
+  return {std::move(parts), bodies_of(spec.body_fitted), options_of(problem), 0};
 }
 
 /// Mean of |rho - exact| over the grid points: what is left to measure where the solution jumps.
 double mean_density_error(const GasSolver& solver, const StateField& exact, double t) {
-  const ConstFieldView q = solver.state(), x = solver.grid().x();
   double sum = 0;
-  for (int j = 0; j < q.layout.n2; ++j) {
-    for (int i = 0; i < q.layout.n1; ++i) sum += std::abs(q(0, i, j) - exact(x(0, i, j), x(1, i, j), t).rho);
+  for (int k = 0; k < solver.grids(); ++k) {
+    const ConstFieldView q = solver.state(k), x = solver.grid(k).x();
+    for (int j = 0; j < q.layout.n2; ++j) {
+      for (const grid::Interval& run : solver.valid(k).row(j)) {
+        for (int i = run.begin; i < run.end; ++i)
+          sum += std::abs(q(0, i, j) - exact(x(0, i, j), x(1, i, j), t).rho);
+      }
+    }
   }
-  return sum / static_cast<double>(q.layout.points());
+  return sum / static_cast<double>(solver.points());
 }
 
 }  // namespace
@@ -115,7 +135,11 @@ FluidParticipant::FluidParticipant(const Setup& setup)
       fields_(setup.run_dir, "fluid") {
   for (const Side side : all_sides) {
     const BoundarySpec& boundary = spec_.boundary[static_cast<std::size_t>(side)];
-    if (boundary.kind == BoundaryKind::interface) interfaces_.push_back({side, boundary.solid});
+    if (boundary.kind == BoundaryKind::interface) interfaces_.push_back({0, side, boundary.solid});
+  }
+  for (std::size_t k = 0; k < spec_.body_fitted.size(); ++k) {
+    const BodyFittedSpec& fitted = spec_.body_fitted[k];
+    if (!fitted.solid.empty()) interfaces_.push_back({static_cast<int>(k) + 1, fitted.side, fitted.solid});
   }
   solver_.assign_initial_conditions(
       data_of(spec_.initial_from_reference, spec_.initial, reference_, "initial"));
@@ -139,8 +163,10 @@ wire::Hello FluidParticipant::hello() const {
   hello.config_digest = setup_.problem.digest;
   hello.points = solver_.points();
   for (const InterfaceSide& interface : interfaces_) {
-    hello.interfaces.push_back(
-        {.name = interface.solid, .dimension = 2, .x = solver_.grid().side_points(interface.side), .n = {}});
+    hello.interfaces.push_back({.name = interface.solid,
+                                .dimension = 2,
+                                .x = solver_.grid(interface.grid).side_points(interface.side),
+                                .n = {}});
   }
   return hello;
 }
@@ -151,7 +177,7 @@ TimeStepBid FluidParticipant::compute_time_step() const {
 }
 
 void FluidParticipant::fill(std::size_t k, wire::PredictedInterface& predicted) const {
-  GasInterface state = solver_.interface_state(interfaces_[k].side);
+  GasInterface state = solver_.interface_state(interfaces_[k].side, interfaces_[k].grid);
   predicted.x = std::move(state.x);
   predicted.v = std::move(state.v);
   predicted.p = std::move(state.p);
@@ -163,7 +189,13 @@ void FluidParticipant::apply_bcs(double t, ProjectedStates projected) {
   std::vector<InterfaceValues> values;
   for (std::size_t k = 0; k < projected.size(); ++k) {
     const wire::ProjectedInterface& p = *projected[k];
-    values.push_back({.side = interfaces_[k].side, .n = p.n, .v_n = p.v_n, .w_n = p.w_n, .v = p.v, .a = p.a});
+    values.push_back({.side = interfaces_[k].side,
+                      .n = p.n,
+                      .v_n = p.v_n,
+                      .w_n = p.w_n,
+                      .v = p.v,
+                      .a = p.a,
+                      .grid = interfaces_[k].grid});
   }
   solver_.apply_fluid_bcs(t, values);
 }
@@ -171,18 +203,22 @@ void FluidParticipant::apply_bcs(double t, ProjectedStates projected) {
 void FluidParticipant::advance(double t, double dt, int /*substeps*/, ProjectedStates projected) {
   std::vector<grid::SideCommand> commands;
   for (std::size_t k = 0; k < projected.size(); ++k)
-    commands.push_back({interfaces_[k].side, projected[k]->x_next});
+    commands.push_back({interfaces_[k].side, projected[k]->x_next, interfaces_[k].grid});
   const double t_next = projected.empty() ? t + dt : projected.front()->t_next;
   solver_.move_grids(t_next, dt, commands);
   solver_.advance_fluid(t, dt);
 }
 
 void FluidParticipant::write_fields(double t, std::uint64_t step) {
-  const ConstFieldView q = solver_.state();
-  const io::GridOutput grids[] = {{.grid = solver_.grid().name(),
-                                   .x = solver_.grid().x(),
-                                   .u = {},
-                                   .fields = {{"rho", q, 0}, {"v1", q, 1}, {"v2", q, 2}, {"p", q, 3}}}};
+  std::vector<io::GridOutput> grids;
+  for (int k = 0; k < solver_.grids(); ++k) {
+    const ConstFieldView q = solver_.state(k);
+    grids.push_back({.grid = solver_.grid(k).name(),
+                     .x = solver_.grid(k).x(),
+                     .u = {},
+                     .fields = {{"rho", q, 0}, {"v1", q, 1}, {"v2", q, 2}, {"p", q, 3}},
+                     .kinds = kinds_of(solver_.composite(), k)});
+  }
   fields_.write(t, step, grids);
 }
 

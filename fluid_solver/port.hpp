@@ -30,8 +30,9 @@ class FluidParticipant final : public Participant {
   void report(double t, io::Part& part) const override;
 
  private:
-  /// A side of the grid and the solid on the other side of it.
+  /// A side of a component grid and the solid on the other side of it.
   struct InterfaceSide {
+    int grid;
     Side side;
     std::string solid;
   };

@@ -143,6 +143,7 @@ class CaseData {
         result.kind = Boundary::Kind::dirichlet;
         result.state = required_reference(side);
         return result;
+      case BoundaryKind::none:
       case BoundaryKind::inflow:
       case BoundaryKind::outflow:
         break;

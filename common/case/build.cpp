@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "common/case/build_domain.hpp"
+#include "common/case/build_shape.hpp"
 #include "common/case/reader.hpp"
 
 namespace fsi {
@@ -56,6 +57,7 @@ FluidSpec fluid_of(const Reader& reader, const Node& node, const std::vector<Sol
   Reader::assign(node, "p_e", result.p_e);
   result.grid = build_grid(reader, owner);
   result.boundary = build_boundaries(reader, owner, result.grid);
+  result.body_fitted = build_fitted_grids(reader, owner, result.boundary, solids);
   if (const Node* scheme = node.find("scheme")) result.scheme = gas_scheme_of(*scheme);
   const Node& initial = *node.find("initial");
   result.initial_from_reference = reader.from_reference(initial, "fluid.initial");
@@ -93,6 +95,7 @@ SolidSpec solid_of(const Reader& reader, const config::Entry& entry) {
   Reader::assign(node, "mu", result.mu);
   result.grid = build_grid(reader, owner);
   result.boundary = build_boundaries(reader, owner, result.grid);
+  result.body_fitted = build_outline_grid(reader, owner, result.boundary);
   if (const Node* scheme = node.find("scheme")) result.scheme = solid_scheme_of(*scheme);
   if (const Node* force = node.find("body_force")) result.body_force = reader.vector(*force);
   const Node* initial = node.find("initial");

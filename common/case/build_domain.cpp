@@ -81,6 +81,8 @@ BoundarySpec boundary_from_word(const Reader& reader, const Owner& owner, const 
   return result;
 }
 
+}  // namespace
+
 BoundarySpec build_boundary(const Reader& reader, const Owner& owner, const Node& node,
                             const std::string& path) {
   if (node.is_scalar()) return boundary_from_word(reader, owner, node, path);
@@ -101,8 +103,6 @@ BoundarySpec build_boundary(const Reader& reader, const Owner& owner, const Node
   if (const Node* velocity = node.find("velocity")) result.velocity = reader.vector(*velocity);
   return result;
 }
-
-}  // namespace
 
 GridSpec build_grid(const Reader& reader, const Owner& owner) {
   const Node& node = *owner.node.find("grid");
@@ -125,9 +125,16 @@ GridSpec build_grid(const Reader& reader, const Owner& owner) {
 }
 
 std::array<BoundarySpec, 4> build_boundaries(const Reader& reader, const Owner& owner, GridSpec& grid) {
-  const Node& node = *owner.node.find("boundary");
   const std::string path = owner.path + ".boundary";
   std::array<BoundarySpec, 4> result;
+  const Node* boundary = owner.node.find("boundary");
+  if (boundary == nullptr) {
+    if (owner.node.find("shape") == nullptr)
+      fail(owner.node.place, owner.path, "`boundary` is missing (the four sides of the grid)");
+    result.fill({.kind = BoundaryKind::none});
+    return result;
+  }
+  const Node& node = *boundary;
   const auto spec = [&](Side side) -> BoundarySpec& { return result[static_cast<std::size_t>(side)]; };
   for (const Side side : all_sides) {
     spec(side) =

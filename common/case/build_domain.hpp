@@ -20,6 +20,10 @@ struct Owner {
 /// @throws UserMistake
 GridSpec build_grid(const Reader& reader, const Owner& owner);
 
+/// What a node under `boundary` says of one side. @throws UserMistake
+BoundarySpec build_boundary(const Reader& reader, const Owner& owner, const config::Node& node,
+                            const std::string& path);
+
 /// The four sides; `grid` learns where it is periodic. @throws UserMistake
 std::array<BoundarySpec, 4> build_boundaries(const Reader& reader, const Owner& owner, GridSpec& grid);
 

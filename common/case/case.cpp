@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "common/case/build.hpp"
+#include "common/case/build_shape.hpp"
 #include "common/case/check.hpp"
 #include "common/case/schema.hpp"
 #include "common/case/scope.hpp"
@@ -147,6 +148,7 @@ Case load_case(const std::string& path, const std::vector<std::string>& override
         fmt::format("{}: a case is a section of keys, this is {}; begin with configs/template.yaml",
                     root.place, config::describe(root)));
   apply_options(root, overrides, laws);
+  inline_point_files(root, std::filesystem::path(file).parent_path().string());
   const Scope scope = evaluate_scope(root);
   validate(root, schema::case_file, scope);
   put_name(root, file);

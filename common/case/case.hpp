@@ -40,7 +40,18 @@ struct GridSpec {
   std::uint64_t shake_seed = 1;
 };
 
+/// Points of a curve, the body to the left of their direction.
+struct CurveSpec {
+  std::vector<double> x;  ///< 2 n, component-major; of a closed curve the last point is the first one
+  double spacing = 0;     ///< mean distance of points
+  std::optional<std::array<Side, 2>> walls;  ///< open: sides of the background on which its ends lie
+
+  bool closed() const { return !walls.has_value(); }
+  int points() const { return static_cast<int>(x.size() / 2); }
+};
+
 enum class BoundaryKind {
+  none,  ///< nothing is done: no discretised point lies there
   interface,
   slip_wall,
   symmetry,
@@ -54,12 +65,25 @@ enum class BoundaryKind {
 
 struct BoundarySpec {
   BoundaryKind kind = BoundaryKind::symmetry;
-  std::string solid;                    ///< interface: the solid on the other side
-  bool from_reference = false;          ///< inflow, dirichlet, traction, displacement: data of `reference`
-  std::optional<GasExpressions> state;  ///< gas inflow, dirichlet
-  std::optional<VectorExpressions> vector;    ///< solid: traction per unit current area, or displacement
-  std::optional<VectorExpressions> velocity;  ///< solid displacement: its time derivative, where given
-  bool on_reference = false;                  ///< solid: the load belongs to the reference configuration
+  std::string solid = {};       ///< interface: the solid on the other side
+  bool from_reference = false;  ///< inflow, dirichlet, traction, displacement: data of `reference`
+  std::optional<GasExpressions> state = {};        ///< gas inflow, dirichlet
+  std::optional<VectorExpressions> vector = {};    ///< solid: traction per unit current area, or displacement
+  std::optional<VectorExpressions> velocity = {};  ///< solid displacement: its time derivative, where given
+  bool on_reference = false;                       ///< solid: the load belongs to the reference configuration
+};
+
+/// A grid marched from a curve, before a rectangular background.
+struct BodyFittedSpec {
+  std::string name;
+  std::string solid;  ///< gas: whose outline the curve is; "" for a wall
+  CurveSpec curve;
+  Side side =
+      Side::bottom;    ///< of the grid, where the curve is: bottom, domain to its left, or top, to its right
+  int lines = 8;       ///< the curve included
+  double spacing = 0;  ///< of the first line from the curve
+  double growth = 1;   ///< ratio of successive distances
+  std::array<BoundarySpec, 4> boundary;  ///< left, right, bottom, top
 };
 
 struct GasScheme {
@@ -75,6 +99,7 @@ struct FluidSpec {
   double p_e = 0;
   GridSpec grid;
   std::array<BoundarySpec, 4> boundary;  ///< left, right, bottom, top
+  std::vector<BodyFittedSpec> body_fitted;
   GasScheme scheme;
   bool initial_from_reference = false;
   std::optional<GasExpressions> initial;
@@ -100,6 +125,7 @@ struct SolidSpec {
   double rho = 1, lambda = 1, mu = 1;
   GridSpec grid;
   std::array<BoundarySpec, 4> boundary;
+  std::vector<BodyFittedSpec> body_fitted;  ///< along the outline; none where the outline is that of `grid`
   SolidScheme scheme;
   bool initial_from_reference = false;
   std::optional<VectorExpressions> initial_u, initial_v;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/case/check_overlap.hpp"
 #include "common/core/suggest.hpp"
 #include "common/core/types.hpp"
 
@@ -106,6 +107,7 @@ void check_fluid(const Case& problem, const Node& root) {
   const FluidSpec& fluid = *problem.fluid;
   const Node& node = at(root, {"fluid"});
   check_grid(fluid.grid, at(node, {"grid"}), "fluid.grid");
+  check_overlap({.background = fluid.grid, .body_fitted = fluid.body_fitted, .owner = node, .path = "fluid"});
   const std::vector<Vec2> everywhere = sample_points(fluid.grid);
   if (fluid.initial) check_state(*fluid.initial, everywhere, at(node, {"initial"}), "fluid.initial");
   if (problem.reference.fluid)
@@ -168,6 +170,26 @@ void check_points_meet(const Case& problem, const SolidSpec& solid, Side gas_sid
   }
 }
 
+/// A solid with a shape of its own meets the gas along its outline.
+void check_outline(const Case& problem, const SolidSpec& solid, const Node& root) {
+  const BodyFittedSpec& outline = solid.body_fitted.front();
+  const Node& node = at(root, {"solids", solid.name, "body_fitted", "boundary"});
+  const std::string path = fmt::format("solids.{}.body_fitted.boundary", solid.name);
+  const bool meets = outline.boundary[static_cast<std::size_t>(outline.side)].kind == BoundaryKind::interface;
+  if (!problem.fluid) {
+    if (meets) fail(node.place, path, "an interface, but the case has no gas; write free, for example");
+    return;
+  }
+  const auto grids = std::ranges::count(problem.fluid->body_fitted, solid.name, &BodyFittedSpec::solid);
+  const Node& gas = at(root, {"fluid", "body_fitted"});
+  if (!meets) fail(node.place, path, "must be an interface: the case has a gas");
+  if (grids == 1) return;
+  fail(gas.place, "fluid.body_fitted",
+       grids == 0
+           ? fmt::format("solid `{}` meets no gas; add {{name: .., solid: {}}}", solid.name, solid.name)
+           : fmt::format("{} grids meet solid `{}`; keep one", grids, solid.name));
+}
+
 void check_interfaces(const Case& problem, const Node& root) {
   const std::vector<std::string> names = solid_names(problem);
   if (problem.fluid) {
@@ -182,6 +204,10 @@ void check_interfaces(const Case& problem, const Node& root) {
     }
   }
   for (const SolidSpec& solid : problem.solids) {
+    if (!solid.body_fitted.empty()) {
+      check_outline(problem, solid, root);
+      continue;
+    }
     const std::vector<Side> own = interface_sides(solid.boundary);
     const std::string path = fmt::format("solids.{}.boundary", solid.name);
     const Node& place = at(root, {"solids", solid.name, "boundary"});
@@ -298,6 +324,10 @@ void check_case(const Case& problem, const Node& root) {
     }
     check_grid(solid.grid, at(root, {"solids", solid.name, "grid"}),
                fmt::format("solids.{}.grid", solid.name));
+    check_overlap({.background = solid.grid,
+                   .body_fitted = solid.body_fitted,
+                   .owner = at(root, {"solids", solid.name}),
+                   .path = "solids." + solid.name});
   }
   check_reference(problem, root);
   check_interfaces(problem, root);

@@ -1,6 +1,7 @@
 #pragma once
 /// What a case file may say: the one description behind validation, docs/case_file.md and the typed case.
 
+#include <array>
 #include <limits>
 #include <span>
 #include <string_view>
@@ -42,6 +43,13 @@ inline constexpr Range not_negative{.low = 0};
 
 struct Section;
 
+/// Kinds of boundaries that a bare word may stand for.
+inline constexpr std::array<std::string_view, 6> gas_boundary_words{"slip_wall", "symmetry",  "inflow",
+                                                                    "outflow",   "dirichlet", "periodic"};
+inline constexpr std::array<std::string_view, 9> solid_boundary_words{
+    "interface", "slip_wall", "symmetry", "traction", "displacement",
+    "dirichlet", "periodic",  "free",     "clamped"};
+
 struct Key {
   std::string_view name;
   Type type = Type::number;
@@ -70,8 +78,13 @@ struct Section {
   std::string_view default_kind = {};      ///< "": `kind` must be written
 };
 
-extern const Section grid_section;       ///< of gas and solids
-extern const Section gas_state_section;  ///< rho, v, p or T
+extern const Section grid_section;            ///< of gas and solids
+extern const Section shape_section;           ///< a curve
+extern const Section gas_state_section;       ///< rho, v, p or T
+extern const Section gas_boundary_section;    ///< one side of the gas
+extern const Section solid_boundary_section;  ///< one side of a solid
+extern const Section gas_fitted_section;      ///< a body-fitted grid of the gas
+extern const Section solid_fitted_section;    ///< that of a solid
 extern const Section fluid_section;
 extern const Section solid_section;
 /// The whole file.

@@ -100,10 +100,6 @@ constexpr array gas_boundary_variants{
     Variant{"dirichlet", "all values are imposed, ghost points too", gas_boundary_state},
     Variant{"periodic", "continues at the opposite side", {}},
 };
-constexpr array<string_view, 6> gas_boundary_words{"slip_wall", "symmetry",  "inflow",
-                                                   "outflow",   "dirichlet", "periodic"};
-constexpr Section gas_boundary{
-    .title = "A side of the gas", .keys = {}, .variants = gas_boundary_variants, .default_kind = ""};
 
 constexpr string_view gas_side =
     "a side of the gas; a bare word is its kind, with data from the reference solution";
@@ -113,25 +109,25 @@ constexpr array gas_sides{
         .meaning = gas_side,
         .required = true,
         .words = gas_boundary_words,
-        .section = &gas_boundary},
+        .section = &gas_boundary_section},
     Key{.name = "right",
         .type = Type::section,
         .meaning = gas_side,
         .required = true,
         .words = gas_boundary_words,
-        .section = &gas_boundary},
+        .section = &gas_boundary_section},
     Key{.name = "bottom",
         .type = Type::section,
         .meaning = gas_side,
         .required = true,
         .words = gas_boundary_words,
-        .section = &gas_boundary},
+        .section = &gas_boundary_section},
     Key{.name = "top",
         .type = Type::section,
         .meaning = gas_side,
         .required = true,
         .words = gas_boundary_words,
-        .section = &gas_boundary},
+        .section = &gas_boundary_section},
 };
 constexpr Section gas_boundaries{.title = "Boundaries of the gas", .keys = gas_sides};
 
@@ -164,6 +160,9 @@ constexpr array gas_scheme_keys{
 };
 constexpr Section gas_scheme{.title = "Scheme of the gas", .keys = gas_scheme_keys};
 
+constexpr Key gas_fitted_element{
+    .name = "body_fitted", .type = Type::section, .meaning = "a grid", .section = &gas_fitted_section};
+
 constexpr array fluid_keys{
     Key{.name = "gamma",
         .meaning = "ratio of specific heats",
@@ -184,6 +183,11 @@ constexpr array fluid_keys{
         .meaning = "its four sides",
         .required = true,
         .section = &gas_boundaries},
+    Key{.name = "body_fitted",
+        .type = Type::list,
+        .meaning = "grids before `grid`, which then is a rectangle that covers them: around solids and walls",
+        .fallback = "[]",
+        .element = &gas_fitted_element},
     Key{.name = "scheme",
         .type = Type::section,
         .meaning = "choices of the solver",
@@ -201,6 +205,9 @@ constexpr array fluid_keys{
 
 constinit const Section grid_section{
     .title = "A component grid", .keys = shake_keys, .variants = grid_variants, .default_kind = "rectangle"};
+
+constinit const Section gas_boundary_section{
+    .title = "A side of the gas", .keys = {}, .variants = gas_boundary_variants, .default_kind = ""};
 
 constinit const Section gas_state_section{.title = "A state of the gas", .keys = gas_state_keys};
 

@@ -58,11 +58,6 @@ constexpr array solid_boundary_variants{
     Variant{"dirichlet", "u, v and P are imposed, ghost points too", solid_dirichlet_keys},
     Variant{"periodic", "continues at the opposite side", {}},
 };
-constexpr array<string_view, 9> solid_boundary_words{"interface", "slip_wall",    "symmetry",
-                                                     "traction",  "displacement", "dirichlet",
-                                                     "periodic",  "free",         "clamped"};
-constexpr Section solid_boundary{
-    .title = "A side of a solid", .keys = {}, .variants = solid_boundary_variants, .default_kind = ""};
 
 constexpr string_view solid_side =
     "a side of the solid; a bare word is its kind, with data from the reference solution; `free` is no "
@@ -73,25 +68,25 @@ constexpr array solid_sides{
         .meaning = solid_side,
         .required = true,
         .words = solid_boundary_words,
-        .section = &solid_boundary},
+        .section = &solid_boundary_section},
     Key{.name = "right",
         .type = Type::section,
         .meaning = solid_side,
         .required = true,
         .words = solid_boundary_words,
-        .section = &solid_boundary},
+        .section = &solid_boundary_section},
     Key{.name = "bottom",
         .type = Type::section,
         .meaning = solid_side,
         .required = true,
         .words = solid_boundary_words,
-        .section = &solid_boundary},
+        .section = &solid_boundary_section},
     Key{.name = "top",
         .type = Type::section,
         .meaning = solid_side,
         .required = true,
         .words = solid_boundary_words,
-        .section = &solid_boundary},
+        .section = &solid_boundary_section},
 };
 constexpr Section solid_boundaries{.title = "Boundaries of a solid", .keys = solid_sides};
 
@@ -181,8 +176,18 @@ constexpr array solid_keys{
     Key{.name = "boundary",
         .type = Type::section,
         .meaning = "its four sides",
-        .required = true,
+        .fallback = "required, but where `shape` leaves nothing of them",
         .section = &solid_boundaries},
+    Key{.name = "shape",
+        .type = Type::section,
+        .meaning = "outline of the solid where it is not that of `grid`, which then is a rectangle around it",
+        .fallback = "the rim of `grid`",
+        .section = &shape_section},
+    Key{.name = "body_fitted",
+        .type = Type::section,
+        .meaning = "the grid along the outline",
+        .fallback = "all defaults",
+        .section = &solid_fitted_section},
     Key{.name = "scheme",
         .type = Type::section,
         .meaning = "choices of the solver",
@@ -202,6 +207,9 @@ constexpr array solid_keys{
 };
 
 }  // namespace
+
+constinit const Section solid_boundary_section{
+    .title = "A side of a solid", .keys = {}, .variants = solid_boundary_variants, .default_kind = ""};
 
 constinit const Section solid_section{.title = "A solid", .keys = solid_keys};
 

@@ -41,8 +41,21 @@ ordered_json expect_json(const std::vector<Expectation>& expect) {
   return result;
 }
 
-std::uint64_t points_of(const GridSpec& grid) {
-  return static_cast<std::uint64_t>(grid.n1) * static_cast<std::uint64_t>(grid.n2);
+template <class Owner>
+std::uint64_t points_of(const Owner& owner) {
+  auto points = static_cast<std::uint64_t>(owner.grid.n1) * static_cast<std::uint64_t>(owner.grid.n2);
+  for (const BodyFittedSpec& fitted : owner.body_fitted)
+    points += static_cast<std::uint64_t>(fitted.curve.points()) * static_cast<std::uint64_t>(fitted.lines);
+  return points;
+}
+
+/// "81 x 81 + 63 x 8"
+template <class Owner>
+std::string grids_of(const Owner& owner) {
+  std::string text = fmt::format("{} x {}", owner.grid.n1, owner.grid.n2);
+  for (const BodyFittedSpec& fitted : owner.body_fitted)
+    text += fmt::format(" + {} x {}", fitted.curve.points(), fitted.lines);
+  return text;
 }
 
 }  // namespace
@@ -68,7 +81,7 @@ std::string summary_as_json(const Case& problem) {
   }
   ordered_json solids = ordered_json::array();
   for (const SolidSpec& solid : problem.solids) {
-    solids.push_back({{"name", solid.name}, {"law", solid.law}, {"points", points_of(solid.grid)}});
+    solids.push_back({{"name", solid.name}, {"law", solid.law}, {"points", points_of(solid)}});
   }
   const ordered_json summary = {
       {"name", problem.name},
@@ -77,7 +90,7 @@ std::string summary_as_json(const Case& problem) {
       {"digest", problem.digest},
       {"coupled", is_coupled(problem)},
       {"fluid", problem.fluid.has_value()},
-      {"fluid_points", problem.fluid ? points_of(problem.fluid->grid) : 0},
+      {"fluid_points", problem.fluid ? points_of(*problem.fluid) : 0},
       {"solids", solids},
       {"participants", participants},
       {"parameters", problem.parameters},
@@ -93,10 +106,9 @@ std::string summary_as_json(const Case& problem) {
 
 std::string summary_line(const Case& problem) {
   std::vector<std::string> parts;
-  if (problem.fluid)
-    parts.push_back(fmt::format("gas {} x {}", problem.fluid->grid.n1, problem.fluid->grid.n2));
+  if (problem.fluid) parts.push_back(fmt::format("gas {}", grids_of(*problem.fluid)));
   for (const SolidSpec& solid : problem.solids) {
-    parts.push_back(fmt::format("{} ({}) {} x {}", solid.name, solid.law, solid.grid.n1, solid.grid.n2));
+    parts.push_back(fmt::format("{} ({}) {}", solid.name, solid.law, grids_of(solid)));
   }
   return fmt::format("{}: fine; {}, t = 0 to {}", problem.path, fmt::join(parts, ", "), problem.time.end);
 }

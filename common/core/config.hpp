@@ -17,12 +17,12 @@ struct Entry;
 struct Node {
   enum class Kind { null, scalar, list, map };
   Kind kind = Kind::null;
-  std::string place;    ///< "configs/x.yaml:12:7", or "--set time.end" for a value from the command line
-  std::string text;     ///< scalar
-  bool quoted = false;  ///< the scalar was written in quotes
-  std::optional<double> number;  ///< value of a scalar that was evaluated
-  std::vector<Node> items;       ///< list
-  std::vector<Entry> entries;    ///< map, in the order of the file
+  std::string place = {};  ///< "configs/x.yaml:12:7", or "--set time.end" for a value from the command line
+  std::string text = {};   ///< scalar
+  bool quoted = false;     ///< the scalar was written in quotes
+  std::optional<double> number = {};  ///< value of a scalar that was evaluated
+  std::vector<Node> items = {};       ///< list
+  std::vector<Entry> entries = {};    ///< map, in the order of the file
 
   bool is_scalar() const { return kind == Kind::scalar; }
   bool is_list() const { return kind == Kind::list; }

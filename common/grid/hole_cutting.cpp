@@ -18,8 +18,9 @@ Vec2 point(const CuttingCurve& curve, int k) {
   return {curve.x[k], curve.y[k]};
 }
 
-/// First index k in [0, n] with a + k d >= value.
-int first_not_below(double value, double a, double d, int n) {
+/// First index k in [0, n] with a + k d >= value. Never inlined: the same value must give the same index
+/// wherever it is asked for, and a compiler may round a + k d differently from place to place.
+[[gnu::noinline]] int first_not_below(double value, double a, double d, int n) {
   int k = static_cast<int>(std::clamp(std::ceil((value - a) / d), 0.0, static_cast<double>(n)));
   while (k > 0 && a + (k - 1) * d >= value) --k;
   while (k < n && a + k * d < value) ++k;
@@ -63,6 +64,7 @@ double area_of(const CuttingCurve& curve) {
 void CurveCut::cut(const CartesianGrid& grid, const CuttingCurve& curve, const std::string& name, double t) {
   collect(grid, curve, name, t);
   sort_by_rows(grid.n2);
+  drop_touches(1e-9 * grid.dx());
   find_starts(curve, grid.n2, name, t);
 }
 
@@ -90,7 +92,8 @@ void CurveCut::add_segment(const CartesianGrid& grid, const Vec2& a, const Vec2&
   segments_.push_back({a, b});
   const double low = std::min(a[1], b[1]), high = std::max(a[1], b[1]);
   const bool upward = b[1] > a[1];
-  for (int j = first_not_below(low, grid.y_a, grid.dy(), grid.n2); j < grid.n2 && grid.y(j) < high; ++j) {
+  const int end = first_not_below(high, grid.y_a, grid.dy(), grid.n2);
+  for (int j = first_not_below(low, grid.y_a, grid.dy(), grid.n2); j < end; ++j) {
     const double x = a[0] + (grid.y(j) - a[1]) * ((b[0] - a[0]) / (b[1] - a[1]));
     const bool into_hole = upward == domain_left;
     // Points on the curve, but for round-off, belong to the domain: a straight curve along a column cuts it
@@ -125,6 +128,28 @@ void CurveCut::sort_by_rows(int rows) {
               [](const Crossing& a, const Crossing& b) { return a.x < b.x; });
   }
   std::ranges::sort(flips_, {}, &Flip::y);
+}
+
+/// Where a curve only touches a row, it crosses it twice at one place; which crossing comes first is decided
+/// by round-off. Both go, there is nothing between them.
+void CurveCut::drop_touches(double tolerance) {
+  std::size_t kept = 0;
+  for (std::size_t j = 0; j + 1 < first_.size(); ++j) {
+    const std::size_t begin = first_[j], end = first_[j + 1], row = kept;
+    for (std::size_t k = begin; k < end; ++k) {
+      const Crossing& crossing = sorted_[k];
+      const bool touches = kept > row && crossing.into_hole != sorted_[kept - 1].into_hole &&
+                           crossing.x - sorted_[kept - 1].x < tolerance;
+      if (touches) {
+        --kept;
+      } else {
+        sorted_[kept++] = crossing;
+      }
+    }
+    first_[j] = row;
+  }
+  first_.back() = kept;
+  sorted_.resize(kept);
 }
 
 /// Rows with crossings know their first point's side; it changes from row to row only by flips.

@@ -75,6 +75,7 @@ class CurveCut {
   void collect(const CartesianGrid& grid, const CuttingCurve& curve, const std::string& name, double t);
   void add_segment(const CartesianGrid& grid, const Vec2& a, const Vec2& b, int segment, bool domain_left);
   void sort_by_rows(int rows);
+  void drop_touches(double tolerance);
   void find_starts(const CuttingCurve& curve, int rows, const std::string& name, double t);
 };
 

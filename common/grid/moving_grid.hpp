@@ -41,6 +41,7 @@ GridDescription marched_from(const HyperbolicGrid& grid, std::vector<double> cur
 struct SideCommand {
   Side side = Side::left;
   std::span<const double> x;
+  int grid = 0;  ///< of several component grids, the one that is meant
 };
 
 class MovingGrid {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <limits>
 
 #include "common/io/atomic_file.hpp"
 #include "common/io/hdf5.hpp"
@@ -44,7 +45,16 @@ void write_grid(Hdf5 group, const GridOutput& grid) {
   const std::array shape{static_cast<std::uint64_t>(grid.x.layout.n2),
                          static_cast<std::uint64_t>(grid.x.layout.n1)};
   write_positions(group, grid, shape);
-  for (const auto& field : grid.fields) group.write(field.name, packed(field.field, field.plane), shape);
+  for (const auto& field : grid.fields) {
+    std::vector<double> values = packed(field.field, field.plane);
+    for (std::size_t k = 0; k < grid.kinds.size(); ++k) {
+      if (grid.kinds[k] == 0) values[k] = std::numeric_limits<double>::quiet_NaN();
+    }
+    group.write(field.name, values, shape);
+  }
+  if (grid.kinds.empty()) return;
+  const std::vector<double> kinds(grid.kinds.begin(), grid.kinds.end());
+  group.write("kind", kinds, shape);
 }
 
 }  // namespace

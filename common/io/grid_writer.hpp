@@ -29,6 +29,9 @@ struct GridOutput {
   ConstFieldView x;  ///< planes 0, 1: positions; reference positions x_bar where `u` is given
   ConstFieldView u;  ///< planes 0, 1: displacement of a solid; empty for a gas
   std::vector<NamedPlane> fields;
+  /// What each point is, row by row: 0 unused, 1 discretised, 2 interpolated; empty where all are
+  /// discretised. Written as `kind`; fields are not a number at unused points.
+  std::vector<std::uint8_t> kinds = {};
 };
 
 class GridWriter {

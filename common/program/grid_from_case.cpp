@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "common/case/composite_from_case.hpp"
+
 namespace fsi {
 
 namespace {
@@ -32,6 +34,26 @@ grid::GridDescription grid_from_case(const GridSpec& spec, bool follows) {
           .follows = follows,
           .shake = spec.shake,
           .shake_seed = spec.shake_seed};
+}
+
+grid::GridDescription grid_from_case(const BodyFittedSpec& spec) {
+  grid::GridDescription description = grid::marched_from(march_of(spec), spec.curve.x);
+  description.follows = !spec.solid.empty();
+  return description;
+}
+
+std::vector<std::uint8_t> kinds_of(const grid::CompositeGrid* composite, int grid) {
+  std::vector<std::uint8_t> kinds;
+  if (composite == nullptr) return kinds;
+  const Layout layout = composite->layout(grid);
+  kinds.reserve(layout.points());
+  for (int j = 0; j < layout.n2; ++j) {
+    for (int i = 0; i < layout.n1; ++i) {
+      const grid::PointKind kind = composite->kind(grid, i, j);
+      kinds.push_back(kind == grid::PointKind::unused ? 0 : kind == grid::PointKind::discretised ? 1 : 2);
+    }
+  }
+  return kinds;
 }
 
 }  // namespace fsi

@@ -1,12 +1,23 @@
 #pragma once
 /// Turns the grid of a case file into a component grid.
 
+#include <cstdint>
+#include <vector>
+
 #include "common/case/case.hpp"
+#include "common/grid/composite_grid.hpp"
 #include "common/grid/moving_grid.hpp"
 
 namespace fsi {
 
 /// Description of the grid a case asks for. `follows` when one of its sides is an interface.
 grid::GridDescription grid_from_case(const GridSpec& spec, bool follows);
+
+/// Description of a grid marched from a curve.
+grid::GridDescription grid_from_case(const BodyFittedSpec& spec);
+
+/// What the points of a component grid are, for output: 0 unused, 1 discretised, 2 interpolated, row by row;
+/// empty where all are discretised (no composite grid).
+std::vector<std::uint8_t> kinds_of(const grid::CompositeGrid* composite, int grid);
 
 }  // namespace fsi

@@ -32,15 +32,6 @@ double sum(const double* values, Range range) {
   return total;
 }
 
-/// What is given to a sweep.
-struct Task {
-  ConstFieldView q;
-  FieldView q_new;
-  const StepGrid& grid;
-  double dt;
-  const Scheme& scheme;
-};
-
 /// Columns swept together, about: the scratch rows of so many points stay in the second-level cache.
 constexpr int block = 512;
 
@@ -48,23 +39,25 @@ constexpr int block = 512;
 template <class Limiter, class Riemann, bool mapped>
 class Sweep {
  public:
-  Sweep(const Task& task, const Riemann& solve, const SweepOutput& output, Range columns)
+  Sweep(const SweepTask& task, const Scheme& scheme, const Riemann& solve, const SweepOutput& output,
+        Range columns)
       : task_(task),
+        scheme_(scheme),
         solve_(solve),
         rows_(output.work),
         row_rates_(output.row_rates),
-        viscous_(task.scheme.viscosity.any()),
-        points_(columns) {}
+        viscous_(scheme.viscosity.any()),
+        columns_(columns) {}
 
   SweepCounts run() {
     const int n2 = task_.q.layout.n2;
     for (int r = -1; r <= n2; ++r) {
-      predict(r);
-      if (r > -1) flux_between(r);
-      if (r > 0) update(r - 1);
+      each(task_.runs.predicted(r), 1, [&](Range run) { predict(r, run); });
+      if (r > -1) each(task_.runs.between(r), 0, [&](Range run) { flux_between(r, run); });
+      if (r > 0) each(task_.runs.advanced(r - 1), 0, [&](Range run) { update(r - 1, run); });
       if (r == n2) break;
       if constexpr (mapped) next_corners(r);
-      if (r > -1) flux_along(r);
+      if (r > -1) each(task_.runs.advanced(r), 0, [&](Range run) { flux_along(r, run); });
       std::swap(predicted_.upper, upper_before_);
       std::swap(kappa_, kappa_before_);
       std::swap(lower_, upper_);
@@ -73,14 +66,13 @@ class Sweep {
   }
 
  private:
-  Task task_;
+  const SweepTask& task_;
+  const Scheme& scheme_;
   Riemann solve_;
   Rows rows_;
   std::span<double> row_rates_;
   bool viscous_;
-  Range points_;
-  Range around_{points_.first - 1, points_.last + 1};  ///< with one ghost point at each end
-  Range faces_along_{points_.first - 1, points_.last};
+  Range columns_;
   PredictedRows predicted_{rows_.state(), rows_.state(), rows_.state(), rows_.state(), rows_.next()};
   StateRow<double> upper_before_ = rows_.state();  ///< of row r - 1
   FluxRow along_ = rows_.flux(), lower_ = rows_.flux(), upper_ = rows_.flux();
@@ -92,6 +84,16 @@ class Sweep {
   double* rate_ = rows_.next();
   SweepCounts counts_;
 
+  /// The parts of runs that lie in the columns or `reach` beyond.
+  template <class Action>
+  void each(std::span<const Range> runs, int reach, const Action& action) const {
+    for (const Range& run : runs) {
+      const Range part{std::max(run.first, columns_.first - reach),
+                       std::min(run.last, columns_.last + reach)};
+      if (part.first < part.last) action(part);
+    }
+  }
+
   auto metric() const {
     if constexpr (mapped) {
       return MappedMetric{metric_};
@@ -100,66 +102,69 @@ class Sweep {
     }
   }
 
-  void predict(int r) {
+  void predict(int r, Range run) {
     if constexpr (mapped) {
-      metric_row(PointRows(task_.grid.x_old, r), PointRows(task_.grid.x, r), task_.dt, metric_, around_);
+      metric_row(PointRows(task_.grid.x_old, r), PointRows(task_.grid.x, r), task_.dt, metric_, run);
     }
     const StateRows states(task_.q, r);
-    predict_row<Limiter>(states, metric(), task_.scheme.gamma, predicted_, around_);
-    if (r >= 0 && r < task_.q.layout.n2) counts_.first_order += sum(predicted_.first_order, points_);
-    if (viscous_) viscosity_row(states, metric(), task_.scheme.viscosity, task_.dt, kappa_, around_);
+    predict_row<Limiter>(states, metric(), scheme_.gamma, predicted_, run);
+    if (viscous_) viscosity_row(states, metric(), scheme_.viscosity, task_.dt, kappa_, run);
   }
 
   /// Corners between rows r and r + 1 become those above.
   void next_corners(int r) {
     std::swap(below_, above_);
     const StepGrid& grid = task_.grid;
-    corner_row(PointRow(grid.x_old, r), PointRow(grid.x_old, r + 1), above_.x_old, above_.y_old,
-               faces_along_);
-    corner_row(PointRow(grid.x, r), PointRow(grid.x, r + 1), above_.x, above_.y, faces_along_);
+    each(task_.runs.between(r + 1), 0, [&](Range run) {
+      const Range corners{run.first - 1, run.last};
+      corner_row(PointRow(grid.x_old, r), PointRow(grid.x_old, r + 1), above_.x_old, above_.y_old, corners);
+      corner_row(PointRow(grid.x, r), PointRow(grid.x, r + 1), above_.x, above_.y, corners);
+    });
   }
 
   /// Fluxes between rows r - 1 and r.
-  void flux_between(int r) {
+  void flux_between(int r, Range run) {
     if constexpr (mapped) {
-      face_row_2(above_, task_.dt, face_, points_);
-      flux_row(upper_before_, predicted_.lower, solve_, face_, upper_, points_);
+      face_row_2(above_, task_.dt, face_, run);
+      flux_row(upper_before_, predicted_.lower, solve_, face_, upper_, run);
     } else {
       flux_row(upper_before_.exchanged(), predicted_.lower.exchanged(), solve_, metric().dt_dy,
-               upper_.exchanged(), points_);
+               upper_.exchanged(), run);
     }
     if (viscous_) {
       const StateRow<const double> before(task_.q, r - 1), after(task_.q, r);
-      add_viscous_flux_row({before, after, kappa_before_, kappa_}, task_.scheme.gamma, upper_, points_);
+      add_viscous_flux_row({before, after, kappa_before_, kappa_}, scheme_.gamma, upper_, run);
     }
   }
 
-  /// Fluxes between the points of row r.
-  void flux_along(int r) {
+  /// Fluxes through the faces along row r on both sides of the points of a run.
+  void flux_along(int r, Range run) {
+    counts_.first_order += sum(predicted_.first_order, run);
+    const Range faces{run.first - 1, run.last};
     const StateRow<const double> after = predicted_.left;
     if constexpr (mapped) {
-      face_row_1(below_, above_, task_.dt, face_, faces_along_);
-      flux_row(predicted_.right, after.shifted(1), solve_, face_, along_, faces_along_);
+      face_row_1(below_, above_, task_.dt, face_, faces);
+      flux_row(predicted_.right, after.shifted(1), solve_, face_, along_, faces);
     } else {
-      flux_row(predicted_.right, after.shifted(1), solve_, metric().dt_dx, along_, faces_along_);
+      flux_row(predicted_.right, after.shifted(1), solve_, metric().dt_dx, along_, faces);
     }
     if (viscous_) {
       const StateRow<const double> here(task_.q, r);
-      add_viscous_flux_row({here, here.shifted(1), kappa_, kappa_ + 1}, task_.scheme.gamma, along_,
-                           faces_along_);
+      add_viscous_flux_row({here, here.shifted(1), kappa_, kappa_ + 1}, scheme_.gamma, along_, faces);
     }
   }
 
-  void update(int r) {
-    if constexpr (mapped) volume_row(below_, above_, volume_old_, volume_, points_);
+  void update(int r, Range run) {
+    if constexpr (mapped) volume_row(below_, above_, volume_old_, volume_, run);
     const UpdateCounts counts = update_row<mapped>(
         StateRow<const double>(task_.q, r), {along_, lower_, upper_}, {volume_old_, volume_},
-        {task_.scheme.gamma, task_.scheme.p_floor}, StateRow<double>(task_.q_new, r), points_);
+        {scheme_.gamma, scheme_.p_floor}, StateRow<double>(task_.q_new, r), run);
     counts_.floors += counts.floors;
     counts_.broken += counts.broken;
     if (r == 0 || r == task_.q.layout.n2 - 1) return;
-    const Range inner{std::max(points_.first, 1), std::min(points_.last, task_.q.layout.n1 - 1)};
-    wave_rate_row(task_.q_new, task_.grid, task_.dt, task_.scheme.gamma, r, rate_, inner);
+    const Range inner{std::max(run.first, 1), std::min(run.last, task_.q.layout.n1 - 1)};
+    if (inner.first >= inner.last) return;
+    wave_rate_row(task_.q_new, task_.grid, task_.dt, scheme_.gamma, r, rate_, inner);
     double& most = row_rates_[static_cast<std::size_t>(r)];
     most = std::max(most, largest(rate_, inner));
   }
@@ -167,19 +172,18 @@ class Sweep {
 
 }  // namespace
 
-SweepCounts sweep(ConstFieldView q, FieldView q_new, const StepGrid& grid, double dt, const Scheme& scheme,
-                  const SweepOutput& output) {
-  const Task task{q, q_new, grid, dt, scheme};
+SweepCounts sweep(const SweepTask& task, const Scheme& scheme, const SweepOutput& output) {
   std::ranges::fill(output.row_rates, 0.0);
   return std::visit(
       [&]<class Riemann, class Limiter>(const Riemann& solve, const Limiter&) {
         SweepCounts counts;
-        const int n1 = q.layout.n1, blocks = std::max(1, (n1 + block / 2) / block),
+        const int n1 = task.q.layout.n1, blocks = std::max(1, (n1 + block / 2) / block),
                   width = (n1 / blocks + 8) / 8 * 8;
         for (int first = 0; first < n1; first += width) {
           const Range columns{first, std::min(first + width, n1)};
-          counts += grid.cartesian ? Sweep<Limiter, Riemann, false>(task, solve, output, columns).run()
-                                   : Sweep<Limiter, Riemann, true>(task, solve, output, columns).run();
+          counts += task.grid.cartesian
+                        ? Sweep<Limiter, Riemann, false>(task, scheme, solve, output, columns).run()
+                        : Sweep<Limiter, Riemann, true>(task, scheme, solve, output, columns).run();
         }
         return counts;
       },

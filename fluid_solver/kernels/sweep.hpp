@@ -12,6 +12,7 @@
 #include "fluid_solver/kernels/any_riemann.hpp"
 #include "fluid_solver/kernels/limiter.hpp"
 #include "fluid_solver/kernels/rows.hpp"
+#include "fluid_solver/kernels/sweep_runs.hpp"
 #include "fluid_solver/kernels/viscous_rows.hpp"
 #include "fluid_solver/kernels/workspace.hpp"
 
@@ -60,8 +61,16 @@ struct SweepOutput {
       row_rates;  ///< n2: largest wave rate of the inner points of each row, for the next time step
 };
 
-/// Advances all points, boundary points included, from q (ghosts set) to q_new by dt.
-SweepCounts sweep(ConstFieldView q, FieldView q_new, const StepGrid& grid, double dt, const Scheme& scheme,
-                  const SweepOutput& output);
+/// What is advanced: the points of the runs, boundary points included, from q (with the points around them
+/// and ghosts) to q_new by dt.
+struct SweepTask {
+  ConstFieldView q;
+  FieldView q_new;
+  const StepGrid& grid;
+  const SweepRuns& runs;
+  double dt;
+};
+
+SweepCounts sweep(const SweepTask& task, const Scheme& scheme, const SweepOutput& output);
 
 }  // namespace fsi::fluid

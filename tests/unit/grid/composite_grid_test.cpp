@@ -104,6 +104,20 @@ TEST(CompositeGrid, DiskGasAndSolidConnectExplicitlyWithQuadraticInterpolation) 
   }
 }
 
+/// The top, bottom and ends of the circle lie on rows and columns up to round-off, above or below.
+TEST(CompositeGrid, DiskConnectsAtEveryResolution) {
+  for (int factor = 2; factor <= 40; ++factor) {
+    const double h = 0.1 / factor;
+    const Strip ring = annulus(h, 8, true);
+    CompositeGrid grids(box(-2, 2, -2, 2, h), {ring.body()});
+    const ConstFieldView x[] = {ring.x.view()};
+    grids.connect(x, 0);
+    EXPECT_EQ(grids.counts().width_2, 0U) << factor;
+    const auto unused = static_cast<double>(grids.layout(0).points() - grids.valid(0).points());
+    EXPECT_NEAR(unused * h * h, pi, 4 * pi * h) << factor;  // no more than the rim's points in doubt
+  }
+}
+
 TEST(CompositeGrid, EllipseConnectsInGasAndSolid) {
   for (const int j : {4, 8}) {
     const double h = 1.0 / (10 * j);

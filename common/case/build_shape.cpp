@@ -1,0 +1,296 @@
+#include "common/case/build_shape.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+#include <sstream>
+#include <utility>
+
+#include "common/core/suggest.hpp"
+#include "common/grid/shapes/circle.hpp"
+#include "common/grid/shapes/ellipse.hpp"
+#include "common/grid/shapes/plane_curve.hpp"
+#include "common/grid/shapes/smoothed_polygon.hpp"
+#include "common/grid/shapes/spline.hpp"
+
+namespace fsi {
+
+namespace {
+
+using config::fail;
+using config::Node;
+
+Vec2 pair_of(const Node& node) {
+  return {*node.items[0].number, *node.items[1].number};
+}
+
+std::vector<Vec2> points_of(const Node& list) {
+  std::vector<Vec2> points;
+  for (const Node& item : list.items) points.push_back(pair_of(item));
+  return points;
+}
+
+grid::PlaneCurve curve_of(const Node& shape, bool closed, const std::string& path) {
+  const std::string kind = shape.find("kind")->text;
+  const grid::Curve ends = closed ? grid::Curve::closed : grid::Curve::open;
+  const Node* middle = shape.find("centre");
+  const Vec2 centre = middle == nullptr ? Vec2(Vec2::Zero()) : pair_of(*middle);
+  if (!closed && (kind == "circle" || kind == "ellipse")) {
+    fail(shape.find("walls")->place, path + ".walls", fmt::format("a {} has no ends; leave them out", kind));
+  }
+  if (kind == "circle") return grid::circle(centre, *shape.find("radius")->number);
+  if (kind == "ellipse") {
+    const Vec2 semi_axes = pair_of(*shape.find("semi_axes"));
+    double degrees = 0;
+    Reader::assign(shape, "angle", degrees);
+    return grid::ellipse(
+        {.centre = centre, .a = semi_axes[0], .b = semi_axes[1], .angle = degrees * std::numbers::pi / 180});
+  }
+  if (kind == "polygon") {
+    grid::SmoothedPolygon polygon{.corners = points_of(*shape.find("corners")), .ends = ends};
+    Reader::assign(shape, "sharpness", polygon.sharpness);
+    return grid::smoothed_polygon(polygon);
+  }
+  const Node* through = shape.find("through");
+  if (through == nullptr) fail(shape.place, path, "give `through: [[x, y], ..]` or `file: NAME.csv`");
+  return grid::spline(points_of(*through), ends);
+}
+
+std::vector<grid::PointWeight> weights_of(const Node& shape) {
+  std::vector<grid::PointWeight> weights;
+  if (const Node* list = shape.find("weights")) {
+    for (const Node& item : list->items) {
+      weights.push_back(
+          {*item.find("strength")->number, *item.find("sharpness")->number, *item.find("place")->number});
+    }
+  }
+  return weights;
+}
+
+int count_of(const Reader& reader, const Node& shape, double length, bool closed, const std::string& path) {
+  const Node *points = shape.find("points"), *spacing = shape.find("spacing");
+  if (points != nullptr && spacing != nullptr)
+    fail(spacing->place, path, "give `points` or `spacing`, one of them");
+  if (points != nullptr) return static_cast<int>(*points->number);
+  const double h = spacing != nullptr ? *spacing->number : reader.scope().constants.at("h");
+  constexpr double fewest = 8, most = 1e5;
+  const double cells = std::round(length / h);
+  if (!(cells >= fewest && cells <= most)) {
+    fail(spacing != nullptr ? spacing->place : shape.place, path,
+         fmt::format("points {:.4g} apart on a {} of length {:.4g} are {:.4g}; {} to {} are possible", h,
+                     closed ? "closed curve" : "curve", length, cells, fewest, most));
+  }
+  return static_cast<int>(cells) + 1;
+}
+
+/// Twice the area to the left of a polygon's direction, closed by a straight line.
+double signed_area(const std::vector<double>& x) {
+  const std::size_t n = x.size() / 2;
+  double area = 0;
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::size_t next = (k + 1) % n;
+    area += x[k] * x[n + next] - x[next] * x[n + k];
+  }
+  return area;
+}
+
+void reverse_direction(std::vector<double>& x) {
+  const auto middle = x.begin() + static_cast<std::ptrdiff_t>(x.size() / 2);
+  std::reverse(x.begin(), middle);
+  std::reverse(middle, x.end());
+}
+
+Side side_of(const Node& node) {
+  return *std::ranges::find(all_sides, node.text, [](Side side) { return std::string(name_of(side)); });
+}
+
+/// What a solid's `body_fitted` and an entry of the gas's have in common.
+BodyFittedSpec build_fitted(const Reader& reader, const Node* node, CurveSpec curve,
+                            const std::string& name) {
+  BodyFittedSpec grid;
+  grid.name = name;
+  grid.curve = std::move(curve);
+  grid.spacing = reader.scope().constants.at("h");
+  if (node == nullptr) return grid;
+  Reader::assign(*node, "lines", grid.lines);
+  Reader::assign(*node, "spacing", grid.spacing);
+  Reader::assign(*node, "growth", grid.growth);
+  return grid;
+}
+
+/// The curve's side gets its own condition, the ends of an open curve those of the walls they slide on.
+void assign_boundaries(BodyFittedSpec& grid, const BoundarySpec& on_curve,
+                       const std::array<BoundarySpec, 4>& background) {
+  grid.boundary.fill({.kind = BoundaryKind::none});
+  grid.boundary[static_cast<std::size_t>(grid.side)] = on_curve;
+  if (grid.curve.closed()) {
+    for (const Side side : {Side::left, Side::right}) {
+      grid.boundary[static_cast<std::size_t>(side)].kind = BoundaryKind::periodic;
+    }
+    return;
+  }
+  for (const Side side : {Side::left, Side::right}) {
+    const auto end = static_cast<std::size_t>(side);
+    grid.boundary[end] = background[static_cast<std::size_t>((*grid.curve.walls)[end])];
+  }
+}
+
+BoundarySpec boundary_or(const Reader& reader, const Owner& owner, const Node* node, const std::string& path,
+                         BoundaryKind fallback) {
+  const Node* boundary = node == nullptr ? nullptr : node->find("boundary");
+  if (boundary == nullptr) return {.kind = fallback};
+  return build_boundary(reader, owner, *boundary, path + ".boundary");
+}
+
+const SolidSpec& solid_named(const std::vector<SolidSpec>& solids, const Node& name,
+                             const std::string& path) {
+  const auto found = std::ranges::find(solids, name.text, &SolidSpec::name);
+  if (found != solids.end() && !found->body_fitted.empty()) return *found;
+  std::vector<std::string> names;
+  for (const SolidSpec& solid : solids) names.push_back(solid.name);
+  if (found == solids.end()) {
+    fail(name.place, path + ".solid",
+         fmt::format("there is no solid {}{}", in_ticks(name.text), did_you_mean(name.text, names)));
+  }
+  fail(name.place, path + ".solid",
+       fmt::format("solid {} has no `shape`; give it one, or let a side of `fluid.grid` meet it",
+                   in_ticks(name.text)));
+}
+
+BodyFittedSpec build_gas_grid(const Reader& reader, const Node& node, const std::string& path,
+                              const std::vector<SolidSpec>& solids) {
+  const Node *solid = node.find("solid"), *shape = node.find("shape");
+  if ((solid == nullptr) == (shape == nullptr))
+    fail(node.place, path, "give `solid` or `shape`, one of them");
+  const std::string name = node.find("name")->text;
+  if (solid != nullptr) {
+    for (const char* key : {"boundary", "inside"}) {
+      if (const Node* own = node.find(key))
+        fail(own->place, path, fmt::format("`{}` belongs to `shape`; a solid's outline has its own", key));
+    }
+    BodyFittedSpec grid =
+        build_fitted(reader, &node, solid_named(solids, *solid, path).body_fitted.front().curve, name);
+    grid.solid = solid->text;
+    grid.side = Side::top;
+    return grid;
+  }
+  bool inside = false;
+  Reader::assign(node, "inside", inside);
+  BodyFittedSpec grid = build_fitted(reader, &node, build_curve(reader, *shape, path + ".shape"), name);
+  grid.side = inside ? Side::bottom : Side::top;
+  return grid;
+}
+
+}  // namespace
+
+CurveSpec build_curve(const Reader& reader, const Node& shape, const std::string& path) {
+  CurveSpec result;
+  if (const Node* walls = shape.find("walls")) {
+    if (walls->items.size() != 2) fail(walls->place, path + ".walls", "must be two sides, [bottom, bottom]");
+    result.walls = {side_of(walls->items[0]), side_of(walls->items[1])};
+  }
+  try {
+    const grid::PlaneCurve curve = curve_of(shape, result.closed(), path);
+    const double length = grid::length_of(curve);
+    const int points = count_of(reader, shape, length, result.closed(), path);
+    result.x = grid::points_on(curve, points, weights_of(shape));
+    result.spacing = length / (points - 1);
+  } catch (const UserMistake& mistake) {
+    const std::string what = mistake.what();
+    if (what.starts_with(shape.place.substr(0, shape.place.find(':')))) throw;  // it has its place already
+    fail(shape.place, path, what);
+  }
+  if (signed_area(result.x) < 0) {
+    reverse_direction(result.x);
+    if (result.walls) std::swap(result.walls->front(), result.walls->back());
+  }
+  return result;
+}
+
+std::vector<BodyFittedSpec> build_outline_grid(const Reader& reader, const Owner& owner,
+                                               const std::array<BoundarySpec, 4>& boundary) {
+  const Node *shape = owner.node.find("shape"), *node = owner.node.find("body_fitted");
+  if (shape == nullptr) {
+    if (node != nullptr)
+      fail(node->place, owner.path + ".body_fitted", "belongs to `shape`, which is missing");
+    return {};
+  }
+  BodyFittedSpec grid =
+      build_fitted(reader, node, build_curve(reader, *shape, owner.path + ".shape"), "outline");
+  grid.side = Side::bottom;
+  const std::string path = owner.path + ".body_fitted";
+  assign_boundaries(grid, boundary_or(reader, owner, node, path, BoundaryKind::interface), boundary);
+  return {std::move(grid)};
+}
+
+std::vector<BodyFittedSpec> build_fitted_grids(const Reader& reader, const Owner& owner,
+                                               const std::array<BoundarySpec, 4>& boundary,
+                                               const std::vector<SolidSpec>& solids) {
+  std::vector<BodyFittedSpec> result;
+  const Node* list = owner.node.find("body_fitted");
+  if (list == nullptr) return result;
+  for (std::size_t k = 0; k < list->items.size(); ++k) {
+    const Node& node = list->items[k];
+    const std::string path = fmt::format("{}.body_fitted[{}]", owner.path, k);
+    BodyFittedSpec grid = build_gas_grid(reader, node, path, solids);
+    BoundarySpec on_curve = boundary_or(reader, owner, &node, path, BoundaryKind::slip_wall);
+    if (!grid.solid.empty()) on_curve = {.kind = BoundaryKind::interface, .solid = grid.solid};
+    assign_boundaries(grid, on_curve, boundary);
+    if (std::ranges::find(result, grid.name, &BodyFittedSpec::name) != result.end()) {
+      fail(node.find("name")->place, path + ".name",
+           fmt::format("there are two grids {}; choose another name", in_ticks(grid.name)));
+    }
+    result.push_back(std::move(grid));
+  }
+  return result;
+}
+
+namespace {
+
+/// `through: [[x, y], ..]` in the place of `file: NAME`.
+void inline_points(Node& shape, const std::string& folder) {
+  for (config::Entry& entry : shape.entries) {
+    if (entry.key != "file" || !entry.value.is_scalar()) continue;
+    const std::filesystem::path path = std::filesystem::path(folder) / entry.value.text;
+    std::ifstream file(path);
+    std::ostringstream text;
+    text << file.rdbuf();
+    if (!file) {
+      fail(entry.value.place, "shape.file",
+           fmt::format("{} cannot be read; its path counts from the folder of the case file",
+                       in_ticks(path.string())));
+    }
+    Node list{.kind = Node::Kind::list, .place = entry.value.place};
+    for (const Vec2& point : grid::points_from_csv(text.str(), path.string())) {
+      Node pair{.kind = Node::Kind::list, .place = entry.value.place};
+      for (const double x : {point[0], point[1]}) {
+        pair.items.push_back(
+            {.kind = Node::Kind::scalar, .place = entry.value.place, .text = fmt::format("{}", x)});
+      }
+      list.items.push_back(std::move(pair));
+    }
+    entry = {.key = "through", .place = entry.place, .value = std::move(list)};
+  }
+}
+
+}  // namespace
+
+void inline_point_files(Node& root, const std::string& folder) {
+  if (Node* solids = root.find("solids")) {
+    for (config::Entry& solid : solids->entries) {
+      if (Node* shape = solid.value.find("shape")) inline_points(*shape, folder);
+    }
+  }
+  Node* fluid = root.find("fluid");
+  Node* grids = fluid == nullptr ? nullptr : fluid->find("body_fitted");
+  if (grids == nullptr) return;
+  for (Node& grid : grids->items) {
+    if (Node* shape = grid.find("shape")) inline_points(*shape, folder);
+  }
+}
+
+}  // namespace fsi

@@ -1,0 +1,53 @@
+#include "common/case/composite_from_case.hpp"
+
+namespace fsi {
+
+namespace {
+
+grid::Curve ends_of(const BodyFittedSpec& spec) {
+  return spec.curve.closed() ? grid::Curve::closed : grid::Curve::open;
+}
+
+Vec2 direction_along(Side wall) {
+  return direction_of(wall) == 0 ? Vec2(0, 1) : Vec2(1, 0);
+}
+
+}  // namespace
+
+grid::CartesianGrid background_of(const GridSpec& spec) {
+  return {.name = spec.name,
+          .n1 = spec.n1,
+          .n2 = spec.n2,
+          .x_a = spec.x_a,
+          .x_b = spec.x_b,
+          .y_a = spec.y_a,
+          .y_b = spec.y_b};
+}
+
+grid::HyperbolicGrid march_of(const BodyFittedSpec& spec) {
+  grid::HyperbolicGrid march{.name = spec.name,
+                             .points = spec.curve.points(),
+                             .lines = spec.lines,
+                             .curve = spec.side,
+                             .ends = ends_of(spec),
+                             .spacing = spec.spacing,
+                             .growth = spec.growth};
+  if (spec.curve.walls) {
+    for (std::size_t end : {0U, 1U}) march.walls[end] = direction_along((*spec.curve.walls)[end]);
+  }
+  return march;
+}
+
+std::vector<grid::BodyFittedGrid> bodies_of(const std::vector<BodyFittedSpec>& specs) {
+  std::vector<grid::BodyFittedGrid> bodies;
+  for (const BodyFittedSpec& spec : specs) {
+    bodies.push_back({.name = spec.name,
+                      .n1 = spec.curve.points(),
+                      .n2 = spec.lines,
+                      .curve = spec.side,
+                      .ends = ends_of(spec)});
+  }
+  return bodies;
+}
+
+}  // namespace fsi

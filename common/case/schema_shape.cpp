@@ -1,0 +1,165 @@
+/// Curves, and the grids that are fitted to them.
+
+#include <array>
+
+#include "common/case/schema.hpp"
+
+namespace fsi::schema {
+
+namespace {
+
+using std::array;
+using std::string_view;
+
+constexpr array weight_keys{
+    Key{.name = "strength", .meaning = "about this part of all points goes there", .required = true},
+    Key{.name = "sharpness",
+        .meaning = "one over the width of the place, in parts of the curve's length",
+        .required = true,
+        .range = positive},
+    Key{.name = "place",
+        .meaning = "where, in parts of the curve's length",
+        .required = true,
+        .range = {.low = 0, .high = 1}},
+};
+constexpr Section weight_section{.title = "A place where points are drawn together", .keys = weight_keys};
+constexpr Key weight_element{
+    .name = "weight", .type = Type::section, .meaning = "a place", .section = &weight_section};
+constexpr Key point_element{.name = "point", .type = Type::pair, .meaning = "[x, y]", .unit = "length"};
+constexpr array<string_view, 4> side_words{"left", "right", "bottom", "top"};
+constexpr Key side_element{.name = "side", .type = Type::word, .meaning = "a side", .words = side_words};
+
+constexpr array shape_keys{
+    Key{.name = "points",
+        .type = Type::integer,
+        .meaning = "points along the curve; of a closed one the last is the first",
+        .fallback = "from `spacing`",
+        .range = {.low = 9, .high = 100000}},
+    Key{.name = "spacing",
+        .meaning = "distance of points along the curve, rounded (in place of `points`)",
+        .unit = "length",
+        .fallback = "h",
+        .range = positive},
+    Key{.name = "weights",
+        .type = Type::list,
+        .meaning = "places where points are drawn together",
+        .fallback = "[]",
+        .element = &weight_element},
+    Key{.name = "walls",
+        .type = Type::list,
+        .meaning =
+            "open curve: the sides of the background (left, right, bottom, top) on which its two ends lie",
+        .fallback = "closed curve",
+        .element = &side_element},
+};
+constexpr Key centre_key{
+    .name = "centre", .type = Type::pair, .meaning = "its middle", .unit = "length", .fallback = "[0, 0]"};
+constexpr array circle_keys{
+    centre_key,
+    Key{.name = "radius", .meaning = "radius", .unit = "length", .required = true, .range = positive},
+};
+constexpr array ellipse_keys{
+    centre_key,
+    Key{.name = "semi_axes",
+        .type = Type::pair,
+        .meaning = "half lengths of its axes",
+        .unit = "length",
+        .required = true,
+        .range = positive},
+    Key{.name = "angle",
+        .meaning = "of the first axis against the x axis, counter-clockwise",
+        .unit = "degree",
+        .fallback = "0"},
+};
+constexpr array polygon_keys{
+    Key{.name = "corners",
+        .type = Type::list,
+        .meaning = "corners in their order",
+        .unit = "length",
+        .required = true,
+        .element = &point_element},
+    Key{.name = "sharpness",
+        .meaning = "one over the radius of the rounded corners, in parts of the length",
+        .fallback = "50",
+        .range = positive},
+};
+constexpr array spline_keys{
+    Key{.name = "through",
+        .type = Type::list,
+        .meaning = "points on the curve in their order",
+        .unit = "length",
+        .fallback = "from `file`",
+        .element = &point_element},
+    Key{.name = "file",
+        .type = Type::text,
+        .meaning = "CSV file with the points, x, y on each line; relative to the case file",
+        .fallback = "from `through`"},
+};
+constexpr array shape_variants{
+    Variant{"circle", "a circle", circle_keys},
+    Variant{"ellipse", "an ellipse", ellipse_keys},
+    Variant{"polygon", "a polygon with rounded corners", polygon_keys},
+    Variant{"spline", "a smooth curve through points", spline_keys},
+};
+
+constexpr Key lines_key{.name = "lines",
+                        .type = Type::integer,
+                        .meaning = "grid lines along the curve, the curve included",
+                        .fallback = "8",
+                        .range = {.low = 5, .high = 1000}};
+constexpr Key line_spacing_key{.name = "spacing",
+                               .meaning = "distance of the first line from the curve",
+                               .unit = "length",
+                               .fallback = "h",
+                               .range = positive};
+constexpr Key growth_key{.name = "growth",
+                         .meaning = "ratio of successive distances",
+                         .fallback = "1",
+                         .range = {.low = 0.5, .high = 2}};
+
+constexpr array gas_fitted_keys{
+    Key{.name = "name", .type = Type::name, .meaning = "name in messages and output", .required = true},
+    Key{.name = "solid",
+        .type = Type::name,
+        .meaning = "fitted to the outline of this solid, which it meets",
+        .fallback = "fitted to `shape`"},
+    Key{.name = "shape",
+        .type = Type::section,
+        .meaning = "the curve where it is not a solid's outline: a wall",
+        .fallback = "the outline of `solid`",
+        .section = &shape_section},
+    Key{.name = "boundary",
+        .type = Type::section,
+        .meaning = "what holds on `shape`; a bare word is its kind",
+        .fallback = "slip_wall",
+        .words = gas_boundary_words,
+        .section = &gas_boundary_section},
+    Key{.name = "inside", .type = Type::boolean, .meaning = "the gas is inside `shape`", .fallback = "false"},
+    lines_key,
+    line_spacing_key,
+    growth_key,
+};
+constexpr array solid_fitted_keys{
+    Key{.name = "boundary",
+        .type = Type::section,
+        .meaning = "what holds on the outline; a bare word is its kind",
+        .fallback = "interface",
+        .words = solid_boundary_words,
+        .section = &solid_boundary_section},
+    lines_key,
+    line_spacing_key,
+    growth_key,
+};
+
+}  // namespace
+
+constinit const Section shape_section{
+    .title = "A curve", .keys = shape_keys, .variants = shape_variants, .default_kind = ""};
+
+constinit const Section gas_fitted_section{.title = "A grid of the gas fitted to a curve",
+                                           .keys = gas_fitted_keys};
+
+constinit const Section solid_fitted_section{.title = "The grid of a solid fitted to its outline",
+                                             .keys = solid_fitted_keys};
+
+}  // namespace fsi::schema

@@ -1,0 +1,50 @@
+#pragma once
+/// Which points of each row a step works on.
+///
+///     row r + 1      . . d d d . .        d  advanced
+///     row r          . p d d d d p .      p  states are predicted there too, for the faces of the advanced
+///     row r - 1      . p d d d d d p
+///
+/// Kernels take whole runs; points that are not advanced cost nothing and are never read beyond the stencil.
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "fluid_solver/kernels/rows.hpp"
+
+namespace fsi::fluid {
+
+class SweepRuns {
+ public:
+  /// `rows` gives the runs to advance of each of the n2 rows, sorted and disjoint.
+  void assign(std::span<const std::vector<Range>> rows);
+
+  int rows() const { return static_cast<int>(advanced_.first.size()) - 1; }
+  /// Points to advance, 0 <= r < n2.
+  std::span<const Range> advanced(int r) const { return advanced_.of(r); }
+  /// Points whose state is predicted, -1 <= r <= n2: one further than the advanced ones on each side.
+  std::span<const Range> predicted(int r) const { return predicted_.of(r + 1); }
+  /// Points with a face between rows r - 1 and r, 0 <= r <= n2.
+  std::span<const Range> between(int r) const { return between_.of(r); }
+
+ private:
+  /// Runs of all rows, one after the other.
+  struct Table {
+    std::vector<Range> runs;
+    std::vector<std::size_t> first{0};
+    std::span<const Range> of(int row) const {
+      const auto k = static_cast<std::size_t>(row);
+      return {runs.data() + first[k], first[k + 1] - first[k]};
+    }
+    void clear() {
+      runs.clear();
+      first.assign(1, 0);
+    }
+    void append_row(std::vector<Range>& row);
+  };
+  Table advanced_, predicted_, between_;
+  std::vector<Range> row_;  ///< work memory
+};
+
+}  // namespace fsi::fluid
