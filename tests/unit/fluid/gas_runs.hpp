@@ -39,7 +39,8 @@ inline grid::GridDescription wavy(int n1, int n2, Vec2 low, Vec2 high) {
 struct OwnedInterface {
   Side side = Side::left;
   std::vector<double> n, v_n, w_n, v, a;
-  InterfaceValues view() const { return {side, n, v_n, w_n, v, a}; }
+  int grid = 0;
+  InterfaceValues view() const { return {side, n, v_n, w_n, v, a, grid}; }
 };
 
 /// Called after each predicted step with the time: interface values, or none.
@@ -53,11 +54,18 @@ inline void apply(GasSolver& gas, double t, const Projection& project) {
   gas.apply_fluid_bcs(t, views);
 }
 
-/// Positions of the points of the left side at a time, component-major.
+/// Positions of the points of the commanded side at a time, component-major.
 using Command = std::function<std::vector<double>(double t)>;
 
-/// Runs from gas.time() to t_end, the left side going where it is told; returns the number of steps.
-inline int run_commanded(GasSolver& gas, double t_end, const Projection& project, const Command& command) {
+/// The side that is commanded.
+struct CommandedSide {
+  Side side = Side::left;
+  int grid = 0;
+};
+
+/// Runs from gas.time() to t_end, the commanded side going where it is told; returns the number of steps.
+inline int run_commanded(GasSolver& gas, double t_end, const Projection& project, const Command& command,
+                         const CommandedSide& commanded = {}) {
   double t = gas.time();
   int steps = 0;
   apply(gas, t, project);
@@ -68,7 +76,7 @@ inline int run_commanded(GasSolver& gas, double t_end, const Projection& project
     std::vector<grid::SideCommand> commands;
     if (command) {
       x = command(t_new);
-      commands.push_back({Side::left, x});
+      commands.push_back({commanded.side, x, commanded.grid});
     }
     gas.move_grids(t_new, dt, commands);
     gas.advance_fluid(t_new, dt);
