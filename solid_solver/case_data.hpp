@@ -179,15 +179,15 @@ class CaseData {
           std::size_t nearest = 0;
           double best = std::numeric_limits<double>::infinity();
           for (std::size_t k = 0; k < count; ++k) {
-            const double distance = std::hypot(x[k] - x1, x[count + k] - x2);
-            if (distance < best) {
-              best = distance;
+            const double d1 = x[k] - x1, d2 = x[count + k] - x2, squared = d1 * d1 + d2 * d2;
+            if (squared < best) {
+              best = squared;
               nearest = k;
             }
           }
           const double n1 = n[nearest], n2 = n[count + nearest];
           const Tensor2 F = m->deformation_gradient(x1, x2, t);
-          const Tensor2 P = m->state(x1, x2, t).P;
+          const Tensor2 P = m->stress(F);
           const double stretch = std::hypot(-F.a11 * n2 + F.a12 * n1, -F.a21 * n2 + F.a22 * n1);
           const double eta = on_reference ? 1 : 1 / stretch;
           return {eta * (n1 * P.a11 + n2 * P.a21), eta * (n1 * P.a12 + n2 * P.a22)};

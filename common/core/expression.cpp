@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <array>
+#include <bitset>
 #include <cctype>
 #include <cmath>
 #include <numbers>
 #include <optional>
 #include <stdexcept>
+#include <string_view>
 
 #include "common/core/suggest.hpp"
 
@@ -17,7 +19,14 @@ namespace fsi {
 
 namespace {
 
-constexpr std::array variable_names{"x", "y", "r", "s", "t"};
+constexpr std::array<std::string_view, 5> variable_names{"x", "y", "r", "s", "t"};
+constexpr std::size_t radius_index = 2;
+
+/// Past the end for other names.
+std::size_t variable_index(std::string_view name) {
+  return static_cast<std::size_t>(std::find(variable_names.begin(), variable_names.end(), name) -
+                                  variable_names.begin());
+}
 
 bool starts_name(char c) {
   return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_';
@@ -128,21 +137,35 @@ const std::vector<std::string>& reserved_names() {
 }
 
 struct Expression::Implementation {
-  /// A definition the text needs; evaluated before everything that uses it.
+  using Variables = std::array<double, variable_names.size()>;
+  using Dependence = std::bitset<variable_names.size()>;  // on which variables, through definitions too
+
+  /// A definition the text needs; evaluated before everything that uses it, and only where a variable it
+  /// depends on has changed: a formula of t alone once per time.
   struct Helper {
     std::string name;
     mu::Parser parser = extended_parser();
+    Dependence depends;
+    std::optional<Variables> seen;
     double value = 0;
+
+    void update(const Variables& now) {
+      bool same = seen.has_value();
+      for (std::size_t k = 0; same && k < now.size(); ++k) same = !depends[k] || now[k] == (*seen)[k];
+      if (same) return;
+      value = parser.Eval();
+      seen = now;
+    }
   };
 
   std::string text;
   std::map<std::string, double> constants;
   std::map<std::string, std::string> definitions;
 
-  std::array<double, variable_names.size()> variables{};
+  Variables variables{};
   std::vector<std::unique_ptr<Helper>> helpers;  // in order of evaluation
   mu::Parser parser = extended_parser();
-  std::set<std::string> used;   // variables
+  Dependence depends;
   std::optional<double> fixed;  // where nothing varies
 
   explicit Implementation(double constant) : text(fmt::format("{}", constant)), fixed(constant) {}
@@ -151,8 +174,8 @@ struct Expression::Implementation {
                  std::map<std::string, std::string> others)
       : text(std::move(formula)), constants(std::move(numbers)), definitions(std::move(others)) {
     std::vector<std::string> chain;
-    compile(parser, text, chain);
-    if (used.empty()) fixed = evaluate();
+    depends = compile(parser, text, chain);
+    if (depends.none()) fixed = evaluate();
   }
 
   std::unique_ptr<Implementation> copy() const {
@@ -163,15 +186,19 @@ struct Expression::Implementation {
   }
 
   double evaluate() {
-    for (const auto& helper : helpers) helper->value = helper->parser.Eval();
+    for (const auto& helper : helpers) helper->update(variables);
     return parser.Eval();
   }
 
-  /// Binds all names of `formula` to `target`, compiling the definitions it needs first.
-  void compile(mu::Parser& target, const std::string& formula, std::vector<std::string>& chain) {
+  /// Binds all names of `formula` to `target`, compiling the definitions it needs first. Returns what it
+  /// depends on.
+  Dependence compile(mu::Parser& target, const std::string& formula, std::vector<std::string>& chain) {
     refuse_assignment(formula);
+    Dependence result;
     for (const std::string& name : names_in(formula)) {
-      if (definitions.contains(name)) need(name, chain);
+      if (definitions.contains(name)) result |= need(name, chain);
+      const std::size_t variable = variable_index(name);
+      if (variable < variable_names.size()) result.set(variable);
     }
     try {
       bind(target);
@@ -185,15 +212,13 @@ struct Expression::Implementation {
     } catch (const mu::ParserError& error) {
       throw std::invalid_argument(explain(error, formula));
     }
-    for (const std::string& name : names_in(formula)) {
-      if (std::find(variable_names.begin(), variable_names.end(), name) != variable_names.end())
-        used.insert(name);
-    }
+    return result;
   }
 
-  void need(const std::string& name, std::vector<std::string>& chain) {
-    const auto known = [&](const auto& helper) { return helper->name == name; };
-    if (std::any_of(helpers.begin(), helpers.end(), known)) return;
+  Dependence need(const std::string& name, std::vector<std::string>& chain) {
+    for (const auto& known : helpers) {
+      if (known->name == name) return known->depends;
+    }
     const bool circle = std::find(chain.begin(), chain.end(), name) != chain.end();
     chain.push_back(name);
     if (circle)
@@ -202,20 +227,21 @@ struct Expression::Implementation {
     auto helper = std::make_unique<Helper>();
     helper->name = name;
     try {
-      compile(helper->parser, definitions.at(name), chain);
+      helper->depends = compile(helper->parser, definitions.at(name), chain);
     } catch (const std::invalid_argument& error) {
       const std::string message = error.what();
       const bool located = message.starts_with("in definition") || message.starts_with("definitions go");
       throw std::invalid_argument(located ? message : fmt::format("in definition `{}`: {}", name, message));
     }
-    helpers.push_back(std::move(helper));
     chain.pop_back();
+    helpers.push_back(std::move(helper));
+    return helpers.back()->depends;
   }
 
   void bind(mu::Parser& target) {
     target.DefineConst("pi", std::numbers::pi);
     for (std::size_t k = 0; k < variable_names.size(); ++k)
-      target.DefineVar(variable_names[k], &variables[k]);
+      target.DefineVar(std::string(variable_names[k]), &variables[k]);
     for (const auto& [name, value] : constants) {
       if (name != "pi") target.DefineConst(name, value);
     }
@@ -264,7 +290,7 @@ Expression::~Expression() = default;
 double Expression::operator()(double x, double y, double t) const {
   Implementation& self = *implementation_;
   if (self.fixed) return *self.fixed;
-  self.variables = {x, y, std::hypot(x, y), 0.0, t};
+  self.variables = {x, y, self.depends[radius_index] ? std::hypot(x, y) : 0.0, 0.0, t};
   return self.evaluate();
 }
 
@@ -280,7 +306,8 @@ const std::string& Expression::text() const {
 }
 
 bool Expression::uses(const std::string& variable) const {
-  return implementation_->used.contains(variable);
+  const std::size_t index = variable_index(variable);
+  return index < variable_names.size() && implementation_->depends[index];
 }
 
 }  // namespace fsi

@@ -59,6 +59,20 @@ TEST(Expression, MayUseDefinitionsOfDefinitions) {
   EXPECT_FALSE(e.uses("t"));
 }
 
+TEST(Expression, FollowsEveryVariableThroughDefinitionsThatAreKept) {
+  const Definitions definitions = {{"beat", "3 + t"}, {"wave", "beat * x"}, {"far", "wave + r"}};
+  const Expression e("far + 7 * y", {}, definitions);
+  for (const double t : {0.0, 1.0, 1.0, 0.0}) {
+    for (const double x : {3.0, 5.0, 3.0}) {
+      for (const double y : {4.0, 12.0}) {
+        EXPECT_DOUBLE_EQ(e(x, y, t), (3 + t) * x + std::hypot(x, y) + 7 * y);
+      }
+    }
+  }
+  EXPECT_TRUE(e.uses("t") && e.uses("x") && e.uses("y") && e.uses("r"));
+  EXPECT_FALSE(e.uses("s") || e.uses("beat"));
+}
+
 TEST(Expression, RefusesDefinitionsThatGoRoundInACircle) {
   const Definitions definitions{{"a", "b + 1"}, {"b", "2 * c"}, {"c", "a"}};
   EXPECT_EQ(mistake_of("1 + b", {}, definitions), "definitions go round in a circle: b -> c -> a -> b");
