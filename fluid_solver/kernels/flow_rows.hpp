@@ -185,7 +185,7 @@ template <bool mapped>
     const double specific = 1.0 / q0, v1 = specific * q1, v2 = specific * q2;
     const double p = gamma_1 * (q3 - 0.5 * (q1 * v1 + q2 * v2));
     const bool finite = std::fabs(p) < 1e300, thin = p < law.p_floor;
-    broken += (q0 > 0.0) & finite ? 0.0 : 1.0;
+    broken += ((q0 > 0.0) & finite) ? 0.0 : 1.0;
     floors += thin ? 1.0 : 0.0;
     out.rho[i] = q0;
     out.v1[i] = v1;
