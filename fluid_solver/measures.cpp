@@ -4,7 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "common/grid/partition.hpp"
 #include "fluid_solver/gas_solver.hpp"
+#include "fluid_solver/side_points.hpp"
 
 namespace fsi::fluid {
 
@@ -79,29 +81,51 @@ std::optional<Place> find_cell(ConstFieldView x, const Vec2& point) {
   return std::nullopt;
 }
 
-/// Sums over the points of one grid.
-void add_totals(const GasSolver& solver, int k, Totals& totals) {
-  const grid::MovingGrid& grid = solver.grid(k);
-  const ConstFieldView q = solver.state(k), x = grid.x();
-  const double internal = 1 / (solver.options().gamma - 1);
+/// Adds what a point of a given area holds.
+void add_point(const GasSolver& solver, int grid, SidePoints::Index at, double area, Totals& totals) {
+  const ConstFieldView q = solver.state(grid), x = solver.grid(grid).x();
+  const auto [i, j] = at;
+  const double mass = area * q(0, i, j), v1 = q(1, i, j), v2 = q(2, i, j);
+  const double internal = area * q(3, i, j) / (solver.options().gamma - 1);
+  totals.mass += mass;
+  totals.momentum1 += mass * v1;
+  totals.momentum2 += mass * v2;
+  totals.energy += internal + 0.5 * mass * (v1 * v1 + v2 * v2);
+  totals.angular_momentum += mass * (x(0, i, j) * v2 - x(1, i, j) * v1);
+}
+
+/// Control volumes of a grid of its own: the same sums that the scheme conserves.
+Totals totals_of_one(const GasSolver& solver) {
+  const grid::MovingGrid& grid = solver.grid();
+  Totals totals;
   for (int j = 0; j < grid.layout().n2 - (grid.periodic(1) ? 1 : 0); ++j) {
-    for (int i = 0; i < grid.layout().n1 - (grid.periodic(0) ? 1 : 0); ++i) {
-      const double mass = clipped_volume(grid, i, j) * q(0, i, j), v1 = q(1, i, j), v2 = q(2, i, j);
-      totals.mass += mass;
-      totals.momentum1 += mass * v1;
-      totals.momentum2 += mass * v2;
-      totals.energy += mass * (internal * q(3, i, j) / q(0, i, j) + 0.5 * (v1 * v1 + v2 * v2));
-      totals.angular_momentum += mass * (x(0, i, j) * v2 - x(1, i, j) * v1);
+    for (int i = 0; i < grid.layout().n1 - (grid.periodic(0) ? 1 : 0); ++i)
+      add_point(solver, 0, {i, j}, clipped_volume(grid, i, j), totals);
+  }
+  return totals;
+}
+
+/// A smooth partition of the areas of overlapping grids.
+Totals totals_of_all(const GasSolver& solver) {
+  std::vector<ConstFieldView> x;
+  for (int k = 0; k < solver.grids(); ++k) x.push_back(solver.grid(k).x());
+  const std::vector<Field> areas = grid::area_weights(*solver.composite(), x);
+  Totals totals;
+  for (int k = 0; k < solver.grids(); ++k) {
+    const ConstFieldView area = areas[static_cast<std::size_t>(k)].view();
+    for (int j = 0; j < area.layout.n2; ++j) {
+      for (const grid::Interval& run : solver.valid(k).row(j)) {
+        for (int i = run.begin; i < run.end; ++i) add_point(solver, k, {i, j}, area(0, i, j), totals);
+      }
     }
   }
+  return totals;
 }
 
 }  // namespace
 
 Totals GasSolver::totals() const {
-  Totals totals;
-  for (int k = 0; k < grids(); ++k) add_totals(*this, k, totals);
-  return totals;
+  return composite() == nullptr ? totals_of_one(*this) : totals_of_all(*this);
 }
 
 Health GasSolver::health() const {

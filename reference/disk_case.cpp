@@ -58,6 +58,16 @@ void read_gas(const Case& problem, DiskProblem& disk) {
   }
 }
 
+bool load_on_reference(const SolidSpec& solid) {
+  const auto follows_not = [](const BoundarySpec& side) {
+    return side.kind == BoundaryKind::interface && side.on_reference;
+  };
+  return std::ranges::any_of(solid.boundary, follows_not) ||
+         std::ranges::any_of(solid.body_fitted, [&](const BodyFittedSpec& fitted) {
+           return std::ranges::any_of(fitted.boundary, follows_not);
+         });
+}
+
 }  // namespace
 
 DiskProblem disk_from_case(const Case& problem) {
@@ -73,9 +83,7 @@ DiskProblem disk_from_case(const Case& problem) {
   disk.rho_bar = solid.rho;
   disk.lambda = solid.lambda;
   disk.mu = solid.mu;
-  disk.load_on_reference = std::ranges::any_of(solid.boundary, [](const BoundarySpec& side) {
-    return side.kind == BoundaryKind::interface && side.on_reference;
-  });
+  disk.load_on_reference = load_on_reference(solid);
   disk.b = number_or(problem, "b", 0);
   if (disk.b != 0 && disk.b <= 1) {
     throw UserMistake(

@@ -72,5 +72,20 @@ TEST(Eq31CompositeGas, VortexPastAMovingBodyIsSecondOrder) {
   EXPECT_LT(errors.back(), 5e-4);
 }
 
+TEST(CompositeGasTotals, AreThoseOfTheGasWithoutTheBody) {
+  const StateField uniform = [](double, double, double) { return State{1.2, 0.4, -0.3, 0.9}; };
+  const Boundary exact = Dirichlet{uniform};
+  std::vector<double> errors;
+  for (const int factor : {1, 2, 4}) {
+    GasSolver gas = around_body(factor, {}, exact, exact);
+    gas.assign_initial_conditions(uniform);
+    const Totals totals = gas.totals();
+    EXPECT_NEAR(totals.momentum2 / totals.mass, -0.3, 1e-12);
+    errors.push_back(std::fabs(totals.mass - 1.2 * (36 - pi)));
+  }
+  EXPECT_GT(test::rate(errors), 1.9);
+  EXPECT_LT(errors.back(), 1e-3);
+}
+
 }  // namespace
 }  // namespace fsi::fluid
