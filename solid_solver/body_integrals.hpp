@@ -42,44 +42,75 @@ inline double area_ratio(const Tensor2& F, const Vec2& n0) {
   return 1.0 / std::hypot(F.a12 * n0.x() - F.a11 * n0.y(), F.a22 * n0.x() - F.a21 * n0.y());
 }
 
-/// By the trapezoidal rule in index space, second order; F by central differences.
+/// Areas of the points of a grid that stands alone: trapezoidal rule in index space, second order.
 template <Law L>
-Totals body_totals(const SolidComponent<L>& component, const L& law, double rho) {
+Field trapezoidal_areas(const SolidComponent<L>& component) {
   const Layout layout = component.layout();
-  const ConstFieldView x = component.grid().x();
-  Totals totals;
+  Field areas(layout, 1);
   for (int j = 0; j < layout.n2; ++j) {
     for (int i = 0; i < layout.n1; ++i) {
       const double weight =
           (i == 0 || i == layout.n1 - 1 ? 0.5 : 1.0) * (j == 0 || j == layout.n2 - 1 ? 0.5 : 1.0);
-      const double area = weight * component.metrics().at(i, j).jacobian, mass = rho * area;
-      const SolidState s = load(component.q(), layout.at(i, j));
-      const Vec2 position = Vec2(x(0, i, j), x(1, i, j)) + s.u;
-      totals.mass += mass;
-      totals.momentum += mass * s.v;
-      totals.kinetic_energy += 0.5 * mass * s.v.squaredNorm();
-      totals.strain_energy += area * law.psi(component.deformation_gradient(i, j));
-      totals.angular_momentum += mass * cross(position, s.v);
+      areas(0, i, j) = weight * component.metrics().at(i, j).jacobian;
     }
   }
-  return totals;
+  return areas;
 }
 
+/// Strain energy per area at discretised points, F by central differences.
 template <Law L>
-Errors largest_errors(const SolidComponent<L>& component, const StateFunction& exact, double t) {
-  const Layout layout = component.layout();
-  const ConstFieldView x = component.grid().x();
-  Errors errors;
-  for (int j = 0; j < layout.n2; ++j) {
-    for (int i = 0; i < layout.n1; ++i) {
-      const SolidState s = load(component.q(), layout.at(i, j)), e = exact(x(0, i, j), x(1, i, j), t);
-      errors.u = std::max(errors.u, (s.u - e.u).lpNorm<Eigen::Infinity>());
-      errors.v = std::max(errors.v, (s.v - e.v).lpNorm<Eigen::Infinity>());
-      const Tensor2 d = minus(s.P, e.P);
-      errors.P = std::max({errors.P, std::abs(d.a11), std::abs(d.a12), std::abs(d.a21), std::abs(d.a22)});
+Field strain_energy_density(const SolidComponent<L>& component, const L& law) {
+  Field psi(component.layout(), 1);
+  for (int j = 0; j < component.layout().n2; ++j) {
+    for (const auto& [begin, end] : component.points().discretised(j)) {
+      for (int i = begin; i < end; ++i) psi(0, i, j) = law.psi(component.deformation_gradient(i, j));
     }
   }
-  return errors;
+  return psi;
+}
+
+/// Areas and strain energy density of a component's points.
+struct PointMeasures {
+  ConstFieldView areas, psi;
+};
+
+template <Law L>
+void add_totals(const SolidComponent<L>& component, const PointMeasures& measures, double rho,
+                Totals& totals) {
+  const Layout layout = component.layout();
+  const ConstFieldView x = component.grid().x();
+  for (int j = 0; j < layout.n2; ++j) {
+    for (const auto& [begin, end] : component.points().valid(j)) {
+      for (int i = begin; i < end; ++i) {
+        const double area = measures.areas(0, i, j), mass = rho * area;
+        const SolidState s = load(component.q(), layout.at(i, j));
+        const Vec2 position = Vec2(x(0, i, j), x(1, i, j)) + s.u;
+        totals.mass += mass;
+        totals.momentum += mass * s.v;
+        totals.kinetic_energy += 0.5 * mass * s.v.squaredNorm();
+        totals.strain_energy += area * measures.psi(0, i, j);
+        totals.angular_momentum += mass * cross(position, s.v);
+      }
+    }
+  }
+}
+
+/// At all points with a value.
+template <Law L>
+void add_errors(const SolidComponent<L>& component, const StateFunction& exact, double t, Errors& errors) {
+  const Layout layout = component.layout();
+  const ConstFieldView x = component.grid().x();
+  for (int j = 0; j < layout.n2; ++j) {
+    for (const auto& [begin, end] : component.points().valid(j)) {
+      for (int i = begin; i < end; ++i) {
+        const SolidState s = load(component.q(), layout.at(i, j)), e = exact(x(0, i, j), x(1, i, j), t);
+        errors.u = std::max(errors.u, (s.u - e.u).lpNorm<Eigen::Infinity>());
+        errors.v = std::max(errors.v, (s.v - e.v).lpNorm<Eigen::Infinity>());
+        const Tensor2 d = minus(s.P, e.P);
+        errors.P = std::max({errors.P, std::abs(d.a11), std::abs(d.a12), std::abs(d.a21), std::abs(d.a22)});
+      }
+    }
+  }
 }
 
 template <Law L>

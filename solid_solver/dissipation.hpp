@@ -1,14 +1,16 @@
 #pragma once
 /// Terms that are added to the sweep's result where they are asked for: dissipation of tangential stress and
-/// displacement, relaxation of the stress towards the law, bulk diffusion. Each is one whole-row pass from
-/// the old state to the new one; a term whose coefficient is zero is not run at all.
+/// displacement, relaxation of the stress towards the law, bulk diffusion. Each is one pass over a run of
+/// points from the old state to the new one; a term whose coefficient is zero is not run at all. They are not
+/// inlined, so that the compiler has room to inline what their loops call and to vectorise them.
 
+#include "solid_solver/solid_points.hpp"
 #include "solid_solver/sweep_rows.hpp"
 
 namespace fsi::solid {
 
 /// paper eq. (38) with m = 4: (-D+ D-)^2 / 2^4 of five values; the highest mode +-1 gives 1.
-inline double fourth_difference(double a, double b, double c, double d, double e) {
+[[gnu::always_inline]] inline double fourth_difference(double a, double b, double c, double d, double e) {
   return ((a + e) - 4.0 * (b + d) + 6.0 * c) * 0.0625;
 }
 
@@ -23,14 +25,16 @@ struct WideRow {
         below2(q.row(k, j - 2)),
         above2(q.row(k, j + 2)) {}
   /// D^(4) along r1 and r2.
-  Pair fourth(int i) const {
+  [[gnu::always_inline]] Pair fourth(int i) const {
     return {fourth_difference(here[i - 2], here[i - 1], here[i], here[i + 1], here[i + 2]),
             fourth_difference(below2[i], below[i], here[i], above[i], above2[i])};
   }
   /// Sum over the directions of the undivided second differences.
-  double second(int i) const { return (here[i - 1] + here[i + 1]) + (below[i] + above[i]) - 4.0 * here[i]; }
+  [[gnu::always_inline]] double second(int i) const {
+    return (here[i - 1] + here[i + 1]) + (below[i] + above[i]) - 4.0 * here[i];
+  }
   /// Fourth-order central first differences over one index along r1 and r2.
-  Pair first(int i) const {
+  [[gnu::always_inline]] Pair first(int i) const {
     constexpr double inner = 2.0 / 3.0, outer = 1.0 / 12.0;
     return {inner * (here[i + 1] - here[i - 1]) - outer * (here[i + 2] - here[i - 2]),
             inner * (above[i] - below[i]) - outer * (above2[i] - below2[i])};
@@ -42,7 +46,7 @@ struct WideRow {
 class MappedGradient4 {
  public:
   MappedGradient4(ConstFieldView x, const ReferenceMetrics& /*metrics*/, int j) : x_(x, 0, j), y_(x, 1, j) {}
-  Tensor2 operator()(int i, const Pair& d1, const Pair& d2) const {
+  [[gnu::always_inline]] Tensor2 operator()(int i, const Pair& d1, const Pair& d2) const {
     const Pair x = x_.first(i), y = y_.first(i);
     const double scale = 1.0 / (x.x * y.y - x.y * y.x);
     return {.a11 = scale * (d1.x * y.y - d1.y * y.x),
@@ -60,7 +64,7 @@ class CartesianGradient4 {
  public:
   CartesianGradient4(ConstFieldView /*x*/, const ReferenceMetrics& metrics, int /*j*/)
       : i1_(1.0 / metrics.h1()), i2_(1.0 / metrics.h2()) {}
-  Tensor2 operator()(int /*i*/, const Pair& d1, const Pair& d2) const {
+  [[gnu::always_inline]] Tensor2 operator()(int /*i*/, const Pair& d1, const Pair& d2) const {
     return {.a11 = d1.x * i1_, .a12 = d1.y * i2_, .a21 = d2.x * i1_, .a22 = d2.y * i2_};
   }
 
@@ -68,17 +72,20 @@ class CartesianGradient4 {
   double i1_, i2_;
 };
 
-/// Row j of paper eq. (39): damps the part of the stress that no wave carries along r1 or r2. beta = beta^P.
+/// A run of points of paper eq. (39): damps the part of the stress that no wave carries along r1 or r2. beta
+/// = beta^P.
 template <class Row>
-void add_tangential_stress_dissipation(ConstFieldView q, FieldView next, const ReferenceMetrics& metrics,
-                                       double beta, int j) {
-  const Row row(metrics, j);
-  const WideRow P11(q, plane::P11, j), P12(q, plane::P12, j), P21(q, plane::P21, j), P22(q, plane::P22, j);
-  double *next11 = next.row(plane::P11, j), *next12 = next.row(plane::P12, j),
-         *next21 = next.row(plane::P21, j), *next22 = next.row(plane::P22, j);
+[[gnu::noinline]] void add_tangential_stress_dissipation(ConstFieldView q, FieldView next,
+                                                         const ReferenceMetrics& metrics, double beta,
+                                                         RowRun run) {
+  const Row row(metrics, run.j);
+  const WideRow P11(q, plane::P11, run.j), P12(q, plane::P12, run.j), P21(q, plane::P21, run.j),
+      P22(q, plane::P22, run.j);
+  double *next11 = next.row(plane::P11, run.j), *next12 = next.row(plane::P12, run.j),
+         *next21 = next.row(plane::P21, run.j), *next22 = next.row(plane::P22, run.j);
   const double factor = 0.5 * beta;
 #pragma omp simd
-  for (int i = 0; i < q.layout.n1; ++i) {
+  for (int i = run.begin; i < run.end; ++i) {
     const Pair t1 = row.tangent1(i), t2 = row.tangent2(i);
     const Pair d11 = P11.fourth(i), d12 = P12.fourth(i), d21 = P21.fourth(i), d22 = P22.fourth(i);
     const double along1_1 = factor * (t1.x * d11.x + t1.y * d21.x),
@@ -92,32 +99,33 @@ void add_tangential_stress_dissipation(ConstFieldView q, FieldView next, const R
   }
 }
 
-/// Row j of paper eq. (40). beta = beta^u.
-inline void add_displacement_dissipation(ConstFieldView q, FieldView next, double beta, int j) {
+/// A run of points of paper eq. (40). beta = beta^u.
+[[gnu::noinline]] inline void add_displacement_dissipation(ConstFieldView q, FieldView next, double beta,
+                                                           RowRun run) {
   const double factor = 0.5 * beta;
   for (int k = plane::u1; k <= plane::u2; ++k) {
-    const WideRow u(q, k, j);
-    double* target = next.row(k, j);
+    const WideRow u(q, k, run.j);
+    double* target = next.row(k, run.j);
 #pragma omp simd
-    for (int i = 0; i < q.layout.n1; ++i) {
+    for (int i = run.begin; i < run.end; ++i) {
       const Pair d = u.fourth(i);
       target[i] -= factor * (d.x + d.y);
     }
   }
 }
 
-/// Row j of paper eq. (41), F from fourth-order differences. beta = beta^r.
+/// A run of points of paper eq. (41), F from fourth-order differences. beta = beta^r.
 template <class Gradient, Law L>
-void add_relaxation(ConstFieldView q, FieldView next, const Gradient& gradient, const L& law_at, double beta,
-                    int j) {
+[[gnu::noinline]] void add_relaxation(ConstFieldView q, FieldView next, const Gradient& gradient,
+                                      const L& law_at, double beta, RowRun run) {
   const L law = law_at;
-  const WideRow u1(q, plane::u1, j), u2(q, plane::u2, j);
-  const double *P11 = q.row(plane::P11, j), *P12 = q.row(plane::P12, j), *P21 = q.row(plane::P21, j),
-               *P22 = q.row(plane::P22, j);
-  double *next11 = next.row(plane::P11, j), *next12 = next.row(plane::P12, j),
-         *next21 = next.row(plane::P21, j), *next22 = next.row(plane::P22, j);
+  const WideRow u1(q, plane::u1, run.j), u2(q, plane::u2, run.j);
+  const double *P11 = q.row(plane::P11, run.j), *P12 = q.row(plane::P12, run.j),
+               *P21 = q.row(plane::P21, run.j), *P22 = q.row(plane::P22, run.j);
+  double *next11 = next.row(plane::P11, run.j), *next12 = next.row(plane::P12, run.j),
+         *next21 = next.row(plane::P21, run.j), *next22 = next.row(plane::P22, run.j);
 #pragma omp simd
-  for (int i = 0; i < q.layout.n1; ++i) {
+  for (int i = run.begin; i < run.end; ++i) {
     Tensor2 F = gradient(i, u1.first(i), u2.first(i));
     F.a11 += 1.0;
     F.a22 += 1.0;
@@ -129,13 +137,15 @@ void add_relaxation(ConstFieldView q, FieldView next, const Gradient& gradient, 
   }
 }
 
-/// Row j of the bulk diffusion of v and P: factor times the sum of the undivided second differences.
-inline void add_bulk_diffusion(ConstFieldView q, FieldView next, double factor, int j) {
+/// A run of points of the bulk diffusion of v and P: factor times the sum of the undivided second
+/// differences.
+[[gnu::noinline]] inline void add_bulk_diffusion(ConstFieldView q, FieldView next, double factor,
+                                                 RowRun run) {
   for (int k = plane::v1; k <= plane::P22; ++k) {
-    const WideRow values(q, k, j);
-    double* target = next.row(k, j);
+    const WideRow values(q, k, run.j);
+    double* target = next.row(k, run.j);
 #pragma omp simd
-    for (int i = 0; i < q.layout.n1; ++i) target[i] += factor * values.second(i);
+    for (int i = run.begin; i < run.end; ++i) target[i] += factor * values.second(i);
   }
 }
 

@@ -1,13 +1,14 @@
 #pragma once
-/// One time step of paper eq. (32) at all points of a grid, row by row.
+/// One time step of paper eq. (32) at the discretised points of a grid, row by row.
 ///
-/// Row j goes through four loops, each a whole-row pass over structure-of-arrays rows that stay in cache:
-/// `predict_row` (F, K, slopes, states at t + dt/2), `solve_faces2` (faces between rows j - 1 and j),
-/// `update_row` (row j - 1, whose four faces are now known) and `solve_faces1` (faces inside row j). One
+/// Row j goes through four loops, each a pass over whole runs of points of structure-of-arrays rows that stay
+/// in cache: `predict` (F, K, slopes, states at t + dt/2), `solve_faces2` (faces between rows j - 1 and j),
+/// `update` (row j - 1, whose four faces are now known) and `solve_faces1` (faces inside row j). One
 /// Riemann problem per face.
 
 #include <limits>
 
+#include "solid_solver/solid_points.hpp"
 #include "solid_solver/sweep_rows.hpp"
 
 namespace fsi::solid {
@@ -32,6 +33,7 @@ inline constexpr int sweep_work_rows = 62;
 
 /// Fields and numbers of one sweep.
 struct SweepData {
+  const SolidPoints* points = nullptr;
   ConstFieldView q;      ///< unknowns at t, both ghost lines set
   FieldView next;        ///< unknowns at t + dt; ghosts are not set
   ConstFieldView force;  ///< body force at t + dt/2, two planes or none
@@ -49,10 +51,12 @@ class GodunovSweep {
   SweepResult run() const;
 
  private:
-  SweepResult predict_row(int j, int begin, int end) const;
-  void solve_faces1() const;
-  void solve_faces2(int j) const;
-  void update_row(int j) const;
+  // Functions of their own: inlined into run() they would be too much for the compiler to inline what their
+  // loops call, and no loop with a call in it vectorises.
+  [[gnu::noinline]] SweepResult predict(RowRun run) const;
+  [[gnu::noinline]] void solve_faces1(RowRun run) const;
+  [[gnu::noinline]] void solve_faces2(RowRun run) const;
+  [[gnu::noinline]] void update(RowRun run) const;
 
   // Work rows; those of a row number exist for the present and the last row.
   double* work(int row) const { return d_.work.row(0, row); }
@@ -82,16 +86,23 @@ class GodunovSweep {
 
 template <Law L, class Row, Limiter limiter>
 SweepResult GodunovSweep<L, Row, limiter>::run() const {
-  const Layout& shape = d_.q.layout;
+  const int n2 = d_.q.layout.n2;
+  const SolidPoints& points = *d_.points;
   SweepResult result;
-  for (int j = -1; j <= shape.n2; ++j) {
-    predict_row(j, -1, 0);
-    const SweepResult inside = predict_row(j, 0, shape.n1);
-    predict_row(j, shape.n1, shape.n1 + 1);
-    if (j >= 0 && j < shape.n2) result.add(inside);
-    if (j >= 0) solve_faces2(j);
-    if (j >= 1) update_row(j - 1);
-    if (j >= 0 && j < shape.n2) solve_faces1();
+  for (int j = -1; j <= n2; ++j) {
+    for (const auto& [begin, end] : points.beside(j)) predict({j, begin, end});
+    if (j >= 0 && j < n2) {
+      for (const auto& [begin, end] : points.discretised(j)) result.add(predict({j, begin, end}));
+    }
+    if (j >= 0) {
+      for (const auto& [begin, end] : points.faces(j)) solve_faces2({j, begin, end});
+    }
+    if (j >= 1) {
+      for (const auto& [begin, end] : points.discretised(j - 1)) update({j - 1, begin, end});
+    }
+    if (j >= 0 && j < n2) {
+      for (const auto& [begin, end] : points.discretised(j)) solve_faces1({j, begin, end});
+    }
   }
   return result;
 }
@@ -101,7 +112,8 @@ SweepResult GodunovSweep<L, Row, limiter>::run() const {
 /// of those of its two points, which the time step needs anyway, instead of one from an F differenced about
 /// the face. It multiplies a jump of O(h^3) in smooth flow.
 template <Law L, class Row, Limiter limiter>
-SweepResult GodunovSweep<L, Row, limiter>::predict_row(int j, int begin, int end) const {
+SweepResult GodunovSweep<L, Row, limiter>::predict(RowRun run) const {
+  const int j = run.j;
   const Row row(metrics_, j);
   const StateRows q(d_.q, j);
   const FaceRows to_east = east(), to_west = west(), to_north = north(j), to_south = south();
@@ -113,7 +125,7 @@ SweepResult GodunovSweep<L, Row, limiter>::predict_row(int j, int begin, int end
   const double dt = d_.dt, dt_rho = dt / d_.rho;
   double rate = 0, min_J = std::numeric_limits<double>::infinity(), min_phi = min_J, broken = 0;
 #pragma omp simd reduction(max : rate) reduction(min : min_J, min_phi) reduction(+ : broken)
-  for (int i = begin; i < end; ++i) {
+  for (int i = run.begin; i < run.end; ++i) {
     const Tensor2 F = deformation_gradient(row, q, i, 0.5 * dt);
     const Stiffness K = law.K(F);
     stiff.set(i, K);
@@ -158,15 +170,14 @@ SweepResult GodunovSweep<L, Row, limiter>::predict_row(int j, int begin, int end
   return {.rate_squared = rate / d_.rho, .min_det_F = min_J, .min_phi_s = min_phi, .broken = broken};
 }
 
-/// Faces i - 1/2 of the present row, i = 0 .. n1.
+/// Faces i - 1/2 on both sides of the points of a run of the present row.
 template <Law L, class Row, Limiter limiter>
-void GodunovSweep<L, Row, limiter>::solve_faces1() const {
-  const int n1 = d_.q.layout.n1;
+void GodunovSweep<L, Row, limiter>::solve_faces1(RowRun run) const {
   const FaceRows left = east(), right = west(), solution = faces1();
   const AcousticRows A = acoustic1();
   const double half_rho = 0.5 * d_.rho;
 #pragma omp simd
-  for (int i = 0; i <= n1; ++i) {
+  for (int i = run.begin; i <= run.end; ++i) {
     const SymmetricTensor2 rho_A = {.a11 = half_rho * (A.a11[i - 1] + A.a11[i]),
                                     .a12 = half_rho * (A.a12[i - 1] + A.a12[i]),
                                     .a22 = half_rho * (A.a22[i - 1] + A.a22[i])};
@@ -176,13 +187,13 @@ void GodunovSweep<L, Row, limiter>::solve_faces1() const {
 
 /// Faces j - 1/2 between the last row and row j.
 template <Law L, class Row, Limiter limiter>
-void GodunovSweep<L, Row, limiter>::solve_faces2(int j) const {
-  const int n1 = d_.q.layout.n1;
+void GodunovSweep<L, Row, limiter>::solve_faces2(RowRun run) const {
+  const int j = run.j;
   const FaceRows left = north(j - 1), right = south(), solution = faces2(j);
   const AcousticRows A = acoustic2(j - 1), B = acoustic2(j);
   const double half_rho = 0.5 * d_.rho;
 #pragma omp simd
-  for (int i = 0; i < n1; ++i) {
+  for (int i = run.begin; i < run.end; ++i) {
     const SymmetricTensor2 rho_A = {.a11 = half_rho * (A.a11[i] + B.a11[i]),
                                     .a12 = half_rho * (A.a12[i] + B.a12[i]),
                                     .a22 = half_rho * (A.a22[i] + B.a22[i])};
@@ -193,9 +204,9 @@ void GodunovSweep<L, Row, limiter>::solve_faces2(int j) const {
 /// paper eq. (35): momentum from the forces on the four faces; paper eq. (36): stress from the face
 /// velocities with the point's own K and grad r, exactly zero for a uniform velocity.
 template <Law L, class Row, Limiter limiter>
-void GodunovSweep<L, Row, limiter>::update_row(int j) const {
+void GodunovSweep<L, Row, limiter>::update(RowRun run) const {
+  const int j = run.j;
   const Row row(metrics_, j);
-  const int n1 = d_.q.layout.n1;
   const FaceRows along1 = faces1(), low = faces2(j), high = faces2(j + 1);
   const StiffnessRows stiff = stiffness(j);
   const double *b1 = force(0, j), *b2 = force(1, j);
@@ -207,7 +218,7 @@ void GodunovSweep<L, Row, limiter>::update_row(int j) const {
          *next_P21 = d_.next.row(plane::P21, j), *next_P22 = d_.next.row(plane::P22, j);
   const double dt = d_.dt, dt_rho = dt / d_.rho;
 #pragma omp simd
-  for (int i = 0; i < n1; ++i) {
+  for (int i = run.begin; i < run.end; ++i) {
     const double per_area = row.inverse_area(i);
     const double f1 = (along1.f1[i + 1] - along1.f1[i]) + (high.f1[i] - low.f1[i]);
     const double f2 = (along1.f2[i + 1] - along1.f2[i]) + (high.f2[i] - low.f2[i]);

@@ -26,6 +26,7 @@ struct InterfaceValues {
   std::span<const double> n;    ///< unit normal, solid -> gas, 2 n
   std::span<const double> v_n;  ///< normal velocity, n
   std::span<const double> w_n;  ///< normal traction per unit current area, n
+  int grid = 0;
 };
 
 }  // namespace fsi::solid

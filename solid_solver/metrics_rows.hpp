@@ -20,24 +20,32 @@ class CartesianRow {
       : h1_(metrics.h1()), h2_(metrics.h2()), i1_(1.0 / h1_), i2_(1.0 / h2_) {}
 
   /// Gradient from differences over one index along r1 and r2.
-  Pair gradient(int /*i*/, double d1, double d2) const { return {d1 * i1_, d2 * i2_}; }
+  [[gnu::always_inline]] Pair gradient(int /*i*/, double d1, double d2) const { return {d1 * i1_, d2 * i2_}; }
   /// Force of the nominal stress on the face on the lower or upper side of point i.
-  Pair force_west(int /*i*/, const Tensor2& P) const { return {h2_ * P.a11, h2_ * P.a12}; }
-  Pair force_east(int /*i*/, const Tensor2& P) const { return {h2_ * P.a11, h2_ * P.a12}; }
-  Pair force_south(int /*i*/, const Tensor2& P) const { return {h1_ * P.a21, h1_ * P.a22}; }
-  Pair force_north(int /*i*/, const Tensor2& P) const { return {h1_ * P.a21, h1_ * P.a22}; }
+  [[gnu::always_inline]] Pair force_west(int /*i*/, const Tensor2& P) const {
+    return {h2_ * P.a11, h2_ * P.a12};
+  }
+  [[gnu::always_inline]] Pair force_east(int /*i*/, const Tensor2& P) const {
+    return {h2_ * P.a11, h2_ * P.a12};
+  }
+  [[gnu::always_inline]] Pair force_south(int /*i*/, const Tensor2& P) const {
+    return {h1_ * P.a21, h1_ * P.a22};
+  }
+  [[gnu::always_inline]] Pair force_north(int /*i*/, const Tensor2& P) const {
+    return {h1_ * P.a21, h1_ * P.a22};
+  }
   /// Acoustic matrices of the area vectors J grad r1, J grad r2 at the point.
-  SymmetricTensor2 acoustic1(int /*i*/, const Stiffness& K) const {
+  [[gnu::always_inline]] SymmetricTensor2 acoustic1(int /*i*/, const Stiffness& K) const {
     return {.a11 = h2_ * h2_ * K.k1111, .a12 = h2_ * h2_ * K.k1121, .a22 = h2_ * h2_ * K.k1221};
   }
-  SymmetricTensor2 acoustic2(int /*i*/, const Stiffness& K) const {
+  [[gnu::always_inline]] SymmetricTensor2 acoustic2(int /*i*/, const Stiffness& K) const {
     return {.a11 = h1_ * h1_ * K.k2112, .a12 = h1_ * h1_ * K.k2122, .a22 = h1_ * h1_ * K.k2222};
   }
-  double inverse_area(int /*i*/) const { return i1_ * i2_; }
-  double inverse_jacobian(int /*i*/) const { return i1_ * i2_; }
+  [[gnu::always_inline]] double inverse_area(int /*i*/) const { return i1_ * i2_; }
+  [[gnu::always_inline]] double inverse_jacobian(int /*i*/) const { return i1_ * i2_; }
   /// Unit tangents of the coordinate lines r1 = const and r2 = const.
-  Pair tangent1(int /*i*/) const { return {0.0, 1.0}; }
-  Pair tangent2(int /*i*/) const { return {1.0, 0.0}; }
+  [[gnu::always_inline]] Pair tangent1(int /*i*/) const { return {0.0, 1.0}; }
+  [[gnu::always_inline]] Pair tangent2(int /*i*/) const { return {1.0, 0.0}; }
 
  private:
   double h1_, h2_, i1_, i2_;
@@ -59,35 +67,41 @@ class MappedRow {
         jacobian_(metrics.values().row(ReferenceMetrics::jacobian, j)),
         stride_(metrics.values().layout.stride) {}
 
-  Pair gradient(int i, double d1, double d2) const {
+  [[gnu::always_inline]] Pair gradient(int i, double d1, double d2) const {
     return {d1 * r1x_[i] + d2 * r2x_[i], d1 * r1y_[i] + d2 * r2y_[i]};
   }
-  Pair force_west(int i, const Tensor2& P) const { return force(a1x_[i], a1y_[i], P); }
-  Pair force_east(int i, const Tensor2& P) const { return force(a1x_[i + 1], a1y_[i + 1], P); }
-  Pair force_south(int i, const Tensor2& P) const { return force(a2x_[i], a2y_[i], P); }
-  Pair force_north(int i, const Tensor2& P) const { return force(a2x_[i + stride_], a2y_[i + stride_], P); }
-  SymmetricTensor2 acoustic1(int i, const Stiffness& K) const {
+  [[gnu::always_inline]] Pair force_west(int i, const Tensor2& P) const { return force(a1x_[i], a1y_[i], P); }
+  [[gnu::always_inline]] Pair force_east(int i, const Tensor2& P) const {
+    return force(a1x_[i + 1], a1y_[i + 1], P);
+  }
+  [[gnu::always_inline]] Pair force_south(int i, const Tensor2& P) const {
+    return force(a2x_[i], a2y_[i], P);
+  }
+  [[gnu::always_inline]] Pair force_north(int i, const Tensor2& P) const {
+    return force(a2x_[i + stride_], a2y_[i + stride_], P);
+  }
+  [[gnu::always_inline]] SymmetricTensor2 acoustic1(int i, const Stiffness& K) const {
     return acoustic(jacobian_[i] * r1x_[i], jacobian_[i] * r1y_[i], K);
   }
-  SymmetricTensor2 acoustic2(int i, const Stiffness& K) const {
+  [[gnu::always_inline]] SymmetricTensor2 acoustic2(int i, const Stiffness& K) const {
     return acoustic(jacobian_[i] * r2x_[i], jacobian_[i] * r2y_[i], K);
   }
-  double inverse_area(int i) const { return inverse_area_[i]; }
-  double inverse_jacobian(int i) const { return 1.0 / jacobian_[i]; }
-  Pair tangent1(int i) const { return unit(-r1y_[i], r1x_[i]); }
-  Pair tangent2(int i) const { return unit(-r2y_[i], r2x_[i]); }
+  [[gnu::always_inline]] double inverse_area(int i) const { return inverse_area_[i]; }
+  [[gnu::always_inline]] double inverse_jacobian(int i) const { return 1.0 / jacobian_[i]; }
+  [[gnu::always_inline]] Pair tangent1(int i) const { return unit(-r1y_[i], r1x_[i]); }
+  [[gnu::always_inline]] Pair tangent2(int i) const { return unit(-r2y_[i], r2x_[i]); }
 
  private:
-  static Pair force(double ax, double ay, const Tensor2& P) {
+  [[gnu::always_inline]] static Pair force(double ax, double ay, const Tensor2& P) {
     return {ax * P.a11 + ay * P.a21, ax * P.a12 + ay * P.a22};
   }
-  static SymmetricTensor2 acoustic(double ax, double ay, const Stiffness& K) {
+  [[gnu::always_inline]] static SymmetricTensor2 acoustic(double ax, double ay, const Stiffness& K) {
     const double a11 = ax * ax, a12 = ax * ay, a22 = ay * ay;
     return {.a11 = a11 * K.k1111 + 2.0 * a12 * K.k1112 + a22 * K.k2112,
             .a12 = a11 * K.k1121 + a12 * (K.k1122 + K.k2121) + a22 * K.k2122,
             .a22 = a11 * K.k1221 + 2.0 * a12 * K.k1222 + a22 * K.k2222};
   }
-  static Pair unit(double x, double y) {
+  [[gnu::always_inline]] static Pair unit(double x, double y) {
     const double scale = 1.0 / std::sqrt(x * x + y * y);
     return {x * scale, y * scale};
   }

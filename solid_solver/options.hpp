@@ -59,7 +59,8 @@ struct Boundary {
     slip,          ///< n0 . u = 0 and no shear
     symmetry,      ///< mirror images across a straight side
     dirichlet,     ///< u, v and P = `state(x, y, t)` on the side and its ghost lines
-    periodic       ///< continues at the opposite side
+    periodic,      ///< continues at the opposite side
+    none           ///< nothing is done: the side is interpolated, or lies in holes of a composite grid
   };
   Kind kind = Kind::traction;
   LoadConfiguration load = LoadConfiguration::current;

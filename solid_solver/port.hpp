@@ -15,7 +15,6 @@
 #include "common/program/grid_from_case.hpp"
 #include "common/program/participant.hpp"
 #include "solid_solver/case_data.hpp"
-#include "solid_solver/pose.hpp"
 #include "solid_solver/robin.hpp"
 #include "solid_solver/solid_solver.hpp"
 
@@ -110,7 +109,7 @@ class SolidParticipant final : public Participant {
   void write_tables(double t, double /*dt*/, ProjectedStates /*projected*/) override {
     if (forces_) {
       const SideLoad load = solver_.side_load(*side_);
-      const Pose pose = pose_of(solver_.reference(), solver_.state());
+      const Pose pose = solver_.pose();
       forces_->row({t, load.force[0], load.force[1], load.moment, load.power, pose.centre[0], pose.centre[1],
                     pose.velocity[0], pose.velocity[1], pose.angle});
     }

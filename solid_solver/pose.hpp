@@ -1,6 +1,8 @@
 #pragma once
 /// Where a deforming body is and how far it has turned.
 
+#include <span>
+
 #include "common/core/field.hpp"
 #include "common/core/types.hpp"
 
@@ -14,5 +16,13 @@ struct Pose {
 
 /// `reference`: planes x_bar1, x_bar2; `state`: planes u1, u2, v1, v2 first. Homogeneous density.
 Pose pose_of(ConstFieldView reference, ConstFieldView state);
+
+/// One grid of a composite one: as above, and `areas` that its points stand for (grid::area_weights).
+struct PosePart {
+  ConstFieldView reference, state, areas;
+};
+
+/// The same of a body that several grids cover.
+Pose pose_of(std::span<const PosePart> parts);
 
 }  // namespace fsi::solid

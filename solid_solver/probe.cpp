@@ -1,11 +1,8 @@
 #include "solid_solver/probe.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <optional>
 
-#include "common/core/failure.hpp"
 #include "solid_solver/state.hpp"
 
 namespace fsi::solid {
@@ -45,14 +42,19 @@ std::optional<ProbePoint> find_in_cell(ConstFieldView x, int i, int j, const Vec
 
 }  // namespace
 
-ProbePoint locate_probe(const grid::MovingGrid& grid, double x, double y) {
-  for (int j = 0; j + 1 < grid.layout().n2; ++j) {
-    for (int i = 0; i + 1 < grid.layout().n1; ++i) {
-      if (const auto found = find_in_cell(grid.x(), i, j, {x, y})) return *found;
+std::optional<ProbePoint> locate_probe(ConstFieldView reference, const SolidPoints& points, double x,
+                                       double y) {
+  const auto has_values = [&](int i, int j) {
+    return points.is_valid(i, j) && points.is_valid(i + 1, j) && points.is_valid(i, j + 1) &&
+           points.is_valid(i + 1, j + 1);
+  };
+  for (int j = 0; j + 1 < reference.layout.n2; ++j) {
+    for (int i = 0; i + 1 < reference.layout.n1; ++i) {
+      const auto found = find_in_cell(reference, i, j, {x, y});
+      if (found && has_values(i, j)) return found;
     }
   }
-  throw UserMistake(
-      fmt::format("probe at ({:g}, {:g}) lies outside the reference grid \"{}\"", x, y, grid.name()));
+  return {};
 }
 
 SolidState value_at_probe(ConstFieldView q, const ProbePoint& probe) {

@@ -1,8 +1,10 @@
 #pragma once
 /// Values at material points that are no grid points.
 
-#include "common/grid/moving_grid.hpp"
+#include <optional>
+
 #include "solid_solver/options.hpp"
+#include "solid_solver/solid_points.hpp"
 
 namespace fsi::solid {
 
@@ -10,10 +12,12 @@ namespace fsi::solid {
 struct ProbePoint {
   int i = 0, j = 0;
   double a = 0, b = 0;  ///< in [0, 1]
+  int grid = 0;
 };
 
-/// The cell that holds the reference position (x, y). @throws UserMistake when there is none
-ProbePoint locate_probe(const grid::MovingGrid& grid, double x, double y);
+/// The cell of points with values that holds the reference position (x, y); nothing when there is none.
+std::optional<ProbePoint> locate_probe(ConstFieldView reference, const SolidPoints& points, double x,
+                                       double y);
 
 /// Bilinear interpolation, second order.
 SolidState value_at_probe(ConstFieldView q, const ProbePoint& probe);

@@ -20,8 +20,8 @@ struct FaceState {
 /// acoustic matrix of the face's area vector a, so that Z carries the area as f does. Z has the closed form
 /// (rho A + d I) / sqrt(tr rho A + 2 d), d = det Z, and no eigenvectors are needed. Pure, no branches.
 /// @param rho_A density times acoustic matrix, positive definite
-inline FaceState riemann_solution(const SymmetricTensor2& rho_A, const FaceState& left,
-                                  const FaceState& right) {
+[[gnu::always_inline]] inline FaceState riemann_solution(const SymmetricTensor2& rho_A, const FaceState& left,
+                                                         const FaceState& right) {
   const double d = std::sqrt(rho_A.a11 * rho_A.a22 - rho_A.a12 * rho_A.a12);
   const double t = std::sqrt(rho_A.a11 + rho_A.a22 + 2.0 * d);
   const double half_inverse = 0.5 / (t * d);

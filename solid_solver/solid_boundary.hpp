@@ -11,6 +11,7 @@
 #include "common/core/failure.hpp"
 #include "solid_solver/ghost_lines.hpp"
 #include "solid_solver/interface.hpp"
+#include "solid_solver/solid_points.hpp"
 #include "solid_solver/traction_ghost.hpp"
 
 namespace fsi::solid {
@@ -18,8 +19,10 @@ namespace fsi::solid {
 /// What a boundary works on.
 struct BoundaryGrid {
   std::string name;
+  int index = 0;     ///< of the grid among those of the body
   ConstFieldView x;  ///< reference positions with ghosts
   const ReferenceMetrics* metrics = nullptr;
+  const SolidPoints* points = nullptr;
 };
 
 template <Law L>
@@ -40,8 +43,13 @@ class SolidBoundary {
   ///  5. traction sides: ghost u from paper eq. (43), ghost v from its time derivative, tangential stress
   ///  from P(F);
   ///  6. P again on the first ghost line, then the second one and the corners of the ghost frame.
+  /// Only discretised points are set, and ghost points beside valid ones.
   /// @throws NumbersBroke where no displacement fits the traction
   void apply(FieldView q, double t, std::span<const InterfaceValues> projected);
+  /// Ghost points beside interpolated points, by extrapolation, reflection or repetition.
+  void refresh_ghosts(FieldView q, double t) const;
+  /// Conditions are applied next to interpolated points: these must have their values before.
+  bool reads_interpolated_points() const;
 
   Kind kind(Side side) const { return kinds_[index(side)]; }
   /// True when point k of a side also lies on a side whose motion is given.
@@ -55,6 +63,10 @@ class SolidBoundary {
   SideMetrics at(Side side, int k) const { return side_metrics(*grid_.metrics, layout(), side, k); }
   bool loaded(Side side) const { return kind(side) == Kind::traction || kind(side) == Kind::interface; }
   bool mirrored(Side side) const;
+  /// Discretised points of a side.
+  std::span<const int> points(Side side) const { return advanced_[index(side)]; }
+  bool advanced(Side side, int k) const;
+  void find_points(Side side);
   static bool end_of(const SideIndex& line, int k) { return k == 0 || k == line.n - 1; }
   Vec2 position(std::ptrdiff_t at) const { return {grid_.x.plane(0)[at], grid_.x.plane(1)[at]}; }
   /// False at a corner, unless the neighbour's ghost points are images, so that differences along the side
@@ -97,6 +109,7 @@ class SolidBoundary {
   double rho_;
   Boundaries boundaries_;
   std::array<Kind, 4> kinds_;
+  std::array<std::vector<int>, 4> advanced_, interpolated_;  ///< points of the sides
   Limiter limiter_;
   double time_scale_;
   std::array<std::vector<Vec2>, 4> T_, T_rate_,

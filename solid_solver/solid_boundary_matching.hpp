@@ -26,7 +26,9 @@ void SolidBoundary<L>::set_tractions(FieldView q, double t, std::span<const Inte
   for (const Side side : all_sides) {
     if (loaded(side)) find_traction(q, side, t);
   }
-  for (const InterfaceValues& values : projected) find_projected_traction(q, values);
+  for (const InterfaceValues& values : projected) {
+    if (values.grid == grid_.index) find_projected_traction(q, values);
+  }
   for (const Side side : all_sides) {
     if (kind(side) == Kind::traction || kind(side) == Kind::displacement || kind(side) == Kind::slip) {
       follow_characteristics(q, side);
@@ -49,7 +51,7 @@ void SolidBoundary<L>::find_traction(ConstFieldView q, Side side, double t) {
   const SideIndex line(layout(), side);
   const VectorFunction& tau = boundaries_[index(side)].vector;
   const double delta = 1e-3 * time_scale_;
-  for (int k = 0; k < line.n; ++k) {
+  for (const int k : points(side)) {
     Vec2 &T = T_[index(side)][static_cast<std::size_t>(k)],
          &rate = T_rate_[index(side)][static_cast<std::size_t>(k)];
     const std::ptrdiff_t a = line.at(k, 0);
@@ -107,7 +109,7 @@ void SolidBoundary<L>::find_projected_traction(ConstFieldView q, const Interface
 template <Law L>
 void SolidBoundary<L>::follow_characteristics(FieldView q, Side side) const {
   const SideIndex line(layout(), side);
-  for (int k = 0; k < line.n; ++k) {
+  for (const int k : points(side)) {
     if (!inner(side, k)) continue;
     const std::ptrdiff_t a = line.at(k, 0);
     const SideMetrics m = at(side, k);
@@ -145,7 +147,7 @@ Vec2 SolidBoundary<L>::side_normal_at_end(Side side, int k) const {
 template <Law L>
 void SolidBoundary<L>::set_normal_stress(FieldView q, Side side) const {
   const SideIndex line(layout(), side);
-  for (int k = 0; k < line.n; ++k) {
+  for (const int k : points(side)) {
     const std::ptrdiff_t a = line.at(k, 0);
     const SideMetrics m = at(side, k);
     SolidState s = load(q, a);
@@ -168,6 +170,7 @@ void SolidBoundary<L>::set_corner_stress(FieldView q) const {
   for (const Side side : {Side::left, Side::right}) {
     const SideIndex line(layout(), side);
     for (const int k : {0, line.n - 1}) {
+      if (!advanced(side, k)) continue;
       const Side other = neighbour(side, k != 0);
       const int k_other = at_upper_end(side) ? SideIndex(layout(), other).n - 1 : 0;
       const std::ptrdiff_t a = line.at(k, 0);
@@ -190,6 +193,7 @@ template <Law L>
 void SolidBoundary<L>::extend_stress_to_corners(FieldView q, Side side) const {
   const SideIndex line(layout(), side);
   for (const int k : {0, line.n - 1}) {
+    if (!advanced(side, k)) continue;
     const Kind other = kind(neighbour(side, k != 0));
     const bool to_slip = loaded(side) && other == Kind::slip;
     const bool to_displacement = (loaded(side) || kind(side) == Kind::slip) && other == Kind::displacement;
@@ -220,7 +224,7 @@ Tensor2 SolidBoundary<L>::gradient(ConstFieldView q, Side side, int k, int first
 template <Law L>
 void SolidBoundary<L>::match_side(FieldView q, Side side, double t) const {
   const SideIndex line(layout(), side);
-  for (int k = 0; k < line.n; ++k) {
+  for (const int k : points(side)) {
     if (!inner(side, k)) continue;
     if (loaded(side)) {
       match_point(q, side, k, t);
@@ -280,6 +284,7 @@ void SolidBoundary<L>::match_corners(FieldView q) const {
   for (const Side side : {Side::left, Side::right}) {
     const SideIndex line(layout(), side);
     for (const int k : {0, line.n - 1}) {
+      if (!advanced(side, k)) continue;
       const Side other = neighbour(side, k != 0);
       if (!loaded(side) || !loaded(other)) continue;
       const SideIndex other_line(layout(), other);

@@ -28,6 +28,7 @@ SolidBoundary<L>::SolidBoundary(BoundaryGrid grid, const L& law, double rho, Bou
           fmt::format("grid \"{}\": side {} is a dirichlet side without a state", grid_.name, name_of(side)));
     }
     const SideIndex line(layout(), side);
+    find_points(side);
     T_[index(side)].assign(static_cast<std::size_t>(line.n), Vec2::Zero());
     T_rate_[index(side)] = v_change_[index(side)] = T_[index(side)];
   }
@@ -37,6 +38,32 @@ SolidBoundary<L>::SolidBoundary(BoundaryGrid grid, const L& law, double rho, Bou
                                     grid_.name, name_of(one), name_of(other)));
     }
   }
+}
+
+template <Law L>
+void SolidBoundary<L>::find_points(Side side) {
+  const SideIndex line(layout(), side);
+  for (int k = 0; k < line.n; ++k) {
+    const GridPoint p = grid_point(layout(), side, k);
+    if (grid_.points->is_discretised(p.i, p.j)) {
+      advanced_[index(side)].push_back(k);
+    } else if (grid_.points->is_valid(p.i, p.j)) {
+      interpolated_[index(side)].push_back(k);
+    }
+  }
+}
+
+template <Law L>
+bool SolidBoundary<L>::advanced(Side side, int k) const {
+  const GridPoint p = grid_point(layout(), side, k);
+  return grid_.points->is_discretised(p.i, p.j);
+}
+
+template <Law L>
+bool SolidBoundary<L>::reads_interpolated_points() const {
+  return std::ranges::any_of(all_sides, [&](Side side) {
+    return kind(side) != Kind::none && kind(side) != Kind::periodic && !interpolated_[index(side)].empty();
+  });
 }
 
 template <Law L>
@@ -94,7 +121,9 @@ void SolidBoundary<L>::project_velocity(FieldView q, const InterfaceValues& valu
 /// Later kinds win at corners: interface, slip and symmetry, displacement, exact state.
 template <Law L>
 void SolidBoundary<L>::set_motion(FieldView q, double t, std::span<const InterfaceValues> projected) {
-  for (const InterfaceValues& values : projected) project_velocity(q, values);
+  for (const InterfaceValues& values : projected) {
+    if (values.grid == grid_.index) project_velocity(q, values);
+  }
   for (const Side side : all_sides) {
     if (kind(side) == Kind::slip || kind(side) == Kind::symmetry) remove_normal_motion(q, side);
   }
@@ -114,7 +143,7 @@ template <Law L>
 void SolidBoundary<L>::set_given_motion(FieldView q, Side side, double t) {
   const SideIndex line(layout(), side);
   const Boundary& boundary = boundaries_[index(side)];
-  for (int k = 0; k < line.n; ++k) {
+  for (const int k : points(side)) {
     const std::ptrdiff_t a = line.at(k, 0);
     const Vec2 x = position(a);
     const Vec2 u = boundary.vector ? boundary.vector(x.x(), x.y(), t) : Vec2::Zero().eval();
@@ -133,7 +162,7 @@ template <Law L>
 void SolidBoundary<L>::remove_normal_motion(FieldView q, Side side) {
   constexpr double parallel = 1e-6;
   const SideIndex line(layout(), side);
-  for (int k = 0; k < line.n; ++k) {
+  for (const int k : points(side)) {
     const std::ptrdiff_t a = line.at(k, 0);
     const Vec2 n = at(side, k).n0;
     SolidState s = load(q, a);
@@ -154,6 +183,8 @@ void SolidBoundary<L>::set_exact(FieldView q, Side side, double t, int m) const 
   const SideIndex line(layout(), side);
   const int beyond = m < 0 ? Layout::ghosts : 0;
   for (int k = -beyond; k < line.n + beyond; ++k) {
+    const GridPoint p = grid_point(layout(), side, std::clamp(k, 0, line.n - 1));
+    if (!grid_.points->is_valid(p.i, p.j)) continue;
     const std::ptrdiff_t a = line.at(k, m);
     const Vec2 x = position(a);
     store(q, a, boundaries_[index(side)].state(x.x(), x.y(), t));
@@ -164,6 +195,8 @@ template <Law L>
 void SolidBoundary<L>::fill_side(FieldView q, Side side, double t, const GhostRange& range) const {
   const SideIndex line(layout(), side);
   switch (kind(side)) {
+    case Kind::none:
+      break;
     case Kind::periodic:
       copy_period(q, line, range);
       break;
@@ -195,6 +228,7 @@ template <Law L>
 void SolidBoundary<L>::fill_frame(FieldView q, double t) const {
   constexpr int g = Layout::ghosts;
   for (const Side side : {Side::bottom, Side::top}) {
+    if (kind(side) == Kind::none) continue;
     const SideIndex line(layout(), side);
     for (int m = -1; m >= -g; --m) {
       extrapolate(q, line, {.m = m, .begin = -g, .end = 0}, limiter_);
@@ -208,6 +242,24 @@ void SolidBoundary<L>::fill_frame(FieldView q, double t) const {
     for (int m = -1; m >= -g; --m) {
       fill_side(q, side, t, {.m = m, .begin = -g, .end = 0});
       fill_side(q, side, t, {.m = m, .begin = line.n, .end = line.n + g});
+    }
+  }
+}
+
+/// Repetition last: it also carries the ghost points of other sides.
+template <Law L>
+void SolidBoundary<L>::refresh_ghosts(FieldView q, double t) const {
+  for (const Side side : all_sides) {
+    if (kind(side) == Kind::periodic || kind(side) == Kind::dirichlet) continue;
+    for (const int k : interpolated_[index(side)]) {
+      for (int m = -1; m >= -Layout::ghosts; --m) fill_side(q, side, t, {.m = m, .begin = k, .end = k + 1});
+    }
+  }
+  for (const Side side : all_sides) {
+    if (kind(side) != Kind::periodic) continue;
+    const int n = SideIndex(layout(), side).n;
+    for (int m = -1; m >= -Layout::ghosts; --m) {
+      fill_side(q, side, t, {.m = m, .begin = -Layout::ghosts, .end = n + Layout::ghosts});
     }
   }
 }

@@ -1,6 +1,7 @@
 #pragma once
 /// The solid on one component grid: its fields, their update and their boundary conditions. A domain is a
-/// list of these; what couples them (interpolation between grids) belongs to the owner of the list.
+/// list of these; what couples them (interpolation between grids) belongs to the owner of the list. Unused
+/// points of a composite grid stay at zero; interpolated ones are not advanced.
 
 #include <fmt/format.h>
 
@@ -10,25 +11,34 @@
 #include "solid_solver/dissipation.hpp"
 #include "solid_solver/godunov_sweep.hpp"
 #include "solid_solver/solid_boundary.hpp"
+#include "solid_solver/solid_points.hpp"
 
 namespace fsi::solid {
+
+/// A component grid and the conditions on its sides.
+struct SolidPart {
+  grid::MovingGrid grid;
+  Boundaries boundaries;
+};
 
 template <Law L>
 class SolidComponent {
  public:
-  SolidComponent(grid::MovingGrid grid, const L& law, const SolidOptions& options, Boundaries boundaries);
+  /// `index`: of the grid among those of the body.
+  SolidComponent(SolidPart part, int index, SolidPoints points, const L& law, const SolidOptions& options);
   SolidComponent(const SolidComponent&) = delete;
   SolidComponent& operator=(const SolidComponent&) = delete;
 
   const grid::MovingGrid& grid() const { return grid_; }
   const ReferenceMetrics& metrics() const { return metrics_; }
+  const SolidPoints& points() const { return points_; }
   const SolidBoundary<L>& boundary() const { return boundary_; }
   Layout layout() const { return q_.layout(); }
   ConstFieldView q() const { return q_.view(); }
   FieldView q() { return q_.view(); }
 
   void assign(const StateFunction& state, double t);
-  /// P := P(F(u)) at all points, F by central differences with one-sided ends.
+  /// P := P(F(u)) at discretised points, F by central differences with one-sided ends.
   void assign_stress();
   void set_body_force(VectorFunction force);
   /// Paper eq. (35) to paper eq. (41): the state at t + dt, boundary conditions not applied. On failure the
@@ -37,6 +47,8 @@ class SolidComponent {
   void apply_boundary(double t, std::span<const InterfaceValues> projected) {
     boundary_.apply(q_.view(), t, projected);
   }
+  /// Ghost points beside interpolated points, after these have new values.
+  void refresh_ghosts(double t) { boundary_.refresh_ghosts(q_.view(), t); }
   /// Wave speeds and health of the present state.
   void measure() { measured_ = sweep(0.0); }
   const SweepResult& measured() const { return measured_; }
@@ -47,6 +59,7 @@ class SolidComponent {
   std::string trouble(double dt) const;
 
  private:
+  std::string trouble_at(int i, int j, double dt) const;
   SweepResult sweep(double dt);
   template <class Row>
   SweepResult sweep_with(double dt);
@@ -55,6 +68,7 @@ class SolidComponent {
   void evaluate_force(double t);
 
   grid::MovingGrid grid_;
+  SolidPoints points_;
   L law_;
   SolidOptions options_;
   ReferenceMetrics metrics_;
@@ -78,15 +92,17 @@ inline double crossing_time(const ReferenceMetrics& metrics, const Layout& layou
 }
 
 template <Law L>
-SolidComponent<L>::SolidComponent(grid::MovingGrid grid, const L& law, const SolidOptions& options,
-                                  Boundaries boundaries)
-    : grid_(std::move(grid)),
+SolidComponent<L>::SolidComponent(SolidPart part, int index, SolidPoints points, const L& law,
+                                  const SolidOptions& options)
+    : grid_(std::move(part.grid)),
+      points_(std::move(points)),
       law_(law),
       options_(options),
       metrics_(grid_.x()),
-      boundary_({.name = grid_.name(), .x = grid_.x(), .metrics = &metrics_}, law_, options_.rho,
-                std::move(boundaries), options_.limiter,
-                crossing_time(metrics_, grid_.layout(), law_.lambda + 2.0 * law_.mu, options_.rho)),
+      boundary_(
+          {.name = grid_.name(), .index = index, .x = grid_.x(), .metrics = &metrics_, .points = &points_},
+          law_, options_.rho, std::move(part.boundaries), options_.limiter,
+          crossing_time(metrics_, grid_.layout(), law_.lambda + 2.0 * law_.mu, options_.rho)),
       q_(grid_.layout(), plane::count),
       next_(grid_.layout(), plane::count),
       work_(Layout(grid_.layout().n1, sweep_work_rows), 1) {}
@@ -94,9 +110,11 @@ SolidComponent<L>::SolidComponent(grid::MovingGrid grid, const L& law, const Sol
 template <Law L>
 void SolidComponent<L>::assign(const StateFunction& state, double t) {
   const ConstFieldView x = grid_.x();
-  for (int j = -Layout::ghosts; j < layout().n2 + Layout::ghosts; ++j) {
-    for (int i = -Layout::ghosts; i < layout().n1 + Layout::ghosts; ++i) {
-      store(q_.view(), layout().at(i, j), state(x(0, i, j), x(1, i, j), t));
+  for (int j = 0; j < layout().n2; ++j) {
+    for (const auto& [begin, end] : points_.valid(j)) {
+      for (int i = begin; i < end; ++i) {
+        store(q_.view(), layout().at(i, j), state(x(0, i, j), x(1, i, j), t));
+      }
     }
   }
 }
@@ -104,10 +122,12 @@ void SolidComponent<L>::assign(const StateFunction& state, double t) {
 template <Law L>
 void SolidComponent<L>::assign_stress() {
   for (int j = 0; j < layout().n2; ++j) {
-    for (int i = 0; i < layout().n1; ++i) {
-      SolidState s = load(q_.view(), layout().at(i, j));
-      s.P = law_.P(deformation_gradient(i, j));
-      store(q_.view(), layout().at(i, j), s);
+    for (const auto& [begin, end] : points_.discretised(j)) {
+      for (int i = begin; i < end; ++i) {
+        SolidState s = load(q_.view(), layout().at(i, j));
+        s.P = law_.P(deformation_gradient(i, j));
+        store(q_.view(), layout().at(i, j), s);
+      }
     }
   }
 }
@@ -118,23 +138,30 @@ void SolidComponent<L>::set_body_force(VectorFunction force) {
   force_ = body_force_ ? Field(layout(), 2) : Field();
 }
 
+/// Where the prediction needs it.
 template <Law L>
 void SolidComponent<L>::evaluate_force(double t) {
   if (!body_force_) return;
   const ConstFieldView x = grid_.x();
-  for (int j = -1; j <= layout().n2; ++j) {
-    for (int i = -1; i <= layout().n1; ++i) {
+  const auto evaluate = [&](int j, const grid::Interval& run) {
+    for (int i = run.begin; i < run.end; ++i) {
       const Vec2 force = body_force_(x(0, i, j), x(1, i, j), t);
       force_(0, i, j) = force.x();
       force_(1, i, j) = force.y();
     }
+  };
+  for (int j = -1; j <= layout().n2; ++j) {
+    for (const grid::Interval& run : points_.beside(j)) evaluate(j, run);
+    if (j < 0 || j == layout().n2) continue;
+    for (const grid::Interval& run : points_.discretised(j)) evaluate(j, run);
   }
 }
 
 template <Law L>
 template <class Row>
 SweepResult SolidComponent<L>::sweep_with(double dt) {
-  const SweepData data = {.q = q_.view(),
+  const SweepData data = {.points = &points_,
+                          .q = q_.view(),
                           .next = next_.view(),
                           .force = force_.view(),
                           .work = work_.view(),
@@ -156,11 +183,15 @@ void SolidComponent<L>::dissipate(double dt) {
   const ConstFieldView q = q_.view();
   const double beta_P = options_.tangential_stress.at(dt), beta_u = options_.displacement.at(dt),
                beta_r = options_.relaxation.at(dt), bulk = options_.bulk_diffusion * dt;
+  const FieldView next = next_.view();
   for (int j = 0; j < layout().n2; ++j) {
-    if (beta_P != 0) add_tangential_stress_dissipation<Row>(q, next_.view(), metrics_, beta_P, j);
-    if (beta_u != 0) add_displacement_dissipation(q, next_.view(), beta_u, j);
-    if (beta_r != 0) add_relaxation(q, next_.view(), Gradient(grid_.x(), metrics_, j), law_, beta_r, j);
-    if (bulk != 0) add_bulk_diffusion(q, next_.view(), bulk, j);
+    for (const auto& [begin, end] : points_.discretised(j)) {
+      const RowRun run = {j, begin, end};
+      if (beta_P != 0) add_tangential_stress_dissipation<Row>(q, next, metrics_, beta_P, run);
+      if (beta_u != 0) add_displacement_dissipation(q, next, beta_u, run);
+      if (beta_r != 0) add_relaxation(q, next, Gradient(grid_.x(), metrics_, j), law_, beta_r, run);
+      if (bulk != 0) add_bulk_diffusion(q, next, bulk, run);
+    }
   }
 }
 
@@ -197,24 +228,31 @@ Tensor2 SolidComponent<L>::deformation_gradient(int i, int j) const {
 template <Law L>
 std::string SolidComponent<L>::trouble(double dt) const {
   for (int j = 0; j < layout().n2; ++j) {
-    const StateRows rows(q_.view(), j);
-    for (int i = 0; i < layout().n1; ++i) {
-      const PointMetrics m = metrics_.at(i, j);
-      const Pair d1 = rows.displacement_difference(0, i, 0.5 * dt),
-                 d2 = rows.displacement_difference(1, i, 0.5 * dt);
-      const Tensor2 F = plus_dyad(plus_dyad({1.0, 0.0, 0.0, 1.0}, {d1.x, d2.x}, m.r1), {d1.y, d2.y}, m.r2);
-      const Stiffness K = law_.K(F);
-      const double J = determinant(F);
-      const double phi_s = std::min(wave_eigenvalues(acoustic_matrix(K, m.r1.normalized())).y,
-                                    wave_eigenvalues(acoustic_matrix(K, m.r2.normalized())).y);
-      if (!(J > 0)) return fmt::format("grid \"{}\", point ({}, {}): det F = {:.4g}", grid_.name(), i, j, J);
-      if (!(phi_s > 0)) {
-        return fmt::format("grid \"{}\", point ({}, {}): no longer hyperbolic, phi_s = {:.4g}", grid_.name(),
-                           i, j, phi_s);
+    for (const auto& [begin, end] : points_.discretised(j)) {
+      for (int i = begin; i < end; ++i) {
+        if (const std::string what = trouble_at(i, j, dt); !what.empty()) {
+          return fmt::format("grid \"{}\", point ({}, {}): {}", grid_.name(), i, j, what);
+        }
       }
     }
   }
   return fmt::format("grid \"{}\": not a number", grid_.name());
+}
+
+template <Law L>
+std::string SolidComponent<L>::trouble_at(int i, int j, double dt) const {
+  const StateRows rows(q_.view(), j);
+  const PointMetrics m = metrics_.at(i, j);
+  const Pair d1 = rows.displacement_difference(0, i, 0.5 * dt),
+             d2 = rows.displacement_difference(1, i, 0.5 * dt);
+  const Tensor2 F = plus_dyad(plus_dyad({1.0, 0.0, 0.0, 1.0}, {d1.x, d2.x}, m.r1), {d1.y, d2.y}, m.r2);
+  const Stiffness K = law_.K(F);
+  const double J = determinant(F);
+  const double phi_s = std::min(wave_eigenvalues(acoustic_matrix(K, m.r1.normalized())).y,
+                                wave_eigenvalues(acoustic_matrix(K, m.r2.normalized())).y);
+  if (!(J > 0)) return fmt::format("det F = {:.4g}", J);
+  if (!(phi_s > 0)) return fmt::format("no longer hyperbolic, phi_s = {:.4g}", phi_s);
+  return {};
 }
 
 }  // namespace fsi::solid

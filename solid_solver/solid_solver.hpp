@@ -2,21 +2,27 @@
 /// The solid: a hyperelastic body on its reference configuration, advanced in time by an upwind scheme for
 /// the first-order system of displacement, velocity and nominal stress (the paper's section 4.2).
 ///
-///     SolidSolver solver(grid, law, options, boundaries, t0);
+///     SolidSolver solver(grid, law, options, boundaries, t0);       or   solver(parts, bodies, law, ...)
 ///     solver.assign_initial_conditions(u, v);
 ///     loop:  dt = solver.compute_time_step().dt
 ///            solver.advance_solid(t, dt)                  predicted state at t + dt
 ///            solver.apply_solid_bcs(t + dt, projected)    boundary points and ghosts at t + dt
 
 #include <cstdint>
+#include <deque>
+#include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "common/core/field.hpp"
+#include "common/grid/composite_grid.hpp"
 #include "common/grid/moving_grid.hpp"
 #include "solid_solver/body_integrals.hpp"
+#include "solid_solver/composite.hpp"
 #include "solid_solver/interface.hpp"
 #include "solid_solver/options.hpp"
+#include "solid_solver/pose.hpp"
 #include "solid_solver/probe.hpp"
 #include "solid_solver/solid_component.hpp"
 #include "solid_solver/time_step.hpp"
@@ -38,50 +44,70 @@ struct Health {
 template <Law L>
 class SolidSolver {
  public:
-  /// @throws UserMistake where boundaries, grid and options do not fit together
+  /// A body on one grid. @throws UserMistake where boundaries, grid and options do not fit together
   SolidSolver(grid::MovingGrid reference_grid, L law, SolidOptions options, Boundaries boundaries, double t0)
-      : law_(law),
-        options_(options),
-        component_(std::move(reference_grid), law_, options_, std::move(boundaries)),
-        t_(t0) {
+      : SolidSolver(one_part(std::move(reference_grid), std::move(boundaries)), {}, law, options, t0) {}
+
+  /// A body on overlapping grids: parts[0] is the background, a rectangle along x and y, and parts[k] the
+  /// body-fitted grid that bodies[k - 1] describes. A single part without bodies may have any shape.
+  /// @throws UserMistake as above, and where the grids do not fit together
+  SolidSolver(std::vector<SolidPart> parts, std::vector<grid::BodyFittedGrid> bodies, L law,
+              SolidOptions options, double t0)
+      : law_(law), options_(options), composite_(connected(parts, std::move(bodies))), t_(t0) {
     if (!(options_.rho > 0))
       throw UserMistake(fmt::format("rho = {:g}: the density must be positive", options_.rho));
     if (time_stepping_eigenvalue(1.0, options_).beta >= 2.0) {
       throw UserMistake(
           "the scaled parts of dissipation and relaxation must add up to less than 2 for the solid");
     }
+    if (composite_) areas_ = areas_of(*composite_, parts);
+    for (SolidPart& part : parts) {
+      const int index = grids();
+      components_.emplace_back(std::move(part), index, points_of(composite_, index, part.grid.layout()), law_,
+                               options_);
+      interpolate_first_ |= components_.back().boundary().reads_interpolated_points();
+    }
+    views_.resize(components_.size());
   }
+  SolidSolver(const SolidSolver&) = delete;
+  SolidSolver& operator=(const SolidSolver&) = delete;
 
-  /// State at t0 from functions of the reference position; the stress is P(F(u)) by differences of u.
+  /// State at t0 from functions of the reference position; the stress is P(F(u)) by differences of u. The
+  /// functions are asked at points that have a value only.
   void assign_initial_conditions(const VectorFunction& u, const VectorFunction& v) {
-    component_.assign(
-        [&](double x, double y, double t) { return SolidState{.u = u(x, y, t), .v = v(x, y, t), .P = {}}; },
-        t_);
-    component_.assign_stress();
+    const StateFunction state = [&](double x, double y, double t) {
+      return SolidState{.u = u(x, y, t), .v = v(x, y, t), .P = {}};
+    };
+    for (SolidComponent<L>& component : components_) {
+      component.assign(state, t_);
+      component.assign_stress();
+    }
     start();
   }
   /// State at t0, stress given.
   void assign_initial_conditions(const StateFunction& state) {
-    component_.assign(state, t_);
+    for (SolidComponent<L>& component : components_) component.assign(state, t_);
     start();
   }
   /// Force per unit reference volume.
-  void set_body_force(VectorFunction force) { component_.set_body_force(std::move(force)); }
+  void set_body_force(const VectorFunction& force) {
+    for (SolidComponent<L>& component : components_) component.set_body_force(force);
+  }
 
   /// Largest stable step for the present state: paper eq. (44) in paper eq. (45), times the safety factor.
   /// The wave speeds are those the last sweep met (half a step old).
   TimeStep compute_time_step() const {
-    const double waves = std::sqrt(component_.measured().rate_squared);
+    const double waves = std::sqrt(measured().rate_squared);
     const TimeSteppingEigenvalue lambda = time_stepping_eigenvalue(waves, options_);
     const double damping = -lambda.real + lambda.beta * waves;
     return {.dt = options_.cfl * largest_time_step(lambda),
             .reason = waves > damping ? "waves in the solid" : "dissipation in the solid"};
   }
-  /// Predicted state at t + dt at all points; no boundary or interface condition is applied.
+  /// Predicted state at t + dt at all discretised points; no boundary or interface condition is applied.
   /// @throws NumbersBroke at det F <= 0 or where the system is no longer hyperbolic
   void advance_solid(double t, double dt) {
     try {
-      component_.advance(t, dt);
+      for (SolidComponent<L>& component : components_) component.advance(t, dt);
     } catch (const NumbersBroke& failure) {
       throw NumbersBroke(fmt::format("step {}, t = {:.6g}, {}", steps_ + 1, t, failure.what()));
     }
@@ -89,47 +115,131 @@ class SolidSolver {
     t_ = t + dt;
   }
   /// Predicted state of the interface points of a side; reuses the memory of `state`. Needs no ghost points.
-  void interface_state(Side side, SolidInterface& state) const {
-    gather_interface(component_, law_, options_.rho, side, state);
+  void interface_state(Side side, SolidInterface& state, int grid = 0) const {
+    gather_interface(component(grid), law_, options_.rho, side, state);
   }
-  /// Boundary conditions and ghost points at time t. `projected` has one entry per interface side.
+  /// Boundary conditions and ghost points at time t, then interpolation between the grids. `projected` has
+  /// one entry per interface side.
   void apply_solid_bcs(double t, std::span<const InterfaceValues> projected = {}) {
-    component_.apply_boundary(t, projected);
+    if (interpolate_first_) interpolate();
+    for (SolidComponent<L>& component : components_) component.apply_boundary(t, projected);
+    if (composite_) {
+      interpolate();
+      for (SolidComponent<L>& component : components_) component.refresh_ghosts(t);
+    }
     t_ = t;
   }
 
-  Health health() const {
-    return {.min_det_F = component_.measured().min_det_F, .min_phi_s = component_.measured().min_phi_s};
+  Health health() const { return {.min_det_F = measured().min_det_F, .min_phi_s = measured().min_phi_s}; }
+  /// Overlaps of grids count once.
+  Totals totals() const;
+  /// Over all points that have a value.
+  Errors errors(const StateFunction& exact, double t) const {
+    Errors errors;
+    for (const SolidComponent<L>& component : components_) add_errors(component, exact, t, errors);
+    return errors;
   }
-  Totals totals() const { return body_totals(component_, law_, options_.rho); }
-  Errors errors(const StateFunction& exact, double t) const { return largest_errors(component_, exact, t); }
-  SideLoad side_load(Side side) const { return load_on_side(component_, side); }
-  /// @throws UserMistake when (x, y) lies outside the reference grid
-  ProbePoint locate(double x, double y) const { return locate_probe(component_.grid(), x, y); }
-  SolidState value(const ProbePoint& probe) const { return value_at_probe(component_.q(), probe); }
+  SideLoad side_load(Side side, int grid = 0) const { return load_on_side(component(grid), side); }
+  Pose pose() const;
+  /// Body-fitted grids come first. @throws UserMistake when (x, y) lies outside the reference grids
+  ProbePoint locate(double x, double y) const;
+  SolidState value(const ProbePoint& probe) const { return value_at_probe(state(probe.grid), probe); }
 
+  int grids() const { return static_cast<int>(components_.size()); }
+  /// Null for a body on one grid.
+  const grid::CompositeGrid* composite() const { return composite_ ? &*composite_ : nullptr; }
   /// Planes u1, u2, v1, v2, P11, P12, P21, P22 (namespace plane of state.hpp), ghosts included.
-  ConstFieldView state() const { return component_.q(); }
+  ConstFieldView state(int grid = 0) const { return component(grid).q(); }
   /// The same, for a restart.
-  FieldView state() { return component_.q(); }
+  FieldView state(int grid = 0) { return components_[static_cast<std::size_t>(grid)].q(); }
   /// Reference positions of the points.
-  ConstFieldView reference() const { return component_.grid().x(); }
-  const grid::MovingGrid& grid() const { return component_.grid(); }
-  std::size_t points() const { return component_.layout().points(); }
+  ConstFieldView reference(int grid = 0) const { return component(grid).grid().x(); }
+  const grid::MovingGrid& grid(int grid = 0) const { return component(grid).grid(); }
+  /// Points that have a value, all grids.
+  std::size_t points() const {
+    std::size_t sum = 0;
+    for (const SolidComponent<L>& component : components_) sum += component.points().count();
+    return sum;
+  }
   std::uint64_t steps() const { return steps_; }
   double t() const { return t_; }
 
  private:
+  static std::vector<SolidPart> one_part(grid::MovingGrid grid, Boundaries boundaries) {
+    std::vector<SolidPart> parts;
+    parts.push_back({std::move(grid), std::move(boundaries)});
+    return parts;
+  }
+  const SolidComponent<L>& component(int grid) const { return components_[static_cast<std::size_t>(grid)]; }
+  SweepResult measured() const {
+    SweepResult all;
+    for (const SolidComponent<L>& component : components_) all.add(component.measured());
+    return all;
+  }
+  void interpolate() {
+    if (!composite_) return;
+    for (std::size_t k = 0; k < views_.size(); ++k) views_[k] = components_[k].q();
+    composite_->interpolate(views_);
+  }
   void start() {
-    component_.apply_boundary(t_, {});
-    component_.measure();
+    interpolate();
+    apply_solid_bcs(t_);
+    for (SolidComponent<L>& component : components_) component.measure();
   }
 
   L law_;
   SolidOptions options_;
-  SolidComponent<L> component_;
+  std::optional<grid::CompositeGrid> composite_;
+  std::vector<Field> areas_;  ///< of the points of a composite grid
+  std::deque<SolidComponent<L>> components_;
+  std::vector<FieldView> views_;    ///< work memory
+  bool interpolate_first_ = false;  ///< boundary conditions read interpolated points
   double t_;
   std::uint64_t steps_ = 0;
 };
+
+template <Law L>
+Totals SolidSolver<L>::totals() const {
+  std::vector<Field> psi;
+  std::vector<FieldView> views;
+  for (const SolidComponent<L>& component : components_) {
+    psi.push_back(strain_energy_density(component, law_));
+    views.push_back(psi.back().view());
+  }
+  Totals totals;
+  if (!composite_) {
+    const Field areas = trapezoidal_areas(component(0));
+    add_totals(component(0), {areas.view(), psi[0].view()}, options_.rho, totals);
+    return totals;
+  }
+  composite_->interpolate(views);
+  for (std::size_t k = 0; k < areas_.size(); ++k) {
+    add_totals(components_[k], {areas_[k].view(), psi[k].view()}, options_.rho, totals);
+  }
+  return totals;
+}
+
+template <Law L>
+Pose SolidSolver<L>::pose() const {
+  if (!composite_) return pose_of(reference(), state());
+  std::vector<PosePart> parts;
+  for (int k = 0; k < grids(); ++k) {
+    parts.push_back({reference(k), state(k), areas_[static_cast<std::size_t>(k)].view()});
+  }
+  return pose_of(parts);
+}
+
+template <Law L>
+ProbePoint SolidSolver<L>::locate(double x, double y) const {
+  for (int k = 1; k <= grids(); ++k) {
+    const int grid = k % grids();
+    if (auto found = locate_probe(reference(grid), component(grid).points(), x, y)) {
+      found->grid = grid;
+      return *found;
+    }
+  }
+  throw UserMistake(
+      fmt::format("probe at ({:g}, {:g}) lies outside the reference grid \"{}\"", x, y, grid().name()));
+}
 
 }  // namespace fsi::solid

@@ -1,5 +1,7 @@
 #pragma once
-/// Rows of unknowns, faces and stiffnesses as the loops of the sweep see them.
+/// Rows of unknowns, faces and stiffnesses as the loops of the sweep see them. Whatever a loop calls is
+/// inlined by force, here and in the other headers of the kernels: a loop with one call left in it does not
+/// vectorise.
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +16,7 @@ namespace fsi::solid {
 
 /// Half of the undivided slope at the middle one of three values.
 template <Limiter limiter>
-inline double half_slope(double lower, double middle, double upper) {
+[[gnu::always_inline]] inline double half_slope(double lower, double middle, double upper) {
   if constexpr (limiter == Limiter::none) {
     return 0.25 * (upper - lower);
   } else {
@@ -37,12 +39,12 @@ struct StateRows {
   }
   /// Half slopes of unknown k along r1 and r2.
   template <Limiter limiter>
-  Pair half_slopes(int k, int i) const {
+  [[gnu::always_inline]] Pair half_slopes(int k, int i) const {
     return {half_slope<limiter>(here[k][i - 1], here[k][i], here[k][i + 1]),
             half_slope<limiter>(below[k][i], here[k][i], above[k][i])};
   }
   /// Central differences of u_k + time * v_k over one index along r1 and r2, k = 0, 1.
-  Pair displacement_difference(int k, int i, double time) const {
+  [[gnu::always_inline]] Pair displacement_difference(int k, int i, double time) const {
     const int u = plane::u1 + k, v = plane::v1 + k;
     return {0.5 * ((here[u][i + 1] - here[u][i - 1]) + time * (here[v][i + 1] - here[v][i - 1])),
             0.5 * ((above[u][i] - below[u][i]) + time * (above[v][i] - below[v][i]))};
@@ -52,7 +54,8 @@ struct StateRows {
 /// F at point i of a row for the displacement u + time * v by second-order differences, paper eq. (33), a
 /// discrete paper eq. (3).
 template <class Row>
-inline Tensor2 deformation_gradient(const Row& row, const StateRows& q, int i, double time) {
+[[gnu::always_inline]] inline Tensor2 deformation_gradient(const Row& row, const StateRows& q, int i,
+                                                           double time) {
   const Pair d1 = q.displacement_difference(0, i, time), d2 = q.displacement_difference(1, i, time);
   const Pair g1 = row.gradient(i, d1.x, d1.y), g2 = row.gradient(i, d2.x, d2.y);
   return {1.0 + g1.x, g1.y, g2.x, 1.0 + g2.y};
@@ -62,21 +65,21 @@ inline Tensor2 deformation_gradient(const Row& row, const StateRows& q, int i, d
 struct FaceRows {
   double *v1, *v2, *f1, *f2;
 
-  void set(int i, double w1, double w2, const Pair& force) const {
+  [[gnu::always_inline]] void set(int i, double w1, double w2, const Pair& force) const {
     v1[i] = w1;
     v2[i] = w2;
     f1[i] = force.x;
     f2[i] = force.y;
   }
-  void set(int i, const FaceState& s) const { set(i, s.v1, s.v2, {s.f1, s.f2}); }
-  FaceState at(int i) const { return {v1[i], v2[i], f1[i], f2[i]}; }
+  [[gnu::always_inline]] void set(int i, const FaceState& s) const { set(i, s.v1, s.v2, {s.f1, s.f2}); }
+  [[gnu::always_inline]] FaceState at(int i) const { return {v1[i], v2[i], f1[i], f2[i]}; }
 };
 
 /// Acoustic matrices along a row.
 struct AcousticRows {
   double *a11, *a12, *a22;
 
-  void set(int i, const SymmetricTensor2& A) const {
+  [[gnu::always_inline]] void set(int i, const SymmetricTensor2& A) const {
     a11[i] = A.a11;
     a12[i] = A.a12;
     a22[i] = A.a22;
@@ -87,7 +90,7 @@ struct AcousticRows {
 struct StiffnessRows {
   double *k1111, *k1112, *k1121, *k1122, *k1221, *k1222, *k2112, *k2121, *k2122, *k2222;
 
-  void set(int i, const Stiffness& K) const {
+  [[gnu::always_inline]] void set(int i, const Stiffness& K) const {
     k1111[i] = K.k1111;
     k1112[i] = K.k1112;
     k1121[i] = K.k1121;
@@ -99,7 +102,7 @@ struct StiffnessRows {
     k2122[i] = K.k2122;
     k2222[i] = K.k2222;
   }
-  Stiffness at(int i) const {
+  [[gnu::always_inline]] Stiffness at(int i) const {
     return {k1111[i], k1112[i], k1121[i], k1122[i], k1221[i],
             k1222[i], k2112[i], k2121[i], k2122[i], k2222[i]};
   }
@@ -107,7 +110,7 @@ struct StiffnessRows {
 
 /// Largest and smallest eigenvalue of an acoustic matrix: phi_p and phi_s, paper eq. (16) and the text after
 /// it.
-inline Pair wave_eigenvalues(const SymmetricTensor2& A) {
+[[gnu::always_inline]] inline Pair wave_eigenvalues(const SymmetricTensor2& A) {
   const double mean = 0.5 * (A.a11 + A.a22), difference = 0.5 * (A.a11 - A.a22);
   const double radius = std::sqrt(difference * difference + A.a12 * A.a12);
   return {mean + radius, mean - radius};

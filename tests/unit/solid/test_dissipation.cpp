@@ -37,7 +37,7 @@ TEST(Eq39Dissipation, LeavesTheTractionOnTheFacesAlone) {
   const Field q = sawtooth_along_r1(grid.layout());
   Field next(grid.layout(), plane::count);
   for (int j = 0; j < 13; ++j) {
-    add_tangential_stress_dissipation<MappedRow>(q.view(), next.view(), metrics, 0.5, j);
+    add_tangential_stress_dissipation<MappedRow>(q.view(), next.view(), metrics, 0.5, {j, 0, 13});
     for (int i = 0; i < 13; ++i) {
       const Vec2 n = metrics.at(i, j).r1.normalized(), t(-n.y(), n.x());
       const Tensor2 change = load(next.view(), grid.layout().at(i, j)).P,
@@ -56,7 +56,7 @@ TEST(Eq40Dissipation, DampsASawtoothOfTheDisplacement) {
   const Layout layout(12, 12);
   const Field q = sawtooth_along_r1(layout);
   Field next(layout, plane::count);
-  add_displacement_dissipation(q.view(), next.view(), 0.5, 4);
+  add_displacement_dissipation(q.view(), next.view(), 0.5, {4, 0, 12});
   for (int i = 0; i < 12; ++i) {
     EXPECT_DOUBLE_EQ(next(plane::u1, i, 4),
                      -0.25 * q(plane::u1, i, 4));  // half of beta: one of two directions
@@ -81,7 +81,7 @@ TEST(Eq41Relaxation, PullsTheStressOntoTheLaw) {
   }
   const Tensor2 right = law.P(F);
   const MappedGradient4 gradient(grid.x(), metrics, 6);
-  add_relaxation(q.view(), next.view(), gradient, law, 1.0, 6);
+  add_relaxation(q.view(), next.view(), gradient, law, 1.0, {6, 0, 13});
   for (int i = 0; i < 13; ++i) {
     EXPECT_NEAR(next(plane::P11, i, 6), right.a11, 1e-12);  // differences of u amplify round-off by 1/h
     EXPECT_NEAR(next(plane::P12, i, 6), right.a12, 1e-12);
@@ -96,7 +96,7 @@ TEST(BulkDiffusion, LeavesLinearFieldsAlone) {
   for (int j = -2; j < 10; ++j) {
     for (int i = -2; i < 10; ++i) q(plane::v1, i, j) = 3 + 2 * i - 5 * j;
   }
-  add_bulk_diffusion(q.view(), next.view(), 0.1, 3);
+  add_bulk_diffusion(q.view(), next.view(), 0.1, {3, 0, 8});
   for (int i = 0; i < 8; ++i) EXPECT_EQ(next(plane::v1, i, 3), 0);
 }
 

@@ -1,0 +1,55 @@
+#include "solid_solver/solid_points.hpp"
+
+#include <utility>
+#include <vector>
+
+namespace fsi::solid {
+
+namespace {
+
+grid::RowSets full(const Layout& layout) {
+  grid::RowSets rows;
+  for (int j = 0; j < layout.n2; ++j) {
+    rows.append(grid::Interval{0, layout.n1});
+    rows.end_row();
+  }
+  return rows;
+}
+
+}  // namespace
+
+SolidPoints::SolidPoints(const Layout& layout) : SolidPoints(layout, full(layout), full(layout)) {}
+
+SolidPoints::SolidPoints(const Layout& layout, grid::RowSets discretised, grid::RowSets valid)
+    : discretised_(std::move(discretised)), valid_(std::move(valid)) {
+  find_neighbours(layout);
+}
+
+void SolidPoints::find_neighbours(const Layout& layout) {
+  std::vector<grid::Interval> needed, rest;
+  const auto row = [&](int j) {
+    return j >= 0 && j < layout.n2 ? discretised(j) : std::span<const grid::Interval>();
+  };
+  const auto add = [&](int j, int reach) {
+    for (const grid::Interval& run : row(j)) needed.push_back({run.begin - reach, run.end + reach});
+  };
+  for (int j = -1; j <= layout.n2; ++j) {
+    needed.clear();
+    rest.clear();
+    add(j - 1, 0);
+    add(j, 0);
+    unite(needed);
+    if (j >= 0) {
+      faces_.append(needed);
+      faces_.end_row();
+    }
+    add(j, 1);
+    add(j + 1, 0);
+    unite(needed);
+    subtract(needed, row(j), rest);
+    beside_.append(rest);
+    beside_.end_row();
+  }
+}
+
+}  // namespace fsi::solid

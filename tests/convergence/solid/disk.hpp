@@ -1,0 +1,54 @@
+#pragma once
+/// A disk of radius 1 covered by a Cartesian background and an annulus marched inward from its outline.
+
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "common/grid/composite_grid.hpp"
+#include "common/grid/hyperbolic.hpp"
+#include "common/grid/shapes/circle.hpp"
+#include "common/grid/shapes/ellipse.hpp"
+#include "solid_solver/solid_component.hpp"
+
+namespace fsi::solid::test {
+
+struct DiskGrids {
+  std::vector<SolidPart> parts;
+  std::vector<grid::BodyFittedGrid> bodies;
+};
+
+/// `cells` per unit length, in the background and along the outline; `rim` is the condition on the outline,
+/// side bottom of grid 1.
+inline DiskGrids body_of(const grid::PlaneCurve& outline, int cells, Boundary rim, int lines = 9) {
+  const double h = 1.0 / cells;
+  const int points = static_cast<int>(grid::length_of(outline) * cells) + 1;
+  const grid::HyperbolicGrid annulus{.name = "annulus", .points = points, .lines = lines, .spacing = h};
+  Boundaries nothing, sides;
+  for (Boundary& boundary : nothing) boundary.kind = Boundary::Kind::none;
+  sides[0].kind = sides[1].kind = Boundary::Kind::periodic;
+  sides[2] = std::move(rim);
+  sides[3].kind = Boundary::Kind::none;
+  // Half a cell off centre: no point of the background is anything special to the outline.
+  const double low = -1.25, high = 1.25;
+  const int n = static_cast<int>(std::lround((high - low) * cells)) + 1;
+  DiskGrids disk;
+  disk.parts.push_back({grid::MovingGrid({.name = "inside",
+                                          .n1 = n,
+                                          .n2 = n,
+                                          .mapping = [=](double r, double s, double) -> Vec2 {
+                                            return {low + (high - low) * r, low + (high - low) * s};
+                                          }},
+                                         0),
+                        nothing});
+  disk.parts.push_back(
+      {grid::MovingGrid(grid::marched_from(annulus, grid::points_on(outline, points)), 0), sides});
+  disk.bodies.push_back({.name = "annulus", .n1 = points, .n2 = lines});
+  return disk;
+}
+
+inline DiskGrids disk_of(int cells, Boundary rim, int lines = 9) {
+  return body_of(grid::circle({0, 0}, 1), cells, std::move(rim), lines);
+}
+
+}  // namespace fsi::solid::test
