@@ -264,12 +264,14 @@ void inline_points(Node& shape, const std::string& folder) {
            fmt::format("{} cannot be read; its path counts from the folder of the case file",
                        in_ticks(path.string())));
     }
-    Node list{.kind = Node::Kind::list, .place = entry.value.place};
+    Node list{.kind = Node::Kind::list, .place = entry.value.place, .entries = {}};
     for (const Vec2& point : grid::points_from_csv(text.str(), path.string())) {
-      Node pair{.kind = Node::Kind::list, .place = entry.value.place};
+      Node pair{.kind = Node::Kind::list, .place = entry.value.place, .entries = {}};
       for (const double x : {point[0], point[1]}) {
-        pair.items.push_back(
-            {.kind = Node::Kind::scalar, .place = entry.value.place, .text = fmt::format("{}", x)});
+        pair.items.push_back({.kind = Node::Kind::scalar,
+                              .place = entry.value.place,
+                              .text = fmt::format("{}", x),
+                              .entries = {}});
       }
       list.items.push_back(std::move(pair));
     }

@@ -22,7 +22,7 @@ struct Node {
   bool quoted = false;     ///< the scalar was written in quotes
   std::optional<double> number = {};  ///< value of a scalar that was evaluated
   std::vector<Node> items = {};       ///< list
-  std::vector<Entry> entries = {};    ///< map, in the order of the file
+  std::vector<Entry> entries;         ///< map, in the order of the file
 
   bool is_scalar() const { return kind == Kind::scalar; }
   bool is_list() const { return kind == Kind::list; }
