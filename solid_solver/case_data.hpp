@@ -19,6 +19,7 @@
 #include "common/program/reference_from_case.hpp"
 #include "solid_solver/manufactured.hpp"
 #include "solid_solver/options.hpp"
+#include "solid_solver/solid_component.hpp"
 
 namespace fsi::solid {
 
@@ -32,6 +33,11 @@ inline VectorFunction rate_of(VectorFunction f) {
     constexpr double h = 1e-3;
     return (8 * (f(x, y, t + h) - f(x, y, t - h)) - (f(x, y, t + 2 * h) - f(x, y, t - 2 * h))) / (12 * h);
   };
+}
+
+/// How the points of a side of a grid continue beyond its ends.
+inline grid::Curve curve_along(const grid::MovingGrid& grid, Side side) {
+  return grid.periodic(1 - direction_of(side)) ? grid::Curve::closed : grid::Curve::open;
 }
 
 template <Law L>
@@ -50,7 +56,14 @@ class CaseData {
     }
   }
 
-  grid::MovingGrid grid() const { return {grid_from_case(spec_.grid, false), 0}; }
+  /// The grid of the case, and the one fitted to the solid's outline where it has a shape.
+  std::vector<SolidPart> parts() const {
+    std::vector<SolidPart> all;
+    all.push_back(part(grid_from_case(spec_.grid, false), spec_.boundary));
+    for (const BodyFittedSpec& fitted : spec_.body_fitted)
+      all.push_back(part(grid_from_case(fitted), fitted.boundary));
+    return all;
+  }
 
   SolidOptions options() const {
     const SolidScheme& scheme = spec_.scheme;
@@ -62,12 +75,6 @@ class CaseData {
             .relaxation = beta(scheme.relaxation),
             .bulk_diffusion = scheme.bulk_diffusion,
             .cfl = cfl_};
-  }
-
-  Boundaries boundaries() const {
-    Boundaries all;
-    for (const Side side : all_sides) all[static_cast<std::size_t>(side)] = boundary(side);
-    return all;
   }
 
   /// State of the case's reference solution; empty where there is none.
@@ -105,8 +112,16 @@ class CaseData {
     return [](double, double, double) -> Vec2 { return Vec2::Zero(); };
   }
 
-  Boundary boundary(Side side) const {
-    const BoundarySpec& spec = spec_.boundary[static_cast<std::size_t>(side)];
+  SolidPart part(grid::GridDescription description, const std::array<BoundarySpec, 4>& specs) const {
+    SolidPart result{.grid = grid::MovingGrid(std::move(description), 0), .boundaries = {}};
+    for (const Side side : all_sides) {
+      const auto k = static_cast<std::size_t>(side);
+      result.boundaries[k] = boundary(specs[k], side, result.grid);
+    }
+    return result;
+  }
+
+  Boundary boundary(const BoundarySpec& spec, Side side, const grid::MovingGrid& grid) const {
     Boundary result;
     result.load = spec.on_reference ? LoadConfiguration::reference : LoadConfiguration::current;
     switch (spec.kind) {
@@ -124,7 +139,7 @@ class CaseData {
         return result;
       case BoundaryKind::traction:
         result.kind = Boundary::Kind::traction;
-        if (spec.from_reference) result.vector = reference_traction(side);
+        if (spec.from_reference) result.vector = reference_traction(spec, side, grid);
         if (spec.vector) result.vector = function_of(*spec.vector);
         return result;
       case BoundaryKind::displacement:
@@ -144,6 +159,8 @@ class CaseData {
         result.state = required_reference(side);
         return result;
       case BoundaryKind::none:
+        result.kind = Boundary::Kind::none;
+        return result;
       case BoundaryKind::inflow:
       case BoundaryKind::outflow:
         break;
@@ -165,14 +182,13 @@ class CaseData {
 
   /// Traction of the reference solution per unit current area: eta n0^T P with eta = 1 / |F t0|, paper eq.
   /// (13).
-  VectorFunction reference_traction(Side side) const {
+  VectorFunction reference_traction(const BoundarySpec& spec, Side side, const grid::MovingGrid& grid) const {
     if (!manufactured_)
       throw UserMistake(
           fmt::format("solid \"{}\": traction from the reference needs its displacement u", spec_.name));
-    const grid::MovingGrid reference = grid();
-    auto x = reference.side_points(side);
-    auto n = grid::normals(x, grid::Curve::open, grid::outward(side));
-    const bool on_reference = spec_.boundary[static_cast<std::size_t>(side)].on_reference;
+    auto x = grid.side_points(side);
+    auto n = grid::normals(x, curve_along(grid, side), grid::outward(side));
+    const bool on_reference = spec.on_reference;
     return
         [=, m = manufactured_, x = std::move(x), n = std::move(n)](double x1, double x2, double t) -> Vec2 {
           const std::size_t count = x.size() / 2;

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/case/composite_from_case.hpp"
 #include "common/grid/interface_geometry.hpp"
 #include "common/io/csv_writer.hpp"
 #include "common/io/grid_writer.hpp"
@@ -28,11 +29,10 @@ class SolidParticipant final : public Participant {
         spec_(spec),
         law_{spec.lambda, spec.mu},
         data_(setup, spec, law_),
-        solver_(data_.grid(), law_, data_.options(), data_.boundaries(), 0),
+        solver_(data_.parts(), bodies_of(spec.body_fitted), law_, data_.options(), 0),
         fields_(setup.run_dir, "solid_" + spec.name) {
-    for (const Side side : all_sides) {
-      if (spec.boundary[static_cast<std::size_t>(side)].kind == BoundaryKind::interface) side_ = side;
-    }
+    find_interface(0, spec.boundary);
+    for (const BodyFittedSpec& fitted : spec.body_fitted) find_interface(1, fitted.boundary);
     if (const VectorFunction force = data_.body_force()) solver_.set_body_force(force);
     if (const StateFunction initial = data_.initial_state()) {
       solver_.assign_initial_conditions(initial);
@@ -52,12 +52,12 @@ class SolidParticipant final : public Participant {
     hello.points = solver_.points();
     if (side_) {
       SolidInterface state;
-      solver_.interface_state(*side_, state);
+      solver_.interface_state(*side_, state, grid_);
       hello.interfaces.push_back(
           {.name = spec_.name,
            .dimension = 2,
            .x = state.x,
-           .n = grid::normals(solver_.grid().side_points(*side_), curve(), grid::outward(*side_))});
+           .n = grid::normals(solver_.grid(grid_).side_points(*side_), curve(), grid::outward(*side_))});
     }
     return hello;
   }
@@ -68,7 +68,7 @@ class SolidParticipant final : public Participant {
   }
 
   void fill(std::size_t /*k*/, wire::PredictedInterface& predicted) const override {
-    solver_.interface_state(*side_, interface_);
+    solver_.interface_state(*side_, interface_, grid_);
     predicted.x = interface_.x;
     predicted.v = interface_.v;
     predicted.w = interface_.w;
@@ -83,7 +83,7 @@ class SolidParticipant final : public Participant {
       return;
     }
     const wire::ProjectedInterface& p = *projected.front();
-    const InterfaceValues values[] = {{.side = *side_, .n = p.n, .v_n = p.v_n, .w_n = p.w_n}};
+    const InterfaceValues values[] = {{.side = *side_, .n = p.n, .v_n = p.v_n, .w_n = p.w_n, .grid = grid_}};
     solver_.apply_solid_bcs(t, values);
   }
 
@@ -98,17 +98,23 @@ class SolidParticipant final : public Participant {
 
   void write_fields(double t, std::uint64_t step) override {
     static constexpr const char* names[] = {"u1", "u2", "v1", "v2", "P11", "P12", "P21", "P22"};
-    const ConstFieldView q = solver_.state();
-    std::vector<io::NamedPlane> planes;
-    for (int k = 0; k < 8; ++k) planes.push_back({names[k], q, k});
-    const io::GridOutput grids[] = {
-        {.grid = solver_.grid().name(), .x = solver_.reference(), .u = q, .fields = std::move(planes)}};
+    std::vector<io::GridOutput> grids;
+    for (int g = 0; g < solver_.grids(); ++g) {
+      const ConstFieldView q = std::as_const(solver_).state(g);
+      std::vector<io::NamedPlane> planes;
+      for (int k = 0; k < 8; ++k) planes.push_back({names[k], q, k});
+      grids.push_back({.grid = solver_.grid(g).name(),
+                       .x = solver_.reference(g),
+                       .u = q,
+                       .fields = std::move(planes),
+                       .kinds = kinds_of(solver_.composite(), g)});
+    }
     fields_.write(t, step, grids);
   }
 
   void write_tables(double t, double /*dt*/, ProjectedStates /*projected*/) override {
     if (forces_) {
-      const SideLoad load = solver_.side_load(*side_);
+      const SideLoad load = solver_.side_load(*side_, grid_);
       const Pose pose = solver_.pose();
       forces_->row({t, load.force[0], load.force[1], load.moment, load.power, pose.centre[0], pose.centre[1],
                     pose.velocity[0], pose.velocity[1], pose.angle});
@@ -148,17 +154,24 @@ class SolidParticipant final : public Participant {
   }
 
  private:
-  grid::Curve curve() const {
-    return solver_.grid().periodic(1 - direction_of(*side_)) ? grid::Curve::closed : grid::Curve::open;
+  void find_interface(int grid, const std::array<BoundarySpec, 4>& boundary) {
+    for (const Side side : all_sides) {
+      if (boundary[static_cast<std::size_t>(side)].kind != BoundaryKind::interface) continue;
+      side_ = side;
+      grid_ = grid;
+    }
   }
+
+  grid::Curve curve() const { return curve_along(solver_.grid(grid_), *side_); }
 
   /// The interface inside a macro step: the gas is known by its outgoing characteristic.
   void close_substep(double t, const wire::ProjectedInterface& p) {
-    solver_.interface_state(*side_, interface_);
+    solver_.interface_state(*side_, interface_, grid_);
     const std::vector<double> normal = grid::normals(interface_.x, curve(), grid::outward(*side_));
     const RobinData gas{.z_f = p.z_f, .t = p.robin_t, .r = p.robin_r};
     const ClosedInterface closed = close_with_robin(gas, t, normal, interface_.v, interface_.w, interface_.Z);
-    const InterfaceValues values[] = {{.side = *side_, .n = normal, .v_n = closed.v_n, .w_n = closed.w_n}};
+    const InterfaceValues values[] = {
+        {.side = *side_, .n = normal, .v_n = closed.v_n, .w_n = closed.w_n, .grid = grid_}};
     solver_.apply_solid_bcs(t, values);
   }
 
@@ -187,7 +200,8 @@ class SolidParticipant final : public Participant {
   L law_;
   CaseData<L> data_;
   SolidSolver<L> solver_;
-  std::optional<Side> side_;
+  std::optional<Side> side_;          ///< the interface
+  int grid_ = 0;                      ///< component grid of the interface
   mutable SolidInterface interface_;  ///< memory that is used again every step
   io::GridWriter fields_;
   std::optional<io::CsvWriter> forces_, probe_table_;
