@@ -61,6 +61,25 @@ def converge(name, case, levels, settings=(), solids=()):
     return f"`{typed}`\n\n{body}"
 
 
+def rates(name, case, levels, variants, columns):
+    """One row per variant (label, settings, solids): errors on the finest grid with their rates over all levels."""
+    lines = ["| " + " | ".join(["", *(word for column in columns for word in (column, "rate"))]) + " |",
+             "|" + "---|" * (2 * len(columns) + 1)]
+    typed = ""
+    for index, (label, settings, solids) in enumerate(variants):
+        directory = fresh(f"{name}-{index}")
+        command, code, message = fsi("converge", case, "--levels", levels, *flags(settings, solids), "--out", str(directory))
+        typed = command.split(" --out ")[0]
+        path = directory / "converge.json"
+        if code or not path.is_file():
+            lines.append(f"| {label} | exit code {code}: {message} |" + " |" * (2 * len(columns) - 1))
+            continue
+        found = json.loads(path.read_text(encoding="utf-8"))
+        cells = [f"{found['errors'][column][-1]:.2e} | {found['fit'][column]:.2f}" for column in columns]
+        lines.append("| " + " | ".join([label, *cells]) + " |")
+    return f"last row: `{typed}`\n\n" + "\n".join(lines) + "\n"
+
+
 def sweep(name, case, variants, columns, settings=()):
     """One row per variant (label, settings, solids); columns are (heading, path in summary.json)."""
     lines = ["| " + " | ".join(["", *(heading for heading, _ in columns), "exit"]) + " |",
@@ -126,9 +145,21 @@ def piston_studies():
                             ["parameters.density_ratio=0.1", "parameters.c_p=8", "time.multirate=true"]))
 
 
+def sides():
+    """Every kind of left side with every law, and sides that are mirrors of the grid."""
+    key = "solids.solid.boundary"
+    for law in LAWS:
+        for kind in ("displacement", "traction", "slip_wall", "symmetry", "dirichlet"):
+            yield f"{law}, left {kind}", [f"{key}.left={kind}"], [f"solid={law}"]
+    for kind in ("traction", "dirichlet"):
+        yield f"neo_hookean, bottom {kind}", [f"{key}.bottom={kind}"], []
+    yield ("neo_hookean, rectangle between mirrors", ["parameters.waist=0", f"{key}.left=symmetry", f"{key}.right=symmetry",
+                                                      f"{key}.top=displacement"], [])
+
+
 def other_studies():
     for case in ("piston_svk", "piston_neo_hookean"):
-        yield (f"{case} against the fine one-dimensional run", lambda c=case: converge(c, c, "2,4,8"))
+        yield (f"{case} against the fine one-dimensional run", lambda c=case: converge(c, c, "2,4,8,16"))
     yield "Gas: isentropic vortex on a moving wavy grid", lambda: converge("vortex", "isentropic_vortex", "2,4,8,16")
     yield "Gas: Sod's tube", lambda: converge("sod", "sod_tube", "4,8,16")
     yield ("Uniform flow on a shaken grid; gas and solid moving together",
@@ -142,11 +173,17 @@ def other_studies():
     for law in LAWS:
         yield (f"Solid: manufactured solution, {law}",
                lambda l=law: converge(f"manufactured-{l}", "solid_manufactured", "2,4,8,16", solids=[f"solid={l}"]))
+    yield ("Solid: manufactured solution, every law and kind of side, h = 1/80",
+           lambda: rates("manufactured-sides", "solid_manufactured", "2,4,8", sides(), ["u_bar", "v_bar", "P_bar"]))
     yield ("Solid: spinning block",
-           lambda: sweep("block", "spinning_block", [(f"h = 1/{10 * j}", [f"grid.factor={j}"], []) for j in (2, 4, 8)],
-                         [("energy drift", "conservation.solid.energy"), ("energy", "conservation.solid.energy_initial"),
-                          ("angular momentum drift", "conservation.solid.angular_momentum"),
-                          ("angular momentum", "conservation.solid.angular_momentum_initial")]))
+           lambda: sweep("block", "spinning_block",
+                         [(f"h = 1/{10 * j}, {turns} turn{'s' if turns > 1 else ''}",
+                           [f"grid.factor={j}", f"parameters.turns={turns}"], [])
+                          for turns, j in ((1, 2), (1, 4), (1, 8), (5, 4), (40, 2))],
+                         [("t", "t"), ("energy drift", "conservation.block.energy"),
+                          ("energy", "conservation.block.energy_initial"),
+                          ("angular momentum drift", "conservation.block.angular_momentum"),
+                          ("angular momentum", "conservation.block.angular_momentum_initial")]))
     yield "Benchmarks", lambda: bench("bench")
 
 
