@@ -75,7 +75,7 @@ def rates(name, case, levels, variants, columns):
             lines.append(f"| {label} | exit code {code}: {message} |" + " |" * (2 * len(columns) - 1))
             continue
         found = json.loads(path.read_text(encoding="utf-8"))
-        cells = [f"{found['errors'][column][-1]:.2e} | {found['fit'][column]:.2f}" for column in columns]
+        cells = [f"{found['errors'][column][-1]:.2e} | {found['fitted'][column]:.2f}" for column in columns]
         lines.append("| " + " | ".join([label, *cells]) + " |")
     return f"last row: `{typed}`\n\n" + "\n".join(lines) + "\n"
 
