@@ -8,7 +8,6 @@
 #include "common/grid/composite_grid.hpp"
 #include "common/grid/hyperbolic.hpp"
 #include "common/grid/shapes/circle.hpp"
-#include "common/grid/shapes/ellipse.hpp"
 #include "solid_solver/solid_component.hpp"
 
 namespace fsi::solid::test {
@@ -29,7 +28,6 @@ inline DiskGrids body_of(const grid::PlaneCurve& outline, int cells, Boundary ri
   sides[0].kind = sides[1].kind = Boundary::Kind::periodic;
   sides[2] = std::move(rim);
   sides[3].kind = Boundary::Kind::none;
-  // Half a cell off centre: no point of the background is anything special to the outline.
   const double low = -1.25, high = 1.25;
   const int n = static_cast<int>(std::lround((high - low) * cells)) + 1;
   DiskGrids disk;
