@@ -104,15 +104,15 @@ TEST(CompositeGrid, DiskGasAndSolidConnectExplicitlyWithQuadraticInterpolation) 
   }
 }
 
-/// The top, bottom and ends of the circle lie on rows and columns up to round-off, above or below.
+/// Its top, bottom and ends lie on rows and columns up to round-off.
 TEST(CompositeGrid, DiskConnectsAtEveryResolution) {
   for (int factor = 2; factor <= 40; ++factor) {
     const double h = 0.1 / factor;
     const Strip ring = annulus(h, 8, true);
     CompositeGrid grids(box(-2, 2, -2, 2, h), {ring.body()});
     grids.connect(std::array{ring.x.view()}, 0);
-    const auto unused = static_cast<double>(grids.layout(0).points() - grids.valid(0).points());
-    EXPECT_NEAR(unused * h * h, pi, 4 * pi * h) << factor;  // the rim's points are in doubt
+    const std::size_t unused = grids.layout(0).points() - grids.valid(0).points();
+    EXPECT_NEAR(static_cast<double>(unused) * h * h, pi, 4 * pi * h);
   }
 }
 
