@@ -64,6 +64,55 @@ TYPED_TEST(Eq36RigidTranslationOfADisk, StaysExactOnTwoGridsEq37) {
   }
 }
 
+/// The upper half of a disk on the wall y = 0: both grids end there, and so do their interpolated points.
+TYPED_TEST(Eq36RigidTranslationOfADisk, StaysExactWhereBothGridsEndOnASlipWall) {
+  constexpr int cells = 16, points = 51, lines = 9;
+  const grid::PlaneCurve arc{
+      .ends = grid::Curve::open,
+      .position =
+          [](double s) { return Vec2(std::cos(std::numbers::pi * s), std::sin(std::numbers::pi * s)); },
+      .slope = [](double s) -> Vec2 {
+        return std::numbers::pi * Vec2(-std::sin(std::numbers::pi * s), std::cos(std::numbers::pi * s));
+      }};
+  const grid::HyperbolicGrid arch{.name = "arch",
+                                  .points = points,
+                                  .lines = lines,
+                                  .ends = grid::Curve::open,
+                                  .spacing = 1.0 / cells,
+                                  .walls = {Vec2(1, 0), Vec2(1, 0)}};
+  Boundaries inside, sides;
+  for (Boundary& boundary : inside) boundary.kind = Kind::none;
+  inside[2].kind = sides[0].kind = sides[1].kind = Kind::slip;
+  sides[3].kind = Kind::none;
+  std::vector<SolidPart> parts;
+  parts.push_back({grid::MovingGrid({.name = "inside",
+                                     .n1 = 41,
+                                     .n2 = 21,
+                                     .mapping = [](double r, double s, double) -> Vec2 {
+                                       return {-1.25 + 2.5 * r, 1.25 * s};
+                                     }},
+                                    0),
+                   inside});
+  parts.push_back({grid::MovingGrid(grid::marched_from(arch, grid::points_on(arc, points)), 0), sides});
+  const grid::BodyFittedGrid body{.name = "arch", .n1 = points, .n2 = lines, .ends = grid::Curve::open};
+  SolidSolver<TypeParam> solver(std::move(parts), {body}, TypeParam{.lambda = 1, .mu = 1}, full_dissipation,
+                                0);
+  const StateFunction sliding = [](double, double, double t) {
+    return SolidState{.u = Vec2(0.6 * t, 0), .v = Vec2(0.6, 0), .P = {}};
+  };
+  solver.assign_initial_conditions(sliding);
+  double t = 0;
+  for (int step = 0; step < 60; ++step) {
+    const double dt = solver.compute_time_step().dt;
+    solver.advance_solid(t, dt);
+    solver.apply_solid_bcs(t += dt);
+  }
+  const Errors errors = solver.errors(sliding, t);
+  EXPECT_LT(errors.u, 1e-12);
+  EXPECT_LT(errors.v, 1e-12);
+  EXPECT_LT(errors.P, 1e-12);
+}
+
 TEST(CompositeSolid, AsksForInitialValuesInsideTheBodyOnly) {
   auto solver = disk_solver<NeoHookean>(10);
   double farthest = 0;
