@@ -104,7 +104,6 @@ TEST(CompositeGrid, DiskGasAndSolidConnectExplicitlyWithQuadraticInterpolation) 
   }
 }
 
-/// Its top, bottom and ends lie on rows and columns up to round-off.
 TEST(CompositeGrid, DiskConnectsAtEveryResolution) {
   for (int factor = 2; factor <= 40; ++factor) {
     const double h = 0.1 / factor;
