@@ -31,7 +31,7 @@ void set_boundary_points(Component& component, const BoundaryTask& task);
 /// Ghosts and corners at time t.
 void set_ghosts(Component& component, const BoundaryTask& task);
 
-/// Ghosts of the mirror sides only: after initial data were given everywhere.
-void mirror_ghosts(Component& component);
+/// Ghosts of the mirror sides only: after initial data were given everywhere, at t.
+void mirror_ghosts(Component& component, double t);
 
 }  // namespace fsi::fluid

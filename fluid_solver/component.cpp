@@ -179,7 +179,24 @@ void Component::move(double t_new, double dt, std::span<const grid::SideCommand>
   last_dt_ = dt;
 }
 
+void Component::force(const StateField& exact) {
+  forcing_.emplace(exact, scheme_.gamma);
+  source_ = Field(grid_.layout(), 4);
+  has_source_ = false;
+}
+
+/// The second half of a step's source, at its end; kept for the next step, which begins with it.
+void Component::add_source(double t, double dt) {
+  forcing_->evaluate(grid_.x(), t, source_.view());
+  forcing_->add(source_.view(), 0.5 * dt, state_.view());
+  has_source_ = true;
+}
+
 void Component::advance(double t, double dt) {
+  if (forcing_) {
+    if (!has_source_) forcing_->evaluate(grid_.x_old(), t - dt, source_.view());
+    forcing_->add(source_.view(), 0.5 * dt, state_.view());
+  }
   const SweepCounts counts =
       sweep({.q = state_.view(), .q_new = next_.view(), .grid = step_grid(), .runs = runs_, .dt = dt},
             scheme_, {workspace_, row_rates_});
@@ -188,6 +205,7 @@ void Component::advance(double t, double dt) {
   counters_.floors += counts.floors;
   counters_.steps += 1;
   if (counts.broken > 0) report_broken(t);
+  if (forcing_) add_source(t, dt);
 }
 
 void Component::report_broken(double t) const {

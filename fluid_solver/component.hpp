@@ -12,6 +12,7 @@
 #include "common/core/types.hpp"
 #include "common/grid/intervals.hpp"
 #include "common/grid/moving_grid.hpp"
+#include "fluid_solver/forcing.hpp"
 #include "fluid_solver/gas_options.hpp"
 #include "fluid_solver/kernels/sweep.hpp"
 #include "fluid_solver/wall_motion.hpp"
@@ -54,6 +55,10 @@ class Component {
   /// All points are advanced and valid.
   Component(grid::MovingGrid grid, const GasOptions& options, std::array<Boundary, 4> boundaries);
 
+  /// From now on the source terms of an exact state act, and conditions on the sides hold for the difference
+  /// to it.
+  void force(const StateField& exact);
+  const Forcing* forcing() const { return forcing_ ? &*forcing_ : nullptr; }
   /// From now on only these points are advanced, and only these have a value.
   void use_points(const grid::RowSets& discretised, const grid::RowSets& valid);
   const grid::RowSets& discretised() const { return discretised_; }
@@ -97,12 +102,16 @@ class Component {
   double dt_before_ = 0;           ///< of the motion before
   bool prescribed_ = false;        ///< the grid's motion is known beforehand
   Counters counters_;
+  std::optional<Forcing> forcing_;
+  Field source_;             ///< of the forcing, at the time and on the grid of the state
+  bool has_source_ = false;  ///< it was evaluated
 
   StepGrid step_grid() const { return {grid_.x_old(), grid_.x(), spacing_}; }
   void gather_runs();
   double fill_row(int j, const StateField& initial, double t);
   void measure_initial_motion(double t, double delta);
   FastestPoint fastest_in(int j, Range range) const;
+  void add_source(double t, double dt);
   [[noreturn]] void report_broken(double t) const;
 };
 

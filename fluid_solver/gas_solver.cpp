@@ -110,10 +110,14 @@ std::span<const FieldView> GasSolver::gather_fields() {
   return fields_;
 }
 
+void GasSolver::force(const StateField& exact) {
+  for (Component& component : components_) component.force(exact);
+}
+
 void GasSolver::assign_initial_conditions(const StateField& initial) {
   for (Component& component : components_) {
     component.fill(initial, t_);
-    mirror_ghosts(component);
+    mirror_ghosts(component, t_);
     component.start(t_);
   }
 }

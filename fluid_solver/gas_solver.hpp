@@ -71,6 +71,10 @@ class GasSolver {
   /// @throws UserMistake where boundaries and grid do not fit or an option is out of range
   GasSolver(grid::MovingGrid grid, const GasOptions& options, std::array<Boundary, 4> boundaries, double t0);
 
+  /// Makes a state an exact solution by source terms; initial and boundary data are to be given from it.
+  /// Conditions that say zero, or n.v of a wall, then hold for the difference to it. Before the initial
+  /// conditions.
+  void force(const StateField& exact);
   /// Sets every valid point, ghosts included. @throws UserMistake at a density or pressure that is not
   /// positive
   void assign_initial_conditions(const StateField& initial);

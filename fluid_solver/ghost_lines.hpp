@@ -2,28 +2,15 @@
 /// Ghost lines of the single kinds of sides. One more kind of boundary is one function here, one struct in
 /// gas_options.hpp and one case in boundary_conditions.cpp.
 
-#include <Eigen/Core>
 #include <span>
 
 #include "common/core/types.hpp"
 #include "fluid_solver/component.hpp"
 #include "fluid_solver/gas_options.hpp"
 #include "fluid_solver/side_points.hpp"
+#include "fluid_solver/state_vector.hpp"
 
 namespace fsi::fluid {
-
-/// (rho, v1, v2, p)
-using StateVector = Eigen::Vector4d;
-
-inline StateVector load(ConstFieldView q, SidePoints::Index at) {
-  return {q(0, at.i, at.j), q(1, at.i, at.j), q(2, at.i, at.j), q(3, at.i, at.j)};
-}
-inline void store(FieldView q, SidePoints::Index at, const StateVector& value) {
-  for (int k = 0; k < 4; ++k) q(k, at.i, at.j) = value[k];
-}
-inline StateVector to_vector(const State& state) {
-  return {state.rho, state.v1, state.v2, state.p};
-}
 
 /// Value one line outside q0, from q0, q1, q2 further in: third order; with `limited` never beyond twice the
 /// last differences, and q0 where the result would have no positive density or pressure.

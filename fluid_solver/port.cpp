@@ -141,6 +141,7 @@ FluidParticipant::FluidParticipant(const Setup& setup)
     const BodyFittedSpec& fitted = spec_.body_fitted[k];
     if (!fitted.solid.empty()) interfaces_.push_back({static_cast<int>(k) + 1, fitted.side, fitted.solid});
   }
+  if (reference_ && setup.problem.reference.kind == "manufactured") solver_.force(field_of(reference_));
   solver_.assign_initial_conditions(
       data_of(spec_.initial_from_reference, spec_.initial, reference_, "initial"));
   initial_totals_ = solver_.totals();
@@ -206,7 +207,7 @@ void FluidParticipant::advance(double t, double dt, int /*substeps*/, ProjectedS
     commands.push_back({interfaces_[k].side, projected[k]->x_next, interfaces_[k].grid});
   const double t_next = projected.empty() ? t + dt : projected.front()->t_next;
   solver_.move_grids(t_next, dt, commands);
-  solver_.advance_fluid(t, dt);
+  solver_.advance_fluid(t_next, dt);
 }
 
 void FluidParticipant::write_fields(double t, std::uint64_t step) {

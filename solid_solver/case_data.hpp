@@ -51,7 +51,7 @@ class CaseData {
     if (reference.u) {
       manufactured_ = std::make_shared<Manufactured<L>>(function_of(*reference.u), law, spec.rho);
       forced_ = reference.kind == "manufactured";
-    } else if (reference.kind == "expressions") {
+    } else if (reference.kind == "expressions" || reference.kind == "manufactured") {
       solution_ = nullptr;  // formulas for the gas only
     }
   }

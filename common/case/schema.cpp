@@ -76,11 +76,16 @@ constexpr array expressions_keys{
         .fallback = "none"},
 };
 constexpr array manufactured_keys{
+    Key{.name = "fluid",
+        .type = Type::section,
+        .meaning = "state of the gas; source terms make it exact",
+        .fallback = "none",
+        .section = &gas_state_section},
     Key{.name = "u",
         .type = Type::vector,
         .meaning = "displacement of the solid, of the reference position; the body force follows from it",
         .unit = "length",
-        .required = true},
+        .fallback = "none"},
 };
 constexpr array piston_1d_keys{
     Key{.name = "points",
@@ -115,7 +120,7 @@ constexpr array reference_variants{
     Variant{"rotating_disk", "a fine run of the unit disk that turns in a gas, in the radius alone",
             rotating_disk_keys},
     Variant{"expressions", "formulas", expressions_keys},
-    Variant{"manufactured", "a motion made exact by a body force", manufactured_keys},
+    Variant{"manufactured", "chosen fields made exact by forces and sources", manufactured_keys},
 };
 constexpr Section reference_section{
     .title = "Reference solution", .keys = {}, .variants = reference_variants, .default_kind = ""};

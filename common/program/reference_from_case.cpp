@@ -18,7 +18,7 @@ class Formulas final : public exact::Solution {
   }
   exact::SolidState solid(double, double, double) const override {
     throw UserMistake(
-        "reference of kind expressions describes a gas only; write kind: manufactured for a solid");
+        "the formulas of the reference describe a gas only; write kind: manufactured and u for a solid");
   }
 
  private:
@@ -29,8 +29,8 @@ class Formulas final : public exact::Solution {
 
 std::shared_ptr<const exact::Solution> reference_from_case(const Case& problem, const std::string& run_dir) {
   const ReferenceSpec& spec = problem.reference;
-  if (spec.kind == "none" || spec.kind == "manufactured") return nullptr;
-  if (spec.kind == "expressions") {
+  if (spec.kind == "none") return nullptr;
+  if (spec.kind == "expressions" || spec.kind == "manufactured") {
     if (!spec.fluid) return nullptr;
     return std::make_shared<Formulas>(*spec.fluid);
   }

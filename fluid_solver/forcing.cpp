@@ -1,0 +1,64 @@
+#include "fluid_solver/forcing.hpp"
+
+namespace fsi::fluid {
+
+namespace {
+
+/// Step of the central differences: small against all that varies, so that their error, of second order in
+/// it, and that of rounding lie far below those of any grid.
+constexpr double delta = 1e-5;
+
+template <class Action>
+void each_point(const Layout& layout, const Action& action) {
+  constexpr int g = Layout::ghosts;
+  for (int j = -g; j < layout.n2 + g; ++j) {
+    for (int i = -g; i < layout.n1 + g; ++i) action(SidePoints::Index{i, j});
+  }
+}
+
+StateVector conserved(const StateVector& q, double gamma) {
+  const double kinetic = 0.5 * q[0] * (q[1] * q[1] + q[2] * q[2]);
+  return {q[0], q[0] * q[1], q[0] * q[2], q[3] / (gamma - 1) + kinetic};
+}
+
+StateVector primitive(const StateVector& U, double gamma) {
+  const double v1 = U[1] / U[0], v2 = U[2] / U[0];
+  return {U[0], v1, v2, (gamma - 1) * (U[3] - 0.5 * (U[1] * v1 + U[2] * v2))};
+}
+
+/// Flux along direction c. paper eq. (1)
+StateVector flux(const State& s, int c, double gamma) {
+  const StateVector U = conserved(to_vector(s), gamma);
+  const double v = c == 0 ? s.v1 : s.v2;
+  StateVector f = v * U;
+  f[1 + c] += s.p;
+  f[3] += s.p * v;
+  return f;
+}
+
+}  // namespace
+
+StateVector Forcing::source(double x, double y, double t) const {
+  const StateVector in_t = conserved(to_vector(exact_(x, y, t + delta)), gamma_) -
+                           conserved(to_vector(exact_(x, y, t - delta)), gamma_);
+  const StateVector in_x =
+      flux(exact_(x + delta, y, t), 0, gamma_) - flux(exact_(x - delta, y, t), 0, gamma_);
+  const StateVector in_y =
+      flux(exact_(x, y + delta, t), 1, gamma_) - flux(exact_(x, y - delta, t), 1, gamma_);
+  return (in_t + in_x + in_y) / (2 * delta);
+}
+
+void Forcing::evaluate(ConstFieldView x, double t, FieldView source_field) const {
+  each_point(x.layout, [&](SidePoints::Index at) {
+    store(source_field, at, source(x(0, at.i, at.j), x(1, at.i, at.j), t));
+  });
+}
+
+void Forcing::add(ConstFieldView source_field, double weight, FieldView q) const {
+  each_point(q.layout, [&](SidePoints::Index at) {
+    const StateVector U = conserved(load(q, at), gamma_) + weight * load(source_field, at);
+    store(q, at, primitive(U, gamma_));
+  });
+}
+
+}  // namespace fsi::fluid

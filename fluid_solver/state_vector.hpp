@@ -1,0 +1,25 @@
+#pragma once
+/// The state of the gas at a point as a vector of four, for the work on sides and ghosts.
+
+#include <Eigen/Core>
+
+#include "common/core/field.hpp"
+#include "fluid_solver/gas_options.hpp"
+#include "fluid_solver/side_points.hpp"
+
+namespace fsi::fluid {
+
+/// (rho, v1, v2, p)
+using StateVector = Eigen::Vector4d;
+
+inline StateVector load(ConstFieldView q, SidePoints::Index at) {
+  return {q(0, at.i, at.j), q(1, at.i, at.j), q(2, at.i, at.j), q(3, at.i, at.j)};
+}
+inline void store(FieldView q, SidePoints::Index at, const StateVector& value) {
+  for (int k = 0; k < 4; ++k) q(k, at.i, at.j) = value[k];
+}
+inline StateVector to_vector(const State& state) {
+  return {state.rho, state.v1, state.v2, state.p};
+}
+
+}  // namespace fsi::fluid
