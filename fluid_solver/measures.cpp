@@ -81,6 +81,13 @@ std::optional<Place> find_cell(ConstFieldView x, const Vec2& point) {
   return std::nullopt;
 }
 
+double smallest(const double* values, const grid::Interval& run) {
+  double least = std::numeric_limits<double>::infinity();
+#pragma omp simd reduction(min : least)
+  for (int i = run.begin; i < run.end; ++i) least = values[i] < least ? values[i] : least;
+  return least;
+}
+
 /// Adds what a point of a given area holds.
 void add_point(const GasSolver& solver, int grid, SidePoints::Index at, double area, Totals& totals) {
   const ConstFieldView q = solver.state(grid), x = solver.grid(grid).x();
@@ -137,8 +144,8 @@ Health GasSolver::health() const {
     for (int j = 0; j < q.layout.n2; ++j) {
       const double *rho = q.row(0, j), *p = q.row(3, j);
       for (const grid::Interval& run : component.valid().row(j)) {
-        health.min_rho = std::min(health.min_rho, *std::min_element(rho + run.begin, rho + run.end));
-        health.min_p = std::min(health.min_p, *std::min_element(p + run.begin, p + run.end));
+        health.min_rho = std::min(health.min_rho, smallest(rho, run));
+        health.min_p = std::min(health.min_p, smallest(p, run));
       }
     }
     first_order += component.counters().first_order;

@@ -23,7 +23,7 @@ struct LinearElastic {
   }
 
   /// Nominal stress, paper eq. (11). It is symmetric.
-  Tensor2 P(const Tensor2& F) const {
+  [[gnu::always_inline]] Tensor2 P(const Tensor2& F) const {
     const double e11 = F.a11 - 1.0;
     const double e22 = F.a22 - 1.0;
     const double shear = mu * (F.a12 + F.a21);
@@ -32,7 +32,7 @@ struct LinearElastic {
   }
 
   /// paper eq. (5): K_ijkl = lambda d_ij d_kl + mu (d_ik d_jl + d_il d_jk), the same for every F.
-  Stiffness K(const Tensor2& /*F*/) const {
+  [[gnu::always_inline]] Stiffness K(const Tensor2& /*F*/) const {
     const double diagonal = lambda + 2.0 * mu;
     return {.k1111 = diagonal,
             .k1112 = 0.0,

@@ -26,7 +26,7 @@ struct NeoHookean {
   }
 
   /// Nominal stress, paper eq. (7) with S of paper eq. (10).
-  Tensor2 P(const Tensor2& F) const {
+  [[gnu::always_inline]] Tensor2 P(const Tensor2& F) const {
     const double J = F.a11 * F.a22 - F.a12 * F.a21;
     const double c = (lambda * logarithm(J) - mu) / J;
     return {.a11 = mu * F.a11 + c * F.a22,
@@ -36,7 +36,7 @@ struct NeoHookean {
   }
 
   /// paper eq. (8): K_ijkl = mu d_il d_jk + lambda G_ij G_lk + (mu - lambda ln J) G_ik G_lj, G = F^-1.
-  Stiffness K(const Tensor2& F) const {
+  [[gnu::always_inline]] Stiffness K(const Tensor2& F) const {
     const double J = F.a11 * F.a22 - F.a12 * F.a21;
     const double c = mu - lambda * logarithm(J);
     const double inverse_J = 1.0 / J;

@@ -22,7 +22,7 @@ struct SaintVenantKirchhoff {
   }
 
   /// Nominal stress, paper eq. (7) with S of paper eq. (9).
-  Tensor2 P(const Tensor2& F) const {
+  [[gnu::always_inline]] Tensor2 P(const Tensor2& F) const {
     const Symmetric S = second_stress(F);
     return {.a11 = S.a11 * F.a11 + S.a12 * F.a12,
             .a12 = S.a11 * F.a21 + S.a12 * F.a22,
@@ -31,7 +31,7 @@ struct SaintVenantKirchhoff {
   }
 
   /// paper eq. (8): K_ijkl = S_il d_jk + lambda F_ji F_kl + mu (d_il B_jk + F_jl F_ki), B = F F^T.
-  Stiffness K(const Tensor2& F) const {
+  [[gnu::always_inline]] Stiffness K(const Tensor2& F) const {
     const Symmetric S = second_stress(F);
     const double b11 = mu * (F.a11 * F.a11 + F.a12 * F.a12);
     const double b12 = mu * (F.a11 * F.a21 + F.a12 * F.a22);
@@ -54,13 +54,13 @@ struct SaintVenantKirchhoff {
     double a11 = 0, a12 = 0, a22 = 0;
   };
 
-  static Symmetric green_strain(const Tensor2& F) {
+  [[gnu::always_inline]] static Symmetric green_strain(const Tensor2& F) {
     return {.a11 = 0.5 * (F.a11 * F.a11 + F.a21 * F.a21 - 1.0),
             .a12 = 0.5 * (F.a11 * F.a12 + F.a21 * F.a22),
             .a22 = 0.5 * (F.a12 * F.a12 + F.a22 * F.a22 - 1.0)};
   }
 
-  Symmetric second_stress(const Tensor2& F) const {
+  [[gnu::always_inline]] Symmetric second_stress(const Tensor2& F) const {
     const Symmetric E = green_strain(F);
     const double pressure = lambda * (E.a11 + E.a22);
     return {.a11 = pressure + 2.0 * mu * E.a11, .a12 = 2.0 * mu * E.a12, .a22 = pressure + 2.0 * mu * E.a22};
