@@ -135,8 +135,10 @@ def _parser():
     verb.add_argument("words", metavar="[RUN] REQUEST", nargs="+", help=", ".join(REQUESTS))
     verb.set_defaults(act=_ctl)
 
-    verb = verbs.add_parser("plot", description="Draws the results of a run as PNG pictures into DIR/plots.")
-    verb.add_argument("directory", metavar="DIR", help="folder of a run")
+    verb = verbs.add_parser("plot", description="Draws the results of a run, or the table of fsi converge, as PNG "
+                            "pictures into DIR/plots.")
+    verb.add_argument("directory", metavar="DIR", help="folder of a run or of fsi converge")
+    verb.add_argument("--contours", action="store_true", help="contour lines over the fields")
     verb.add_argument("--out", metavar="DIR", help="folder of the pictures (default: DIR/plots)")
     verb.set_defaults(act=_plot)
 

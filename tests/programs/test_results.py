@@ -11,6 +11,18 @@ import xml.etree.ElementTree
 from running import BIN, EndToEnd, FSI
 
 
+def plot(test, directory, *options):
+    """Names of the pictures that `fsi plot` draws of a folder; each must show something."""
+    answer = subprocess.run([FSI, "plot", directory, *options], env=os.environ | {"FSI_BIN": str(BIN)},
+                            capture_output=True, text=True, check=False)
+    test.assertEqual(answer.returncode, 0, answer.stderr)
+    test.assertNotIn("Warning", answer.stderr)
+    pictures = list((directory / "plots").glob("*.png"))
+    for path in pictures:
+        test.assertGreater(path.stat().st_size, 10_000, path)
+    return {path.stem for path in pictures}
+
+
 class Results(EndToEnd):
     def setUp(self):
         super().setUp()
@@ -61,11 +73,7 @@ class Results(EndToEnd):
         self.assertEqual(again.summary()["errors"], self.run_.summary()["errors"])
 
     def test_pictures(self):
-        answer = subprocess.run([FSI, "plot", self.run_.directory], env=os.environ | {"FSI_BIN": str(BIN)},
-                                capture_output=True, text=True, check=False)
-        self.assertEqual(answer.returncode, 0, answer.stderr)
-        pictures = {path.stem for path in (self.run_.directory / "plots").glob("*.png")}
-        self.assertLessEqual({"grid", "lines", "interface"}, pictures)
+        self.assertLessEqual({"grid", "lines", "interface"}, plot(self, self.run_.directory))
 
     def test_convergence_table(self):
         answer = subprocess.run([FSI, "converge", "elastic_piston", "--levels", "1,2", "--rates", "rho,u_bar",
@@ -75,6 +83,15 @@ class Results(EndToEnd):
         table = json.loads((self.folder / "table" / "converge.json").read_text())
         self.assertEqual(list(table["errors"]), ["rho", "u_bar"])
         self.assertTrue(all(rate > 1 for rate in table["fitted"].values()))  # coarse grids: only that it falls
+        self.assertEqual(plot(self, self.folder / "table"), {"convergence"})
+
+
+class CompositeGrids(EndToEnd):
+    def test_pictures_of_overlapping_grids_and_of_the_disk_over_its_radius(self):
+        run = self.complete("rotating_disk", "--set", "grid.factor=2", "--set", "time.end=0.1",
+                            "--set", "output.times=[0.1]", "--set", "reference.points=400")
+        self.assertEqual(plot(self, run.directory, "--contours"),
+                         {"fields_0000", "grid", "grid_disk", "radius_0000", "interface", "forces_disk"})
 
 
 if __name__ == "__main__":

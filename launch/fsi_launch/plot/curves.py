@@ -9,6 +9,7 @@ GAS_LINES = (("rho", "density $\\rho$"), ("v", "velocity $v$"), ("p", "pressure 
 SOLID_LINES = (("u", "displacement $\\bar u$"), ("v", "velocity $\\bar v$"), ("P11", "stress $\\bar P_{11}$"))
 SAME = 1e-3        # variation across the line, part of the variation along it, that counts as none
 MOST_TIMES = 6
+SAME_VALUE = 1e-11  # differences, part of the values, that are round-off
 
 
 # --- lines
@@ -18,7 +19,7 @@ def _depends_on_one_coordinate(grid):
     """True if every field is the same on all lines j = const., as in a piston or a tube."""
     if min(grid.x1.shape) < 2:
         return False
-    for values in grid.fields.values():
+    for values in (values for key, values in grid.fields.items() if not key.startswith("x")):
         along = np.ptp(values, axis=1).max()
         if np.ptp(values, axis=0).max() > SAME * along + 1e-9 * (1 + np.abs(values).max()):
             return False
@@ -41,7 +42,7 @@ def _along(grid, key, e):
     return s, grid.fields[key][j]
 
 
-def _lines_picture(series):
+def _lines_picture(series, scales):
     kinds = [GAS_LINES if one.is_gas() else SOLID_LINES for one in series]
     figure, panels = pyplot.subplots(3, len(series), figsize=(4.4 * len(series), 6.3), squeeze=False, sharex="col")
     for column, (one, lines) in enumerate(zip(series, kinds)):
@@ -51,8 +52,10 @@ def _lines_picture(series):
             axes = panels[row][column]
             for index, colour in zip(shown, colours):
                 output = one.outputs[index]
-                axes.plot(*_along(output.grids[0], key, _direction(output.grids[0])), color=colour,
-                          label=f"t = {output.t:.3g}")
+                s, values = _along(output.grids[0], key, _direction(output.grids[0]))
+                values = np.where(np.abs(values) > scales.floor(_unit(key)), values, 0)
+                axes.plot(s, values, color=colour, label=f"t = {output.t:.3g}")
+            _steady(axes, np.concatenate([line.get_ydata() for line in axes.lines]))
             axes.set_title(label, loc="left")
         panels[0][column].set_title(f"{one.name}: {lines[0][1]}", loc="left")
         panels[-1][column].set_xlabel("position along the line")
@@ -81,16 +84,42 @@ def _groups(table):
     return {key: keys == key for key in sorted(set(keys))}
 
 
-def _curve(axes, t, values, label):
-    """A curve; magnitudes over many powers of ten get a logarithmic scale."""
-    positive = values[values > 0]
-    if len(positive) > 1 and (values >= 0).all() and positive.max() > 300 * positive.min():
+def _unit(heading):
+    """The unit of a column; of a probe's column, which has none, that of its field."""
+    if "[" in heading:
+        return heading.split("[")[1].rstrip("]")
+    field = heading.rsplit(".", 1)[-1]
+    return {"v": "length/time", "u": "length", "p": "force/area", "P": "force/area"}.get(field[:1], "unknown")
+
+
+def _steady(axes, values):
+    """Room around values that differ by round-off only, which is not worth a scale."""
+    largest = np.nanmax(np.abs(values), initial=0)
+    if largest == 0:
+        axes.set_ylim(-1, 1)
+    elif np.nanmax(values) - np.nanmin(values) <= SAME_VALUE * largest:
+        axes.set_ylim(np.nanmin(values) - 0.5 * largest, np.nanmax(values) + 0.5 * largest)
+
+
+def _curve(axes, name, t, values, label, floor):
+    """A curve; jumps and gaps over many powers of ten get a logarithmic scale, without what is below `floor`."""
+    positive = values[values > floor]
+    if _bare(name).endswith(("jump", "gap")) and len(positive) and positive.max() > 300 * np.percentile(positive, 5):
         axes.set_yscale("log")
-        values = np.where(values > 0, values, np.nan)
+        values = np.where(values > floor, values, np.nan)
     axes.plot(t, values, label=label)
 
 
-def _table_picture(table):
+def _zero(axes, t, largest):
+    """A flat line for a column that is nothing but round-off, and how large that is."""
+    axes.plot(t, np.zeros_like(t))
+    axes.set_ylim(-1, 1)
+    axes.set_yticks([0])
+    text = "zero" if largest == 0 else f"zero (at most {largest:.0e})"
+    axes.text(0.02, 0.6, text, transform=axes.transAxes, fontsize=8, color="#666666")
+
+
+def _table_picture(table, scales):
     time = _time_column(table)
     names = [name for name, values in table.columns.items()
              if values.dtype.kind == "f" and name != time and _bare(name) != "step"]
@@ -100,9 +129,16 @@ def _table_picture(table):
     rows = -(-len(names) // columns)
     figure, panels = pyplot.subplots(rows, columns, figsize=(4.0 * columns, 2.3 * rows), squeeze=False, sharex=True)
     for axes, name in zip(panels.flat, names):
-        for label, mask in _groups(table).items():
-            _curve(axes, table.columns[time][mask], table.columns[name][mask], label)
+        if _bare(name) == "dt":  # the start has none
+            table.columns[name][table.columns[name] == 0] = np.nan
+        floor, largest = scales.floor(_unit(name)), np.nanmax(np.abs(table.columns[name]), initial=0)
         axes.set_title(name.replace("_", " "), loc="left")
+        if largest <= floor:
+            _zero(axes, table.columns[time], largest)
+            continue
+        _steady(axes, table.columns[name])
+        for label, mask in _groups(table).items():
+            _curve(axes, name, table.columns[time][mask], table.columns[name][mask], label, floor)
         if len(_groups(table)) > 1:
             axes.legend()
     for axes in panels.flat[len(names):]:
@@ -113,11 +149,11 @@ def _table_picture(table):
     return figure
 
 
-def pictures(series, tables):
+def pictures(series, tables, scales):
     """(name, figure) of the curves a run has."""
     plain = [one for one in series if len(one.outputs[-1].grids) == 1]
     if plain and all(_depends_on_one_coordinate(one.outputs[-1].grids[0]) for one in plain):
-        yield "lines", _lines_picture(plain)
+        yield "lines", _lines_picture(plain, scales)
     for table in tables:
-        if figure := _table_picture(table):
+        if figure := _table_picture(table, scales):
             yield table.name, figure

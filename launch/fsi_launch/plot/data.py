@@ -1,25 +1,44 @@
 """Reads what a run wrote (layout: docs/output.md): fields of each program over its output times, and tables."""
 
 import csv
+import json
 from dataclasses import dataclass
 
 import h5py
 import numpy as np
 
-COORDINATES = ("x", "x1", "x2", "x1_bar", "x2_bar")  # "x" holds x1 and x2 side by side, for ParaView
+NOT_FIELDS = ("x", "x1", "x2", "kind")  # "x" holds x1 and x2 side by side, for ParaView
+UNUSED, DISCRETISED, INTERPOLATED = 0, 1, 2
 
 
 @dataclass
 class Grid:
-    """One component grid at one output time; arrays are indexed [j, i], j along the second grid direction."""
+    """One component grid at one output time; arrays are indexed [j, i], j along the second grid direction.
+
+    A grid that closes on itself along i has its first column once more at the end, so that it is drawn without a gap.
+    """
 
     name: str
     x1: np.ndarray
     x2: np.ndarray
+    kind: np.ndarray   # UNUSED, DISCRETISED or INTERPOLATED
     fields: dict
+    closed: bool
 
     def speed(self):
         return np.hypot(self.fields["v1"], self.fields["v2"])
+
+    def used(self):
+        return self.kind != UNUSED
+
+    def is_cartesian(self):
+        """True for a background grid: lines parallel to the axes (a solid's before it deforms)."""
+        x1, x2 = self.fields.get("x1_bar", self.x1), self.fields.get("x2_bar", self.x2)
+        return np.ptp(x1, axis=0).max() == 0 and np.ptp(x2, axis=1).max() == 0
+
+    def spacing(self):
+        """A typical distance between neighbours."""
+        return np.median(np.hypot(np.diff(self.x1, axis=1), np.diff(self.x2, axis=1)))
 
 
 @dataclass
@@ -49,9 +68,27 @@ class Table:
     columns: dict
 
 
+def _closes(x1, x2):
+    """True if the last column is a neighbour of the first one, as on a ring."""
+    if x1.shape[1] < 4:
+        return False
+    gap = np.hypot(x1[:, -1] - x1[:, 0], x2[:, -1] - x2[:, 0])
+    return bool((gap < 1.5 * np.hypot(np.diff(x1, axis=1), np.diff(x2, axis=1)).max(axis=1)).all())
+
+
 def _read_grid(name, group):
-    fields = {key: np.asarray(group[key]) for key in group if key not in COORDINATES}
-    return Grid(name, np.asarray(group["x1"]), np.asarray(group["x2"]), fields)
+    arrays = {key: np.asarray(group[key]) for key in group if key != "x"}
+    arrays.setdefault("kind", np.full(arrays["x1"].shape, DISCRETISED))  # a program with one grid uses all of it
+    closed = _closes(arrays["x1"], arrays["x2"])
+    if closed:
+        arrays = {key: np.concatenate([values, values[:, :1]], axis=1) for key, values in arrays.items()}
+    fields = {key: values for key, values in arrays.items() if key not in NOT_FIELDS}
+    return Grid(name, arrays["x1"], arrays["x2"], arrays["kind"].astype(int), fields, closed)
+
+
+def _read_grids(group):
+    """Background grids first: pictures lay the body-fitted ones over them."""
+    return sorted((_read_grid(name, group[name]) for name in group), key=lambda grid: not grid.is_cartesian())
 
 
 def _read_series(path, name):
@@ -59,7 +96,7 @@ def _read_series(path, name):
     with h5py.File(path, "r") as file:
         for key in sorted(file):
             group = file[key]
-            outputs.append(Output(float(group.attrs["t"]), [_read_grid(grid, group[grid]) for grid in group]))
+            outputs.append(Output(float(group.attrs["t"]), _read_grids(group)))
     return Series(name, outputs)
 
 
@@ -90,3 +127,21 @@ def all_tables(directory):
     """Every CSV of the run that has at least two lines of numbers."""
     tables = [_read_table(path) for path in sorted(directory.glob("*.csv"))]
     return [table for table in tables if table]
+
+
+def convergence(directory):
+    """The table `fsi converge` left in the folder, or None."""
+    path = directory / "converge.json"
+    return json.loads(path.read_text(encoding="utf-8")) if path.is_file() else None
+
+
+def disk_reference(directory):
+    """{t: {"gas" or "solid": {column: values}}} of a rotating disk over its radius; empty for other runs."""
+    path = directory / "reference.h5"
+    if not path.is_file():
+        return {}
+    with h5py.File(path, "r") as file:
+        if not all("r" in group.get("gas", ()) for group in file.values()):
+            return {}
+        return {float(group.attrs["t"]): {part: {key: np.asarray(group[part][key]) for key in group[part]}
+                                          for part in ("gas", "solid")} for group in file.values()}

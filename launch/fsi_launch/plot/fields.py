@@ -1,43 +1,84 @@
-"""Pictures of the fields at the output times, solids in deformed position, and of the grids."""
+"""Pictures of the fields at the output times, solids in deformed position (the paper's figure 10)."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 from matplotlib import pyplot
-from matplotlib.collections import LineCollection
+from matplotlib.collections import LineCollection, PolyCollection, TriMesh
 
-from fsi_launch.plot import style
+from fsi_launch.plot import mesh, style
+from fsi_launch.plot.scales import Scales
 
 MOST_TIMES = 12        # pictures of fields; of a longer series, times evenly spread
-MOST_LINES = 60        # grid lines drawn along each direction
-GAS_QUANTITIES = (("pressure $p$", lambda grid: grid.fields["p"]), ("density $\\rho$", lambda grid: grid.fields["rho"]),
-                  ("speed $|v|$", lambda grid: grid.speed()))
-SOLID_QUANTITIES = (
-    ("speed $|\\bar v|$", lambda grid: grid.speed()),
-    ("displacement $|\\bar u|$", lambda grid: np.hypot(grid.fields["u1"], grid.fields["u2"])),
-    ("stress $|\\bar P|$", lambda grid: np.sqrt(sum(grid.fields[f"P{c}"] ** 2 for c in ("11", "12", "21", "22")))))
+CONTOURS = 16          # lines, where they are asked for; an even number keeps off the zero of signed fields
+ROUND_OFF = 1e-12      # variation, part of the values, that is no variation
 
 
-def _times_shown(count):
+@dataclass
+class Look:
+    """How fields are drawn."""
+
+    scales: Scales
+    contours: bool = False
+
+
+@dataclass
+class Quantity:
+    """What is drawn of a grid, and its unit."""
+
+    unit: str
+    values: Callable
+
+
+V1 = Quantity("length/time", lambda grid: grid.fields["v1"])
+SPEED = Quantity("length/time", lambda grid: grid.speed())
+PRESSURE = Quantity("force/area", lambda grid: grid.fields["p"])
+DENSITY = Quantity("", lambda grid: grid.fields["rho"])
+DISPLACEMENT = Quantity("length", lambda grid: np.hypot(grid.fields["u1"], grid.fields["u2"]))
+STRESS = Quantity("force/area", lambda grid: np.sqrt(sum(grid.fields[f"P{c}"] ** 2 for c in ("11", "12", "21", "22"))))
+
+# (title, of the gas, of the solids); where the solids have none they are plain
+GAS_PANELS = (("horizontal velocity $v_1$", V1, None), ("speed $|v|$", SPEED, None),
+              ("pressure $p$", PRESSURE, None), ("density $\\rho$", DENSITY, None))
+BOTH_PANELS = (("horizontal velocity $v_1$, $\\bar v_1$", V1, V1), ("speed $|v|$, $|\\bar v|$", SPEED, SPEED),
+               ("pressure $p$, stress $|\\bar P|$", PRESSURE, STRESS), ("density $\\rho$", DENSITY, None))
+SOLID_PANELS = (("speed $|\\bar v|$", None, SPEED), ("displacement $|\\bar u|$", None, DISPLACEMENT),
+                ("stress $|\\bar P|$", None, STRESS))
+
+
+def times_shown(count):
     if count <= MOST_TIMES:
         return list(range(count))
     return sorted({round(k) for k in np.linspace(0, count - 1, MOST_TIMES)})
 
 
-def _limits(series):
-    """Box around everything at all times: (x low, x high, y low, y high)."""
-    grids = [grid for one in series for output in (one.outputs[0], one.outputs[-1]) for grid in output.grids]
-    return (min(g.x1.min() for g in grids), max(g.x1.max() for g in grids),
-            min(g.x2.min() for g in grids), max(g.x2.max() for g in grids))
+def box_around(grids):
+    """(x low, x high, y low, y high) around the used points, with room for the line of a rim."""
+    x1 = np.concatenate([grid.x1[grid.used()] for grid in grids])
+    x2 = np.concatenate([grid.x2[grid.used()] for grid in grids])
+    rim = 0.005 * max(np.ptp(x1), np.ptp(x2))
+    return x1.min() - rim, x1.max() + rim, x2.min() - rim, x2.max() + rim
 
 
-def _panels(count, box):
-    """Axes of equal scale, stacked so that the pictures are as large as they can be."""
+def _arrangement(count, shape):
+    """(rows, columns) for panels whose width is `shape` times their height."""
+    if shape > 2.2:
+        return count, 1
+    if count == 4:
+        return 2, 2
+    return (count, 1) if shape > 1.3 else (1, count)
+
+
+def panels(count, box, beside):
+    """(figure, axes) of equal scale, arranged so that the pictures are large, with room `beside` each [inch]."""
     width, height = box[1] - box[0], box[3] - box[2]
-    wide = width > 1.3 * height
-    rows, columns = (count, 1) if wide else (1, count)
-    panel_width = 7.0 if wide else 4.2
-    panel_height = min(max(panel_width * height / width, 1.2), 6.0) + 0.4
-    figure, axes = pyplot.subplots(rows, columns, figsize=((panel_width + 0.9) * columns, panel_height * rows + 0.3),
-                                   squeeze=False)
+    rows, columns = _arrangement(count, width / height)
+    panel_width = 6.4 if columns == 1 else 4.0
+    panel_height = min(max(panel_width * height / width, 1.2), 6.0)
+    panel_width = min(panel_width, panel_height * width / height)
+    size = ((panel_width + 0.5 + beside) * columns, (panel_height + 0.55) * rows + 0.3)
+    figure, axes = pyplot.subplots(rows, columns, figsize=(max(size[0], 3.2), size[1]), squeeze=False)
     for one in axes.flat:
         one.set_aspect("equal")
         one.set_xlim(box[0], box[1])
@@ -45,90 +86,108 @@ def _panels(count, box):
     return figure, list(axes.flat)
 
 
-def _outline(grid):
-    """The rim of a grid as one closed line."""
-    parts = [np.s_[0, :], np.s_[:, -1], np.s_[-1, ::-1], np.s_[::-1, 0]]
-    return np.concatenate([grid.x1[p] for p in parts]), np.concatenate([grid.x2[p] for p in parts])
+def _colour_range(values, floor):
+    """(low, high, the constant if it is one but for round-off, which is not shown)."""
+    low, high = values.min(), values.max()
+    largest = max(abs(low), abs(high))
+    if largest <= floor:
+        return -1.0, 1.0, 0.0
+    if high - low <= max(ROUND_OFF * largest, floor):
+        return low - 0.5 * largest, high + 0.5 * largest, 0.5 * (low + high)
+    if low < 0 < high and min(-low, high) > 0.1 * largest:
+        return -largest, largest, None
+    return low, high, None
 
 
-def _colour(axes, grids, quantity, colours):
-    """Draws one quantity of one program; returns what the colour bar needs."""
-    values = [quantity(grid) for grid in grids]
-    low, high = min(v.min() for v in values), max(v.max() for v in values)
-    if high - low <= 1e-12 * max(abs(low), abs(high)):  # a constant to round-off: show no noise
-        low, high = low - 0.5 * (abs(low) or 1), high + 0.5 * (abs(high) or 1)
-    for grid, value in zip(grids, values):
-        mesh = axes.pcolormesh(grid.x1, grid.x2, value, shading="gouraud", cmap=colours, vmin=low, vmax=high,
-                               rasterized=True)
-    return mesh
-
-
-def _fill_solid(axes, grids):
-    for grid in grids:
-        axes.fill(*_outline(grid), facecolor=style.SOLID_FILL, edgecolor=style.SOLID_EDGE, linewidth=0.8)
-
-
-def _bar(figure, axes, mesh, label):
-    bar = figure.colorbar(mesh, ax=axes, shrink=0.9, pad=0.015, aspect=18)
-    bar.outline.set_visible(False)
-    bar.ax.set_title(label, fontsize=8)
-
-
-def _draw_gas(figure, axes, gas, solids, label, quantity):
-    mesh = _colour(axes, gas.grids, quantity, style.GAS_MAP)
-    _bar(figure, axes, mesh, "gas")
-    show_speed = label.startswith("speed")
-    if show_speed and solids:
-        for solid in solids:
-            mesh = _colour(axes, solid.grids, quantity, style.SOLID_MAP)
-        _bar(figure, axes, mesh, "solid")
+def _contours(axes, grids, k, values, levels):
+    """Lines on what the grids laid over grid k leave of it: none is drawn twice."""
+    triangles = mesh.triangles(grids[k], mesh.uncovered(grids[k], grids[k + 1:]))
+    if not triangles:
         return
+    shown = values[triangles.triangles]
+    levels = levels[(levels > shown.min()) & (levels < shown.max())]
+    if len(levels):
+        axes.tricontour(triangles, values, levels=levels, colors="black", linewidths=0.4, linestyles="solid")
+
+
+def _colour(axes, outputs, quantity, colours, look):
+    """Draws one quantity of the gas, or of all solids, on all component grids; returns what the colour bar needs:
+    (mesh, the constant if it is one)."""
+    floor = look.scales.floor(quantity.unit)
+    everything = [quantity.values(grid)[grid.used()] for output in outputs for grid in output.grids]
+    low, high, constant = _colour_range(np.concatenate(everything), floor)
+    colours = style.SIGNED_MAP if constant is None and low == -high else colours
+    levels = np.linspace(low, high, CONTOURS + 2)[1:-1]
+    for output in outputs:
+        for k, grid in enumerate(output.grids):
+            values = np.where(grid.used(), quantity.values(grid), 0).ravel()
+            if constant is not None:
+                values[:] = constant
+            if triangles := mesh.triangles(grid):
+                drawn = TriMesh(triangles, cmap=colours)
+                drawn.set_array(values)
+                drawn.set_clim(low, high)
+                axes.add_collection(drawn, autolim=False)  # the box is known; finding it takes longer than the drawing
+            if look.contours and constant is None:
+                _contours(axes, output.grids, k, values, levels)
+    return drawn, constant
+
+
+def _fill(axes, grids):
+    """The region of a solid in one plain colour."""
+    for grid in grids:
+        axes.add_collection(PolyCollection(mesh.quadrilaterals(grid), facecolors=style.SOLID_FILL,
+                                           edgecolors=style.SOLID_FILL, linewidths=0.5))
+
+
+def _outline(axes, grids):
+    lines = [line for grid in grids for line in mesh.outer_lines(grid)]
+    axes.add_collection(LineCollection(lines, colors=style.SOLID_EDGE, linewidths=0.7))
+
+
+def _draw(figure, axes, gas, solids, panel, look):
+    """One panel."""
+    title, of_gas, of_solid = panel
+    if solids and of_solid:  # the bar drawn first is the one further out
+        drawn, constant = _colour(axes, solids, of_solid, style.SOLID_MAP, look)
+        style.bar(figure, axes, drawn, "solid" if gas else "", constant)
+    if gas:
+        drawn, constant = _colour(axes, [gas], of_gas, style.GAS_MAP, look)
+        style.bar(figure, axes, drawn, "gas" if solids else "", constant)
     for solid in solids:
-        _fill_solid(axes, solid.grids)
+        if not of_solid:
+            _fill(axes, solid.grids)
+        _outline(axes, solid.grids)
+    axes.set_title(title, loc="left")
 
 
-def _field_picture(series, index, box):
+def _panels_of(gas, solids, floor):
+    """The panels that say something: along x1 the speed is the size of v1."""
+    if not gas:
+        return SOLID_PANELS
+    everything = BOTH_PANELS if solids else GAS_PANELS
+    along = all(np.allclose(np.abs(grid.fields["v1"]), grid.speed(), rtol=1e-6, atol=floor, equal_nan=True)
+                for output in (gas, *solids) for grid in output.grids)
+    return everything[1:] if along else everything
+
+
+def _field_picture(series, index, box, look):
     """All quantities of all programs at output `index`."""
     gas = next((one.outputs[index] for one in series if one.is_gas()), None)
     solids = [one.outputs[index] for one in series if not one.is_gas()]
-    quantities = GAS_QUANTITIES if gas else SOLID_QUANTITIES
-    figure, panels = _panels(len(quantities), box)
-    for axes, (label, quantity) in zip(panels, quantities):
-        if gas:
-            _draw_gas(figure, axes, gas, solids, label, quantity)
-        else:
-            _bar(figure, axes, [_colour(axes, solid.grids, quantity, style.SOLID_MAP) for solid in solids][-1], "")
-        axes.set_title(label, loc="left")
+    chosen = _panels_of(gas, solids, look.scales.floor(SPEED.unit))
+    figure, axes = panels(len(chosen), box, 0.8 * (bool(gas) + bool(solids)))
+    for one, panel in zip(axes, chosen):
+        _draw(figure, one, gas, solids, panel, look)
     figure.suptitle(f"t = {series[0].outputs[index].t:.4g}", x=0.01, ha="left", fontsize=10)
     return figure
 
 
-def _grid_lines(grid):
-    """Every n-th line of both directions, so that at most MOST_LINES are drawn; the last one always."""
-    lines = []
-    for x1, x2 in ((grid.x1, grid.x2), (grid.x1.T, grid.x2.T)):
-        step = max(1, -(-len(x1) // MOST_LINES))
-        chosen = sorted({*range(0, len(x1), step), len(x1) - 1})
-        lines += [np.column_stack([x1[k], x2[k]]) for k in chosen]
-    return lines
-
-
-def _grid_picture(series, index, box):
-    figure, (axes,) = _panels(1, box)
-    for one in series:
-        colour = style.GAS_EDGE if one.is_gas() else style.SOLID_EDGE
-        for grid in one.outputs[index].grids:
-            axes.add_collection(LineCollection(_grid_lines(grid), colors=colour, linewidths=0.35))
-    axes.set_title(f"grids at t = {series[0].outputs[index].t:.4g}: gas blue, solid brown", loc="left")
-    return figure
-
-
-def pictures(series):
-    """(name, figure) of the fields at the output times, and of the grids at the last one."""
+def pictures(series, look):
+    """(name, figure) of the fields at the output times."""
     if not series:
         return
-    box = _limits(series)
+    box = box_around([grid for one in series for output in one.outputs for grid in output.grids])
     count = min(len(one.outputs) for one in series)  # a killed run may lack the last output of one program
-    for index in _times_shown(count):
-        yield f"fields_{index:04}", _field_picture(series, index, box)
-    yield "grid", _grid_picture(series, count - 1, box)
+    for index in times_shown(count):
+        yield f"fields_{index:04}", _field_picture(series, index, box, look)

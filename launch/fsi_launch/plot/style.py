@@ -1,16 +1,24 @@
 """One look for all pictures."""
 
+import math
+
 import matplotlib
 
 matplotlib.use("Agg")
 
 from matplotlib import pyplot  # noqa: E402
+from matplotlib.ticker import MaxNLocator  # noqa: E402
 
 GAS_MAP = "viridis"
 SOLID_MAP = "magma"
+SIGNED_MAP = "RdBu_r"
 SOLID_FILL = "#d9d4cb"
 SOLID_EDGE = "#5c5346"
 GAS_EDGE = "#2f6f9f"
+# The paper's colours of grids: background and body-fitted.
+GAS_GRIDS = ("#2b5ea8", "#1d8a3d")
+SOLID_GRIDS = ("#b5281e", "#e0559f")
+GAS_LINE, SOLID_LINE = "#2b5ea8", "#b5281e"
 
 
 def use():
@@ -24,5 +32,33 @@ def use():
 
 def save(figure, path):
     """Writes a picture and forgets it."""
-    figure.savefig(path)
+    figure.savefig(path, bbox_inches="tight", pad_inches=0.06)
     pyplot.close(figure)
+
+
+def short_numbers(low, high):
+    """(base, exponent): numbers from `low` to `high` are short when shown as (number - base) / 10^exponent."""
+    width = high - low
+    base = 0.0
+    if width < 0.02 * max(abs(low), abs(high)):
+        base = round(0.5 * (low + high), -math.floor(math.log10(width)) - 1)
+    exponent = math.floor(math.log10(max(abs(low - base), abs(high - base))))
+    return base, 0 if -1 <= exponent <= 2 else exponent
+
+
+def bar(figure, axes, mesh, label, constant=None):
+    """A colour bar with few short numbers, only one if the field is `constant`. Above it `label` and what must be
+    added to the numbers and multiplied with them."""
+    low, high = mesh.get_clim() if constant is None else (constant, constant)
+    base, exponent = (0.0, 0) if constant is not None else short_numbers(low, high)
+    unit = 10.0 ** exponent
+    shown = [constant]
+    if constant is None:
+        ticks = MaxNLocator(6, steps=[1, 2, 5, 10]).tick_values((low - base) / unit, (high - base) / unit)
+        shown = [tick for tick in ticks if low <= base + tick * unit <= high]
+    one = figure.colorbar(mesh, ax=axes, shrink=0.9, pad=0.02, aspect=18, ticks=[base + tick * unit for tick in shown])
+    one.ax.set_yticklabels([f"{round(tick, 6) + 0.0:g}" for tick in shown])
+    one.outline.set_visible(False)
+    one.ax.tick_params(labelsize=8)
+    lines = (label, f"${base:.10g} +$" if base else "", f"$\\times 10^{{{exponent}}}$" if exponent else "")
+    one.ax.set_title("\n".join(line for line in lines if line), fontsize=7.5, loc="left")

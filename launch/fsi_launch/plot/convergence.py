@@ -1,0 +1,54 @@
+"""Errors over the grid spacing, as `fsi converge` left them, beside the slope of second order."""
+
+import numpy as np
+from matplotlib import pyplot
+from matplotlib.ticker import FuncFormatter, NullFormatter
+
+ROUND_OFF = 1e-13                         # an error that stays below it has no rate
+NAMES = {"rho": "$\\rho$", "v1": "$v_1$", "v2": "$v_2$", "T": "$T$", "u_bar": "$\\bar u$", "v_bar": "$\\bar v$",
+         "P_bar": "$\\bar P$", "rho_mean": "$\\rho$, mean"}
+MARKERS = "os^vD<>ph*"
+
+
+def _triangle(axes, h, lowest):
+    """A right triangle of slope 2 below all curves."""
+    low, high = h.min() * (h.max() / h.min()) ** 0.35, h.min() * (h.max() / h.min()) ** 0.75
+    bottom = 0.5 * lowest(low)
+    top = bottom * (high / low) ** 2
+    axes.plot([low, high, high, low], [bottom, bottom, top, bottom], color="black", linewidth=0.9)
+    axes.text(high * 1.02, np.sqrt(bottom * top), " 2", va="center")
+    axes.text(np.sqrt(low * high), bottom * 0.9, "1", va="top", ha="center")
+
+
+def _spacing(value):
+    return f"1/{1 / value:.0f}" if value < 1 else f"{value:g}"
+
+
+def pictures(table):
+    """(name, figure) of the table; curves of errors that are nothing but round-off are left out."""
+    if not table:
+        return
+    h = np.array(table["h"])
+    errors = {name: np.array([np.nan if e is None else e for e in column]) for name, column in table["errors"].items()}
+    errors = {name: column for name, column in errors.items() if np.nanmax(column, initial=0) > ROUND_OFF}
+    if not errors:
+        return
+    figure, axes = pyplot.subplots(figsize=(5.8, 4.6))
+    for (name, column), marker in zip(errors.items(), MARKERS):
+        rate = table["fitted"][name]
+        label = NAMES.get(name, name) + ("" if rate is None else f": rate {rate:.2f}")
+        axes.loglog(h, column, marker=marker, markersize=4.5, label=label)
+    if len(h) > 1:
+        least = np.nanmin(list(errors.values()), axis=0)
+        order = np.argsort(h)
+        _triangle(axes, h, lambda x: np.exp(np.interp(np.log(x), np.log(h[order]), np.log(least[order]))))
+    axes.set_xticks(h)
+    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: _spacing(value)))
+    axes.xaxis.set_minor_formatter(NullFormatter())
+    axes.minorticks_off()
+    axes.grid(axis="y", color="#e4e4e4", linewidth=0.6)
+    axes.set_axisbelow(True)
+    axes.set_xlabel("grid spacing h")
+    axes.set_title(f"{table['case']}: largest errors", loc="left")
+    axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0))
+    yield "convergence", figure

@@ -1,0 +1,143 @@
+"""Pictures of the component grids (the paper's figure 9), unused points left out; close-ups of interfaces."""
+
+import numpy as np
+from matplotlib import pyplot
+from matplotlib.collections import LineCollection
+from matplotlib.lines import Line2D
+from matplotlib.patches import Rectangle
+
+from fsi_launch.plot import fields, style
+from fsi_launch.plot.data import DISCRETISED, INTERPOLATED
+
+MOST_LINES = 170     # of a background grid in the picture of the whole; of finer grids every n-th line is drawn
+CLOSE_UP = 14        # half the width of a close-up, in grid spacings
+DOT = {"marker": "o", "linestyle": "", "markersize": 3.2}
+INTERFACE = 0.3      # points of gas and solid this close, in spacings, are on their interface
+
+
+def _lines(grid, step):
+    """Every `step`-th line of both directions and always the last one, broken at unused points."""
+    lines = []
+    for x1, x2, used in ((grid.x1, grid.x2, grid.used()), (grid.x1.T, grid.x2.T, grid.used().T)):
+        for k in sorted({*range(0, len(x1), step), len(x1) - 1}):
+            for run in np.split(np.arange(len(used[k])), np.flatnonzero(np.diff(used[k])) + 1):
+                if used[k][run[0]]:
+                    lines.append(np.column_stack([x1[k][run], x2[k][run]]))
+    return lines
+
+
+def _look(one, index, grid):
+    """(colour, label) of a component grid of a program: a body-fitted one differs from the background."""
+    background, fitted = style.GAS_GRIDS if one.is_gas() else style.SOLID_GRIDS
+    alone = len(one.outputs[index].grids) == 1
+    return background if alone or grid.is_cartesian() else fitted, f"{'gas' if one.is_gas() else one.name}: {grid.name}"
+
+
+def _draw(axes, series, index, step, width):
+    """All component grids at output `index`; returns handles for the legend."""
+    handles = []
+    for one in series:
+        for grid in one.outputs[index].grids:
+            colour, label = _look(one, index, grid)
+            axes.add_collection(LineCollection(_lines(grid, step), colors=colour, linewidths=width))
+            handles.append(Line2D([], [], color=colour, label=label))
+    return handles
+
+
+def _mark_interpolated(axes, series, index):
+    """Dots at interpolation points; returns handles for the legend."""
+    shown = False
+    for one in series:
+        for grid in one.outputs[index].grids:
+            at = grid.kind == INTERPOLATED
+            shown = shown or at.any()
+            axes.plot(grid.x1[at], grid.x2[at], color=_look(one, index, grid)[0], **DOT)
+    return [Line2D([], [], color="black", label="interpolated", **DOT)] if shown else []
+
+
+def _legend(axes, handles):
+    axes.legend(handles=handles, loc="upper left", bbox_to_anchor=(1.02, 1), handlelength=1.4, borderaxespad=0)
+
+
+def _rim(grid):
+    """The points on a grid's sides where its region ends: discretised ones."""
+    sides = (np.s_[0, :], np.s_[-1, :]) + (() if grid.closed else (np.s_[:, 0], np.s_[:, -1]))
+    return np.concatenate([np.column_stack([grid.x1[s], grid.x2[s]])[grid.kind[s] == DISCRETISED] for s in sides])
+
+
+def _interface(gas, solid):
+    """(points of the solid's rim that lie on the rim of the gas, True if they close on themselves)."""
+    wall = np.concatenate([_rim(grid) for grid in gas])
+    for grid in reversed(solid):
+        rim = _rim(grid)
+        near = [point for point in rim if np.hypot(*(wall - point).T).min() < INTERFACE * grid.spacing()]
+        if len(near) > 2:
+            return np.array(near), grid.closed
+    return np.empty((0, 2)), False
+
+
+def _places(series, index):
+    """(name, points, closed) of what deserves a picture: interfaces, or body-fitted grids of a program alone."""
+    gas = [grid for one in series if one.is_gas() for grid in one.outputs[index].grids]
+    solids = [one for one in series if not one.is_gas()]
+    if gas and solids:
+        found = [(one.name, *_interface(gas, one.outputs[index].grids)) for one in solids]
+    else:
+        found = [(grid.name, _rim(grid), grid.closed) for one in series if len(one.outputs[index].grids) > 1
+                 for grid in one.outputs[index].grids if not grid.is_cartesian()]
+    return [place for place in found if len(place[1])]
+
+
+def _spacing(series, index):
+    return max(grid.spacing() for one in series for grid in one.outputs[index].grids)
+
+
+def _frame(axes, centre, half):
+    axes.set_aspect("equal")
+    axes.set_xlim(centre[0] - half, centre[0] + half)
+    axes.set_ylim(centre[1] - half, centre[1] + half)
+
+
+def _place_picture(series, index, name, points, closed):
+    """Left the surroundings of all `points`, right a few cells: at the upper right of a body, the middle of a line."""
+    h = _spacing(series, index)
+    middle = 0.5 * (points.min(axis=0) + points.max(axis=0))
+    whole = 0.5 * np.ptp(points, axis=0).max() + CLOSE_UP * h
+    at = points[points.sum(axis=1).argmax()] if closed else points[len(points) // 2]
+    half = min(CLOSE_UP * h, 0.6 * whole)
+    figure, (left, right) = pyplot.subplots(1, 2, figsize=(11.2, 4.9))
+    handles = _draw(left, series, index, 1, 0.3)
+    _frame(left, middle, whole)
+    left.add_patch(Rectangle(at - half, 2 * half, 2 * half, fill=False, edgecolor="black", linewidth=0.9, zorder=3))
+    left.set_title(f"grids around {name}, t = {series[0].outputs[index].t:.4g}", loc="left")
+    _draw(right, series, index, 1, 0.7)
+    handles += _mark_interpolated(right, series, index)
+    _frame(right, at, half)
+    right.set_title("the square on the left", loc="left")
+    _legend(right, handles)
+    return figure
+
+
+def _whole_picture(series, index, box):
+    grids = [grid for one in series for grid in one.outputs[index].grids]
+    lines = max(max(grid.x1.shape) for grid in [g for g in grids if g.is_cartesian()] or grids)
+    figure, (axes,) = fields.panels(1, box, 1.4 if len(grids) > 1 else 0)
+    handles = _draw(axes, series, index, -(-lines // MOST_LINES), 0.35)
+    axes.set_title(f"grids at t = {series[0].outputs[index].t:.4g}", loc="left")
+    if len(grids) > 1:
+        _legend(axes, handles)
+    return figure
+
+
+def pictures(series):
+    """(name, figure) of all grids at the last output, and of each interface."""
+    if not series:
+        return
+    index = min(len(one.outputs) for one in series) - 1
+    box = fields.box_around([grid for one in series for grid in one.outputs[index].grids])
+    yield "grid", _whole_picture(series, index, box)
+    composite = any(len(one.outputs[index].grids) > 1 for one in series)
+    if not composite and 4 * CLOSE_UP * _spacing(series, index) > max(box[1] - box[0], box[3] - box[2]):
+        return  # the grids are so coarse that the whole shows all there is
+    for name, points, closed in _places(series, index):
+        yield f"grid_{name}", _place_picture(series, index, name, points, closed)

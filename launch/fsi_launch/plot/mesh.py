@@ -1,0 +1,64 @@
+"""Cells of component grids as pictures need them: only those between used points, as triangles."""
+
+import numpy as np
+from matplotlib.path import Path
+from matplotlib.tri import Triangulation
+
+from fsi_launch.plot.data import INTERPOLATED
+
+
+def cells(used):
+    """Which cells have used points at all four corners; one fewer than the points each way."""
+    return used[:-1, :-1] & used[:-1, 1:] & used[1:, :-1] & used[1:, 1:]
+
+
+def corners(shape):
+    """Numbers of the four corners of every cell, in order around it: (n2 - 1, n1 - 1, 4)."""
+    number = np.arange(shape[0] * shape[1]).reshape(shape)
+    return np.stack([number[:-1, :-1], number[:-1, 1:], number[1:, 1:], number[1:, :-1]], axis=-1)
+
+
+def triangles(grid, shown=None):
+    """The cells `shown` (all between used points unless told) as two triangles each; None if there are none."""
+    quads = corners(grid.x1.shape)[cells(grid.used()) if shown is None else shown]
+    if not len(quads):
+        return None
+    return Triangulation(grid.x1.ravel(), grid.x2.ravel(), np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]]))
+
+
+def quadrilaterals(grid):
+    """Corner positions of the cells between used points: (count, 4, 2)."""
+    points = np.column_stack([grid.x1.ravel(), grid.x2.ravel()])
+    return points[corners(grid.x1.shape)[cells(grid.used())]]
+
+
+def _loops(grid):
+    """The rim as closed lines: two for a ring."""
+    if grid.closed:
+        parts = [[np.s_[0, :]], [np.s_[-1, :]]]
+    else:
+        parts = [[np.s_[0, :], np.s_[:, -1], np.s_[-1, ::-1], np.s_[::-1, 0]]]
+    return [np.column_stack([np.concatenate([x[p] for p in part]) for x in (grid.x1, grid.x2)]) for part in parts]
+
+
+def outer_lines(grid):
+    """Parts of the rim of a grid where its region ends: not those that lie within another grid."""
+    if grid.used().all() and (grid.kind != INTERPOLATED).all():
+        return _loops(grid)
+    sides = [np.s_[0, :], np.s_[-1, :]] + ([] if grid.closed else [np.s_[:, 0], np.s_[:, -1]])
+    return [np.column_stack([grid.x1[s], grid.x2[s]]) for s in sides
+            if (grid.used()[s] & (grid.kind[s] != INTERPOLATED)).sum() > 0.5 * grid.kind[s].size]
+
+
+def uncovered(grid, others):
+    """Cells between used points that do not lie wholly within one of the grids laid over this one."""
+    shown = cells(grid.used())
+    points = np.column_stack([grid.x1.ravel(), grid.x2.ravel()])
+    for other in others:
+        if not other.used().all():
+            continue  # its unused points leave a hole that this grid must show through
+        inside = np.zeros(len(points), dtype=bool)
+        for loop in _loops(other):
+            inside ^= Path(loop).contains_points(points)
+        shown = shown & ~cells(inside.reshape(grid.x1.shape))
+    return shown
