@@ -109,6 +109,34 @@ def bench(name):
     return "`./launch/fsi bench`\n\n" + "\n".join(lines) + "\n"
 
 
+# Published errors of the rotating disk (tables of section 5.2): rho, v1, v2, T, u_bar, v_bar, P_bar by grid factor.
+DISK = {
+    "10": {2: (1.5e-5, 1.1e-4, 1.1e-4, 3.1e-5, 1.7e-4, 1.0e-3, 1.5e-3), 4: (4.1e-6, 2.9e-5, 3.0e-5, 8.3e-6, 2.9e-5, 2.3e-4, 2.1e-4),
+           8: (9.6e-7, 6.6e-6, 6.7e-6, 1.9e-6, 5.6e-6, 4.8e-5, 3.9e-5), 16: (2.4e-7, 1.6e-6, 1.6e-6, 4.8e-7, 1.2e-6, 1.1e-5, 8.3e-6)},
+    "1": {2: (1.1e-4, 7.3e-5, 7.5e-5, 2.1e-5, 1.7e-4, 1.0e-3, 1.5e-3), 4: (3.2e-5, 2.3e-5, 2.3e-5, 6.6e-6, 2.9e-5, 2.3e-4, 2.1e-4),
+          8: (8.3e-6, 5.8e-6, 5.8e-6, 1.7e-6, 5.6e-6, 4.8e-5, 3.9e-5), 16: (2.1e-6, 1.5e-6, 1.5e-6, 4.3e-7, 1.2e-6, 1.1e-5, 8.1e-6)},
+    "0.1": {2: (1.1e-3, 4.0e-5, 2.7e-5, 5.7e-5, 1.8e-4, 1.2e-3, 1.5e-3), 4: (1.8e-4, 1.3e-5, 1.3e-5, 3.8e-6, 3.2e-5, 2.9e-4, 2.2e-4),
+            8: (6.3e-5, 4.4e-6, 4.4e-6, 1.3e-6, 6.2e-6, 6.4e-5, 4.2e-5), 16: (1.8e-5, 1.3e-6, 1.2e-6, 3.6e-7, 1.3e-6, 1.5e-5, 9.2e-6)},
+}
+COLUMNS = ("rho", "v1", "v2", "T", "u_bar", "v_bar", "P_bar")
+
+
+def disk(delta, projection):
+    """Error table of the rotating disk, and its parts of the published errors."""
+    name = f"disk-{delta}-{projection}"
+    settings = [f"parameters.delta={delta}", f"interface.projection={projection}"]
+    text = converge(name, "rotating_disk", "2,4,8,16", settings)
+    path = RUNS / name / "converge.json"
+    if not path.is_file():
+        return text
+    found = json.loads(path.read_text(encoding="utf-8"))["errors"]
+    lines = ["| h | " + " | ".join(COLUMNS) + " |", "|" + "---|" * (len(COLUMNS) + 1)]
+    for index, (level, paper) in enumerate(DISK[delta].items()):
+        parts = [f"{found[column][index] / error:.2f}" for column, error in zip(COLUMNS, paper)]
+        lines.append(f"| 1/{10 * level} | " + " | ".join(parts) + " |")
+    return text + "\nThe same errors over those of the paper's table:\n\n" + "\n".join(lines) + "\n"
+
+
 RATIOS = ["0.001", "0.01", "0.1", "1", "10", "1000"]
 PISTON = [("steps", "steps"), ("v_bar", "errors.v_bar"), ("P_bar", "errors.P_bar"), ("u_bar", "errors.u_bar"),
           ("rho", "errors.rho"), ("v1", "errors.v1"), ("T", "errors.T"), ("gap", "interface.max_gap")]
@@ -184,7 +212,45 @@ def other_studies():
                           ("energy", "conservation.block.energy_initial"),
                           ("angular momentum drift", "conservation.block.angular_momentum"),
                           ("angular momentum", "conservation.block.angular_momentum_initial")]))
-    yield "Benchmarks", lambda: bench("bench")
+
+
+def disk_studies():
+    for delta, weight in (("10", "heavy"), ("1", "medium"), ("0.1", "light")):
+        for projection in ("simplified", "full"):
+            yield (f"Rotating disk, {weight} (delta = {delta}), {projection} projection",
+                   lambda d=delta, p=projection: disk(d, p))
+    yield ("Rotating disk, the traditional scheme, h = 1/80, t = 1",
+           lambda: sweep("disk-traditional", "rotating_disk", [(f"delta = {d}", [f"parameters.delta={d}"], [])
+                                                              for d in ("10", "1", "0.5", "0.2", "0.1")],
+                         [*END, ("rho", "errors.rho"), ("v_bar", "errors.v_bar")],
+                         ["interface.projection=traditional", "grid.factor=8", "time.end=1", "output.times=[1]"]))
+    for law in ("neo_hookean", "linear_elastic"):
+        yield f"Rotating disk, {law}", lambda l=law: converge(f"disk-{l}", "rotating_disk", "2,4,8,16", solids=[f"disk={l}"])
+    yield ("Rotating disk, lambda = 2, mu = 0.5",
+           lambda: converge("disk-stiff", "rotating_disk", "2,4,8,16", ["solids.disk.lambda=2", "solids.disk.mu=0.5"]))
+    yield ("Rotating disk, without each stabilisation, h = 1/160",
+           lambda: sweep("disk-without", "rotating_disk",
+                         [("all", [], [])] + [(f"without {key}", [f"solids.disk.scheme.{key}.scaled=0"], [])
+                                              for key in ("tangential_stress", "displacement", "relaxation")],
+                         [(name, f"errors.{name}") for name in COLUMNS], ["grid.factor=16"]))
+    yield ("Rotating disk, multirate with a stiff light solid (lambda = mu = 16), h = 1/80",
+           lambda: sweep("disk-multirate", "rotating_disk",
+                         [(f"multirate {m}", [f"time.multirate={m}"], []) for m in ("false", "true")],
+                         [("steps", "steps"), *[(name, f"errors.{name}") for name in COLUMNS]],
+                         ["grid.factor=8", "parameters.stiffness=16", "parameters.delta=0.1"]))
+    yield ("Rotating disk inside a wall, t = 10",
+           lambda: converge("disk-wall", "rotating_disk_walled", "2,4,8,16")
+           + "\n" + sweep("disk-budget", "rotating_disk_walled", [(f"h = 1/{10 * j}", [f"grid.factor={j}"], []) for j in (2, 4, 8)],
+                          [("gas mass drift", "conservation.fluid.mass"),
+                           ("disk energy change", "conservation.disk.energy"), ("initial", "conservation.disk.energy_initial"),
+                           ("angular momentum drift", "conservation.disk.angular_momentum"),
+                           ("initial", "conservation.disk.angular_momentum_initial")]))
+    yield ("Gas and disk moving together on overlapping grids",
+           lambda: sweep("together-disk", "moving_together_disk",
+                         [(f"{p}, multirate {m}", [f"interface.projection={p}", f"time.multirate={m}"], [])
+                          for p in ("simplified", "full") for m in ("false", "true")],
+                         [(name, f"errors.{name}") for name in ("rho", "v1", "v2", "T", "u_bar", "v_bar")]
+                         + [("gap", "interface.max_gap"), ("velocity jump", "interface.max_velocity_jump")]))
 
 
 def kept_sections():
@@ -197,7 +263,7 @@ def kept_sections():
 
 def main(words):
     sections = kept_sections()
-    studies = [*piston_studies(), *other_studies()]
+    studies = [*piston_studies(), *other_studies(), *disk_studies(), ("Benchmarks", lambda: bench("bench"))]
     head = ("# Results\n\nWhat the commands gave on two cores; `docs/record_results.py` repeats them all and writes this page. "
             "Errors are largest absolute differences over all points and components.\n\n")
     for title, study in studies:

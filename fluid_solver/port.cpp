@@ -254,6 +254,7 @@ void FluidParticipant::report(double t, io::Part& part) const {
   part.conservation["energy"] = now.energy - initial_totals_.energy;
   part.conservation["momentum1"] = now.momentum1 - initial_totals_.momentum1;
   part.conservation["momentum2"] = now.momentum2 - initial_totals_.momentum2;
+  part.conservation["angular_momentum"] = now.angular_momentum - initial_totals_.angular_momentum;
   if (!reference_ || part.status == "stopped") return;
   const StateField exact = field_of(reference_);
   const GasErrors errors = solver_.errors(exact, t);

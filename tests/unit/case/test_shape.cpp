@@ -1,0 +1,100 @@
+// Shapes of solids and body-fitted grids in the case file.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "tests/unit/case/cases.hpp"
+
+namespace fsi {
+namespace {
+
+using tests::load_text;
+using tests::mistake_in;
+
+/// A disk in a gas; SHAPE, RING and OUTLINE are replaced.
+std::string disk_case(const std::string& shape, const std::string& ring = "{name: ring, solid: disk}",
+                      const std::string& outline = "{lines: 8}") {
+  return "time: {end: 1}\ngrid: {factor: 1}\n"
+         "fluid:\n"
+         "  grid: {x: [-2, 2], y: [-2, 2], spacing: h}\n"
+         "  body_fitted: [" +
+         ring +
+         "]\n"
+         "  boundary: {left: outflow, right: outflow, bottom: outflow, top: outflow}\n"
+         "  initial: {rho: 1, v: [0, 0], p: 1}\n"
+         "solids:\n  disk:\n    law: neo_hookean\n    rho: 1\n    lambda: 1\n    mu: 1\n"
+         "    grid: {x: [-1, 1], y: [-1, 1], spacing: h}\n"
+         "    shape: " +
+         shape + "\n    body_fitted: " + outline + "\n";
+}
+
+const std::string circle = "{kind: circle, radius: 0.9}";
+
+TEST(CaseShape, GasAndSolidShareThePointsOfTheOutline) {
+  const Case problem = load_text(disk_case(circle));
+  const BodyFittedSpec& gas = problem.fluid->body_fitted.at(0);
+  const BodyFittedSpec& solid = problem.solids.at(0).body_fitted.at(0);
+  EXPECT_EQ(gas.curve.x, solid.curve.x);
+  EXPECT_EQ(gas.curve.points(), std::lround(2 * M_PI * 0.9 / 0.1) + 1);
+  EXPECT_EQ(gas.side, Side::top);
+  EXPECT_EQ(solid.side, Side::bottom);
+  EXPECT_EQ(gas.boundary[static_cast<std::size_t>(Side::top)].kind, BoundaryKind::interface);
+  EXPECT_EQ(gas.boundary[static_cast<std::size_t>(Side::left)].kind, BoundaryKind::periodic);
+}
+
+TEST(CaseShape, TheBodyLiesToTheLeftWhateverTheOrderOfItsCorners) {
+  const auto area = [](const std::string& corners) {
+    const Case problem =
+        load_text(disk_case("{kind: polygon, sharpness: 20, corners: " + corners + "}"), {"grid.factor=4"});
+    const std::vector<double>& x = problem.solids.at(0).body_fitted.at(0).curve.x;
+    const std::size_t n = x.size() / 2;
+    double twice = 0;
+    for (std::size_t k = 0; k + 1 < n; ++k) twice += x[k] * x[n + k + 1] - x[k + 1] * x[n + k];
+    return 0.5 * twice;
+  };
+  const double one_way = area("[[-0.8, -0.8], [0.8, -0.8], [0.8, 0.8], [-0.8, 0.8]]");
+  EXPECT_NEAR(one_way, 2.56, 0.2);  // less the rounded corners
+  EXPECT_NEAR(area("[[-0.8, -0.8], [-0.8, 0.8], [0.8, 0.8], [0.8, -0.8]]"), one_way, 1e-12);
+}
+
+TEST(CaseShape, PointsOfAFileBecomePartOfTheResolvedCase) {
+  const tests::TemporaryFolder folder;
+  folder.write("outline.csv", "x, y\n0.8, 0\n0, 0.9\n-0.8, 0\n0, -0.9\n");
+  const Case from_file = load_case(folder.write("case.yaml", disk_case("{kind: spline, file: outline.csv}")));
+  const Case inlined = load_text(
+      disk_case("{kind: spline, through: [[0.8, 0], [0, 0.9], [-0.8, 0], [0, -0.9]]}"), {"grid.factor=2"});
+  EXPECT_EQ(from_file.solids.at(0).body_fitted.at(0).curve.x, inlined.solids.at(0).body_fitted.at(0).curve.x);
+  EXPECT_EQ(from_file.resolved.find("outline.csv"), std::string::npos);
+}
+
+struct ShapeMistake {
+  std::string text, part;
+};
+
+TEST(CaseShape, MistakesSayWhereAndWhatToWrite) {
+  const ShapeMistake mistakes[] = {
+      {disk_case(circle, "{name: ring, solid: disc}"), "there is no solid `disc`; did you mean `disk`?"},
+      {disk_case(circle, "{name: ring}"), "give `solid` or `shape`, one of them"},
+      {disk_case(circle, "{name: ring, solid: disk}, {name: ring, solid: disk}"),
+       "there are two grids `ring`"},
+      {disk_case(circle, "{name: wall, shape: {kind: circle, radius: 1.5}}"), "meets no gas"},
+      {disk_case(circle, "{name: ring, solid: disk}", "{boundary: free}"), "must be an interface"},
+      {disk_case("{kind: circle, radius: 0.9, walls: [bottom, top]}"), "a circle has no ends"},
+      {disk_case("{kind: circle, radius: 0.9, points: 70, spacing: h}"),
+       "`points` or `spacing`, one of them"},
+      {disk_case("{kind: spline}"), "give `through: [[x, y], ..]` or `file: NAME.csv`"},
+      {disk_case("{kind: spline, file: nowhere.csv}"), "cannot be read"},
+      {disk_case("{kind: circle, radius: 1.3}"), "change `lines`, `spacing` or the shape"},
+  };
+  for (const ShapeMistake& mistake : mistakes) {
+    const std::string message = mistake_in(mistake.text);
+    EXPECT_NE(message.find(mistake.part), std::string::npos) << message;
+    EXPECT_TRUE(message.starts_with("case.yaml:")) << message;
+    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+  }
+}
+
+}  // namespace
+}  // namespace fsi
