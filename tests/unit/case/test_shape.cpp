@@ -62,7 +62,8 @@ TEST(CaseShape, TheBodyLiesToTheLeftWhateverTheOrderOfItsCorners) {
 TEST(CaseShape, PointsOfAFileBecomePartOfTheResolvedCase) {
   const tests::TemporaryFolder folder;
   folder.write("outline.csv", "x, y\n0.8, 0\n0, 0.9\n-0.8, 0\n0, -0.9\n");
-  const Case from_file = load_case(folder.write("case.yaml", disk_case("{kind: spline, file: outline.csv}")));
+  const Case from_file =
+      load_case(folder.write("case.yaml", disk_case("{kind: spline, file: outline.csv}")), {"grid.factor=2"});
   const Case inlined = load_text(
       disk_case("{kind: spline, through: [[0.8, 0], [0, 0.9], [-0.8, 0], [0, -0.9]]}"), {"grid.factor=2"});
   EXPECT_EQ(from_file.solids.at(0).body_fitted.at(0).curve.x, inlined.solids.at(0).body_fitted.at(0).curve.x);
