@@ -6,7 +6,7 @@ from matplotlib.collections import LineCollection
 from matplotlib.lines import Line2D
 from matplotlib.patches import Rectangle
 
-from fsi_launch.plot import fields, style
+from fsi_launch.plot import fields, mesh, style
 from fsi_launch.plot.data import DISCRETISED, INTERPOLATED
 
 MOST_LINES = 170     # of a background grid in the picture of the whole; of finer grids every n-th line is drawn
@@ -20,9 +20,7 @@ def _lines(grid, step):
     lines = []
     for x1, x2, used in ((grid.x1, grid.x2, grid.used()), (grid.x1.T, grid.x2.T, grid.used().T)):
         for k in sorted({*range(0, len(x1), step), len(x1) - 1}):
-            for run in np.split(np.arange(len(used[k])), np.flatnonzero(np.diff(used[k])) + 1):
-                if used[k][run[0]]:
-                    lines.append(np.column_stack([x1[k][run], x2[k][run]]))
+            lines += [np.column_stack([x1[k][run], x2[k][run]]) for run in mesh.runs(used[k])]
     return lines
 
 
@@ -92,14 +90,16 @@ def _spacing(series, index):
     return max(grid.spacing() for one in series for grid in one.outputs[index].grids)
 
 
-def _frame(axes, centre, half):
+def _frame(axes, centre, half, box):
+    """A square window, cut where everything ends."""
     axes.set_aspect("equal")
-    axes.set_xlim(centre[0] - half, centre[0] + half)
-    axes.set_ylim(centre[1] - half, centre[1] + half)
+    axes.set_xlim(max(centre[0] - half, box[0]), min(centre[0] + half, box[1]))
+    axes.set_ylim(max(centre[1] - half, box[2]), min(centre[1] + half, box[3]))
 
 
-def _place_picture(series, index, name, points, closed):
-    """Left the surroundings of all `points`, right a few cells: at the upper right of a body, the middle of a line."""
+def _place_picture(series, index, box, place):
+    """Left the surroundings of all points of the place, right a few cells: at the upper right of a body, the middle of a line."""
+    name, points, closed = place
     h = _spacing(series, index)
     middle = 0.5 * (points.min(axis=0) + points.max(axis=0))
     whole = 0.5 * np.ptp(points, axis=0).max() + CLOSE_UP * h
@@ -107,12 +107,12 @@ def _place_picture(series, index, name, points, closed):
     half = min(CLOSE_UP * h, 0.6 * whole)
     figure, (left, right) = pyplot.subplots(1, 2, figsize=(11.2, 4.9))
     handles = _draw(left, series, index, 1, 0.3)
-    _frame(left, middle, whole)
+    _frame(left, middle, whole, box)
     left.add_patch(Rectangle(at - half, 2 * half, 2 * half, fill=False, edgecolor="black", linewidth=0.9, zorder=3))
     left.set_title(f"grids around {name}, t = {series[0].outputs[index].t:.4g}", loc="left")
     _draw(right, series, index, 1, 0.7)
     handles += _mark_interpolated(right, series, index)
-    _frame(right, at, half)
+    _frame(right, at, half, box)
     right.set_title("the square on the left", loc="left")
     _legend(right, handles)
     return figure
@@ -139,5 +139,5 @@ def pictures(series):
     composite = any(len(one.outputs[index].grids) > 1 for one in series)
     if not composite and 4 * CLOSE_UP * _spacing(series, index) > max(box[1] - box[0], box[3] - box[2]):
         return  # the grids are so coarse that the whole shows all there is
-    for name, points, closed in _places(series, index):
-        yield f"grid_{name}", _place_picture(series, index, name, points, closed)
+    for place in _places(series, index):
+        yield f"grid_{place[0]}", _place_picture(series, index, box, place)

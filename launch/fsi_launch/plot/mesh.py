@@ -41,13 +41,22 @@ def _loops(grid):
     return [np.column_stack([np.concatenate([x[p] for p in part]) for x in (grid.x1, grid.x2)]) for part in parts]
 
 
+def runs(used):
+    """Index ranges of the used points of a line."""
+    parts = np.split(np.arange(len(used)), np.flatnonzero(np.diff(used)) + 1)
+    return [part for part in parts if used[part[0]]]
+
+
 def outer_lines(grid):
     """Parts of the rim of a grid where its region ends: not those that lie within another grid."""
     if grid.used().all() and (grid.kind != INTERPOLATED).all():
         return _loops(grid)
-    sides = [np.s_[0, :], np.s_[-1, :]] + ([] if grid.closed else [np.s_[:, 0], np.s_[:, -1]])
-    return [np.column_stack([grid.x1[s], grid.x2[s]]) for s in sides
-            if (grid.used()[s] & (grid.kind[s] != INTERPOLATED)).sum() > 0.5 * grid.kind[s].size]
+    lines = []
+    for side in (np.s_[0, :], np.s_[-1, :], *(() if grid.closed else (np.s_[:, 0], np.s_[:, -1]))):
+        for run in runs(grid.used()[side]):
+            if (grid.kind[side][run] == INTERPOLATED).mean() < 0.5:
+                lines.append(np.column_stack([grid.x1[side][run], grid.x2[side][run]]))
+    return lines
 
 
 def uncovered(grid, others):

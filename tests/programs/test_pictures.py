@@ -1,0 +1,103 @@
+#!/usr/bin/python3
+"""What pictures of component grids are made of: cells, seams, numbers and scales."""
+
+import sys
+import unittest
+
+import numpy as np
+
+from running import ROOT
+
+sys.path.insert(0, str(ROOT / "launch"))
+from fsi_launch.plot import data, disk, mesh, scales, style  # noqa: E402
+
+HOLE, RIM, OUTER = 0.5, 0.55, 0.8  # radii: unused points, the ring's inside and outside
+
+
+def read(arrays):
+    """A grid as read from a file: groups are mappings from names to arrays."""
+    return data._read_grid("grid", arrays)
+
+
+def background():
+    """A square of [-1, 1] with a hole."""
+    x1, x2 = np.meshgrid(np.linspace(-1, 1, 81), np.linspace(-1, 1, 81))
+    r = np.hypot(x1, x2)
+    return read({"x1": x1, "x2": x2, "kind": np.where(r < HOLE, data.UNUSED, np.where(r < RIM + 0.1, 2, 1)),
+                 "rho": np.where(r < HOLE, np.nan, 1)})
+
+
+def ring():
+    """A ring about the hole whose last points lie one spacing before its first ones."""
+    angle, r = np.meshgrid(np.arange(200) * 2 * np.pi / 200, np.linspace(RIM, OUTER, 9))
+    x1, x2 = r * np.cos(angle), r * np.sin(angle)
+    return read({"x1": x1, "x2": x2, "x1_bar": x1, "x2_bar": x2, "rho": np.ones_like(r),
+                 "u1": 0.3 * x1 + 0.2 * x2, "u2": -0.1 * x1 + 0.1 * x2})
+
+
+def area(triangles):
+    x, y = triangles.x[triangles.triangles], triangles.y[triangles.triangles]
+    return 0.5 * np.abs((x[:, 1] - x[:, 0]) * (y[:, 2] - y[:, 0]) - (x[:, 2] - x[:, 0]) * (y[:, 1] - y[:, 0])).sum()
+
+
+def circle(r, corners=200):
+    """Area of the regular polygon in a circle."""
+    return 0.5 * corners * r ** 2 * np.sin(2 * np.pi / corners)
+
+
+class Cells(unittest.TestCase):
+    def test_holes_are_left_free(self):
+        grid = background()
+        triangles = mesh.triangles(grid)
+        self.assertTrue(np.isfinite(grid.fields["rho"].ravel()[triangles.triangles]).all())
+        self.assertLess(area(triangles), 4 - circle(HOLE))
+
+    def test_a_grid_without_kinds_is_used_everywhere(self):
+        self.assertTrue(ring().used().all())
+
+    def test_a_ring_is_drawn_without_a_gap(self):
+        self.assertAlmostEqual(area(mesh.triangles(ring())), circle(OUTER) - circle(RIM), places=12)
+
+    def test_what_a_ring_covers_is_drawn_once_but_for_the_cells_it_cuts(self):
+        both = area(mesh.triangles(background(), mesh.uncovered(background(), [ring()]))) + area(mesh.triangles(ring()))
+        domain, cut = 4 - circle(RIM), 2 * np.pi * (OUTER + RIM) * 0.025 * np.sqrt(2)
+        self.assertGreater(both, domain)
+        self.assertLess(both, domain + cut)
+
+    def test_the_ring_is_laid_over_the_background(self):
+        self.assertTrue(background().is_cartesian())
+        self.assertFalse(ring().is_cartesian())
+
+
+class Numbers(unittest.TestCase):
+    def test_nearly_constant_pressure_is_shown_about_a_round_number(self):
+        self.assertEqual(style.short_numbers(9.9985, 10.0006), (10.0, -3))
+
+    def test_plain_numbers_stay_plain(self):
+        self.assertEqual(style.short_numbers(0.2, 1.4), (0.0, 0))
+
+    def test_units_are_made_of_length_speed_and_pressure(self):
+        size = scales.Scales(length=2.0, speed=5.0, pressure=3.0)
+        self.assertEqual(size.of("force/area"), 3.0)
+        self.assertEqual(size.of("length/time"), 5.0)
+        self.assertEqual(size.of("force*length/depth"), size.of("force"))
+        self.assertEqual(size.of("power"), size.of("force") * size.of("length/time"))
+        self.assertEqual(size.floor("apples"), 0.0)
+
+
+class Disk(unittest.TestCase):
+    def test_deformation_gradient_of_a_linear_displacement_is_exact_also_at_the_seam(self):
+        F = disk._deformation_gradient(ring())
+        wanted = np.array([[1.3, 0.2], [-0.1, 1.1]])
+        self.assertLess(np.abs(F - wanted[:, :, None, None]).max(), 1e-11)  # round-off of differences of h = 1/40
+
+    def test_pressure_acts_along_the_radius_only_whatever_the_deformation(self):
+        F = np.array([[1.3, 0.2], [-0.1, 1.1]])
+        nominal = -7.0 * np.linalg.det(F) * np.linalg.inv(F)
+        normal, shear = disk._stress_on_circle(F, nominal, np.array(0.3), np.array(-0.4))
+        self.assertAlmostEqual(float(normal), -7.0, places=12)
+        self.assertAlmostEqual(float(shear), 0.0, places=12)
+
+
+if __name__ == "__main__":
+    unittest.main()
