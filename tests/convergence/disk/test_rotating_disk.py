@@ -1,0 +1,72 @@
+#!/usr/bin/python3
+"""The rotating disk on overlapping grids: errors below the paper's, second order, for heavy and light disks."""
+
+import json
+import os
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+ROOT = Path(os.environ.get("FSI_ROOT") or Path(__file__).resolve().parents[3])
+
+# The paper's errors at h = 1/80, t = 0.5 (tables of section 5.2), by delta.
+NAMES = ("rho", "v1", "v2", "T", "u_bar", "v_bar", "P_bar")
+PAPER = {"10": (9.6e-7, 6.6e-6, 6.7e-6, 1.9e-6, 5.6e-6, 4.8e-5, 3.9e-5),
+         "1": (8.3e-6, 5.8e-6, 5.8e-6, 1.7e-6, 5.6e-6, 4.8e-5, 3.9e-5),
+         "0.1": (6.3e-5, 4.4e-6, 4.4e-6, 1.3e-6, 6.2e-6, 6.4e-5, 4.2e-5)}
+
+
+def fsi(*words):
+    return subprocess.run([ROOT / "launch" / "fsi", *words], stdin=subprocess.DEVNULL, capture_output=True, text=True,
+                          check=False)
+
+
+class RotatingDisk(unittest.TestCase):
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory(prefix="fsi-disk-")
+        self.addCleanup(scratch.cleanup)
+        self.folder = Path(scratch.name)
+
+    def converge(self, *settings):
+        answer = fsi("converge", "rotating_disk", "--levels", "4,8", "--out", str(self.folder / "study"),
+                     *(f"--set={setting}" for setting in settings))
+        self.assertEqual(answer.returncode, 0, answer.stderr)
+        return json.loads((self.folder / "study" / "converge.json").read_text(encoding="utf-8"))
+
+    def run_once(self, out, *settings):
+        answer = fsi("run", "rotating_disk", "--no-progress", "--out", str(self.folder / out),
+                     *(f"--set={setting}" for setting in settings))
+        return answer, json.loads((self.folder / out / "summary.json").read_text(encoding="utf-8"))
+
+    def check(self, delta):
+        table = self.converge(f"parameters.delta={delta}")
+        for name, paper in zip(NAMES, PAPER[delta]):
+            self.assertLess(table["errors"][name][-1], 0.8 * paper, name)
+            self.assertGreaterEqual(table["rates"][name][-1], 1.9, (name, table["errors"][name]))
+
+    def test_heavy_disk(self):
+        self.check("10")
+
+    def test_medium_disk(self):
+        self.check("1")
+
+    def test_light_disk(self):
+        self.check("0.1")
+
+    def test_full_and_simplified_projection_agree_to_one_percent(self):
+        _, simplified = self.run_once("simplified", "parameters.delta=0.1")
+        _, full = self.run_once("full", "parameters.delta=0.1", "interface.projection=full")
+        for name in NAMES:
+            self.assertAlmostEqual(full["errors"][name] / simplified["errors"][name], 1, delta=0.01, msg=name)
+
+    def test_traditional_scheme_breaks_for_a_light_disk_and_says_where(self):
+        answer, summary = self.run_once("traditional", "parameters.delta=0.1", "interface.projection=traditional",
+                                        "grid.factor=4")
+        self.assertEqual(answer.returncode, 3, answer.stderr)
+        self.assertEqual(summary["status"], "failed")
+        self.assertIn("point", summary["reason"])
+
+
+if __name__ == "__main__":
+    unittest.main()
