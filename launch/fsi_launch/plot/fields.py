@@ -91,7 +91,7 @@ def _colour_range(values, floor):
     low, high = values.min(), values.max()
     largest = max(abs(low), abs(high))
     if largest <= floor:
-        return -1.0, 1.0, 0.0
+        return 0.0, 1.0, 0.0
     if high - low <= max(ROUND_OFF * largest, floor):
         return low - 0.5 * largest, high + 0.5 * largest, 0.5 * (low + high)
     if low < 0 < high and min(-low, high) > 0.1 * largest:

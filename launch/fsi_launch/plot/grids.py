@@ -98,7 +98,7 @@ def _frame(axes, centre, half, box):
 
 
 def _place_picture(series, index, box, place):
-    """Left the surroundings of all points of the place, right a few cells: at the upper right of a body, the middle of a line."""
+    """Left the surroundings of the place, right a few cells: at the upper right of a body, the middle of a line."""
     name, points, closed = place
     h = _spacing(series, index)
     middle = 0.5 * (points.min(axis=0) + points.max(axis=0))

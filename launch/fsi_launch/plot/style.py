@@ -57,7 +57,7 @@ def bar(figure, axes, mesh, label, constant=None):
         ticks = MaxNLocator(6, steps=[1, 2, 5, 10]).tick_values((low - base) / unit, (high - base) / unit)
         shown = [tick for tick in ticks if low <= base + tick * unit <= high]
     one = figure.colorbar(mesh, ax=axes, shrink=0.9, pad=0.02, aspect=18, ticks=[base + tick * unit for tick in shown])
-    one.ax.set_yticklabels([f"{round(tick, 6) + 0.0:g}" for tick in shown])
+    one.ax.set_yticklabels([f"{round(tick, 6) + 0.0 if constant is None else tick:.5g}" for tick in shown])
     one.outline.set_visible(False)
     one.ax.tick_params(labelsize=8)
     lines = (label, f"${base:.10g} +$" if base else "", f"$\\times 10^{{{exponent}}}$" if exponent else "")
