@@ -60,13 +60,23 @@ class Mutator {
   }
 };
 
+/// The case on its coarsest grids: overlaps are checked for every damaged one.
+std::string coarse(std::string text) {
+  for (const char* factor : {"factor: 2", "factor: 4"}) {
+    const std::size_t place = text.find(factor);
+    if (place != std::string::npos) text.replace(place, std::string(factor).size(), "factor: 1");
+  }
+  return text;
+}
+
 TEST(DamagedCase, IsAMistakeOrFineButNeverACrash) {
+  constexpr int damages = 150;
   unsigned seed = 1;
-  int mistakes = 0;
+  int mistakes = 0, all = 0;
   for (const std::string& path : tests::config_paths()) {
-    const std::string text = tests::text_of(path);
+    const std::string text = coarse(tests::text_of(path));
     const tests::TemporaryFolder folder;
-    for (int k = 0; k < 500; ++k) {
+    for (int k = 0; k < damages; ++k, ++all) {
       const std::string damaged = Mutator(seed++).mutate(text);
       try {
         load_case(folder.write("case_" + std::to_string(k) + ".yaml", damaged));
@@ -80,7 +90,7 @@ TEST(DamagedCase, IsAMistakeOrFineButNeverACrash) {
       }
     }
   }
-  EXPECT_GT(mistakes, 1000);
+  EXPECT_GT(mistakes, all / 3);
 }
 
 }  // namespace
