@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "common/case/build_domain.hpp"
 #include "common/case/build_shape.hpp"
@@ -91,8 +92,12 @@ SolidSpec solid_of(const Reader& reader, const config::Entry& entry) {
   result.name = entry.key;
   Reader::assign(node, "law", result.law);
   Reader::assign(node, "rho", result.rho);
-  Reader::assign(node, "lambda", result.lambda);
-  Reader::assign(node, "mu", result.mu);
+  for (const auto& [key, modulus] : {std::pair{"lambda", &result.lambda}, std::pair{"mu", &result.mu}}) {
+    if (result.law != "rigid" && node.find(key) == nullptr) {
+      fail(node.place, owner.path, fmt::format("`{}` is missing (Lame constant [pressure])", key));
+    }
+    Reader::assign(node, key, *modulus);
+  }
   result.grid = build_grid(reader, owner);
   result.boundary = build_boundaries(reader, owner, result.grid);
   result.body_fitted = build_outline_grid(reader, owner, result.boundary);

@@ -138,7 +138,9 @@ const Mistake values[] = {
     {"UnknownLaw", "law: neo_hookean", "law: neohooke",
      "case.yaml:18:10: solids.solid.law: `neohooke` does not exist here; did you mean `neo_hookean`? (one of "
      "linear_elastic, saint_venant_kirchhoff, "
-     "neo_hookean)"},
+     "neo_hookean, rigid)"},
+    {"ModulusLeftOutWithALawOfDeformation", "    mu: 1\n", "",
+     "case.yaml:18:5: solids.solid: `mu` is missing (Lame constant [pressure])"},
     {"OutputAfterTheEnd", "times: [0.5]", "times: [0.5, 2]",
      "case.yaml:28:23: output.times: 2 is after the end of the run, time.end = 1"},
     {"ExpectedQuantityThatDoesNotExist", "status: completed", "eror.rho: {max: 1}",

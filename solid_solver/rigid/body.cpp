@@ -1,0 +1,134 @@
+#include "solid_solver/rigid/body.hpp"
+
+#include <Eigen/QR>
+#include <cmath>
+#include <utility>
+
+namespace fsi::rigid {
+
+namespace {
+
+/// Modes that move the outline less than this part of the strongest one along the normals are not seen there.
+constexpr double invisible = 1e-6;
+
+Vec2 turned(const Vec2& r) {
+  return {-r.y(), r.x()};
+}
+
+Pose moved(const Pose& pose, const Vec3& by) {
+  return {.centre = pose.centre + by.head<2>(), .angle = pose.angle + by[2]};
+}
+
+}  // namespace
+
+RigidBody::RigidBody(Outline outline, const Inertia& inertia, double rho, Eigen::MatrixXd modes)
+    : outline_(std::move(outline)),
+      reference_centre_(inertia.centre),
+      dynamics_{.mass = rho * inertia.area,
+                .moment_of_inertia = rho * inertia.second_moment,
+                .modes = std::move(modes)},
+      pose_{.centre = inertia.centre},
+      old_pose_(pose_) {
+  start(Vec3::Zero());
+}
+
+void RigidBody::start(const Vec3& V) {
+  s_ = modal_load(V);  // the columns of B are orthogonal unit vectors
+  old_s_ = s_;
+  acceleration_ = old_mean_ = Eigen::VectorXd::Zero(modes());
+}
+
+void RigidBody::advance(double dt) {
+  old_pose_ = pose_;
+  old_s_ = s_;
+  old_dt_ = dt_;
+  dt_ = dt;
+  pose_ = moved(old_pose_, dynamics_.modes * (dt * (old_s_ + 0.5 * dt * acceleration_)));
+  s_ = old_s_ + dt * acceleration_;
+}
+
+void RigidBody::correct(std::span<const double> v_n, const Vec3& load) {
+  const Eigen::VectorXd own = dt_ * mass_matrix().diagonal().cwiseInverse().cwiseProduct(modal_load(load));
+  s_ = old_s_ + own;
+  if (!v_n.empty()) observe(v_n);
+  pose_ = moved(old_pose_, dynamics_.modes * (0.5 * dt_ * (old_s_ + s_)));
+  take_acceleration();
+}
+
+/// Least squares in the norm of the kinetic energy: of all changes that give v_n, the one with the least
+/// energy.
+void RigidBody::observe(std::span<const double> v_n) {
+  const Eigen::VectorXd scale = mass_matrix().diagonal().cwiseSqrt().cwiseInverse();
+  const Eigen::MatrixXd N = mode_vectors();
+  const Eigen::VectorXd wanted =
+      Eigen::Map<const Eigen::VectorXd>(v_n.data(), static_cast<Eigen::Index>(v_n.size()));
+  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> visible;
+  visible.setThreshold(invisible);
+  visible.compute(N.transpose() * scale.asDiagonal());
+  s_ += scale.asDiagonal() * visible.solve(wanted - N.transpose() * s_);
+}
+
+/// The mean acceleration of the step belongs to its middle; the trend of two steps brings it to the end.
+void RigidBody::take_acceleration() {
+  const Eigen::VectorXd mean = (s_ - old_s_) / dt_;
+  const double reach = old_dt_ > 0 ? dt_ / (dt_ + old_dt_) : 0.0;
+  acceleration_ = mean + reach * (mean - old_mean_);
+  old_mean_ = mean;
+}
+
+Eigen::MatrixXd RigidBody::mass_matrix() const {
+  const Vec3 masses(dynamics_.mass, dynamics_.mass, dynamics_.moment_of_inertia);
+  return dynamics_.modes.transpose() * masses.asDiagonal() * dynamics_.modes;
+}
+
+Eigen::MatrixXd RigidBody::mode_vectors() const {
+  const std::vector<double> x = positions();
+  const std::vector<double> normals = grid::normals(x, outline_.ends, outline_.orientation);
+  const std::size_t n = points();
+  Eigen::MatrixXd N(3, static_cast<Eigen::Index>(n));
+  for (std::size_t k = 0; k < n; ++k) {
+    const Vec2 normal(normals[k], normals[n + k]);
+    const Vec2 turning = turned(Vec2(x[k], x[n + k]) - pose_.centre);
+    N.col(static_cast<Eigen::Index>(k)) << normal.x(), normal.y(), normal.dot(turning);
+  }
+  return dynamics_.modes.transpose() * N;
+}
+
+Vec2 RigidBody::position(const Vec2& x_bar) const {
+  const Vec2 r = x_bar - reference_centre_;
+  return pose_.centre + std::cos(pose_.angle) * r + std::sin(pose_.angle) * turned(r);
+}
+
+Vec2 RigidBody::velocity_at(const Vec2& x) const {
+  const Vec3 v = velocity();
+  return v.head<2>() + v[2] * turned(x - pose_.centre);
+}
+
+std::vector<double> RigidBody::positions() const {
+  const std::size_t n = points();
+  std::vector<double> x(2 * n);
+  for (std::size_t k = 0; k < n; ++k) {
+    const Vec2 now = position({outline_.x[k], outline_.x[n + k]});
+    x[k] = now.x();
+    x[n + k] = now.y();
+  }
+  return x;
+}
+
+std::vector<double> RigidBody::velocities(std::span<const double> x) const {
+  const std::size_t n = points();
+  std::vector<double> v(2 * n);
+  for (std::size_t k = 0; k < n; ++k) {
+    const Vec2 now = velocity_at({x[k], x[n + k]});
+    v[k] = now.x();
+    v[n + k] = now.y();
+  }
+  return v;
+}
+
+double RigidBody::angular_momentum() const {
+  const Vec3 v = velocity();
+  return dynamics_.mass * turned(pose_.centre).dot(v.head<2>()) + dynamics_.moment_of_inertia * v[2];
+}
+
+}  // namespace fsi::rigid

@@ -1,0 +1,93 @@
+#pragma once
+/// A rigid body in the plane: where its outline is, and how it moves.
+///
+/// Modal velocities s: velocity of the centre of mass and rate of rotation are V = B s. A free body has B =
+/// 1, k = 3 modes; a body that slides between walls has the one that they leave.
+///
+///     M s' = B^T (force, moment),   M = B^T diag(m, m, I) B,   n . v = N^T s
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "common/core/types.hpp"
+#include "common/grid/interface_geometry.hpp"
+#include "solid_solver/rigid/inertia.hpp"
+
+namespace fsi::rigid {
+
+using Vec3 = Eigen::Vector3d;  ///< along x, along y, rotation
+
+/// What the coupler sees of the body: its points where the gas is.
+struct Outline {
+  std::vector<double> x;  ///< reference positions, 2 n component-major
+  grid::Curve ends = grid::Curve::closed;
+  double orientation = 1;  ///< of the normals (grid::normals)
+};
+
+struct Pose {
+  Vec2 centre = Vec2::Zero();  ///< of mass
+  double angle = 0;            ///< turned since t = 0 [rad], whole turns counted
+};
+
+/// Mass and freedom of a body.
+struct Dynamics {
+  double mass = 0;
+  double moment_of_inertia = 0;                         ///< about the centre of mass
+  Eigen::MatrixXd modes = Eigen::Matrix3d::Identity();  ///< B, one column per mode
+};
+
+class RigidBody {
+ public:
+  RigidBody(Outline outline, const Inertia& inertia, double rho, Eigen::MatrixXd modes);
+
+  /// Starts with velocity `V` of the centre and rate of rotation, as far as the body is free to.
+  void start(const Vec3& V);
+  /// Predicts pose and velocity after a step of size dt: x + dt V + dt^2/2 a, V + dt a.
+  void advance(double dt);
+  /// Ends the step with the projected normal velocities of the outline: the modal velocities are those that
+  /// have them. What they do not show (the rotation of a circle) follows from `load` alone, the mean of the
+  /// own load in the step. The pose is integrated by the trapezoidal rule.
+  void correct(std::span<const double> v_n, const Vec3& load);
+
+  std::size_t points() const { return outline_.x.size() / 2; }
+  Eigen::Index modes() const { return dynamics_.modes.cols(); }
+  const Dynamics& dynamics() const { return dynamics_; }
+  const Outline& outline() const { return outline_; }
+  const Vec2& reference_centre() const { return reference_centre_; }
+  const Pose& pose() const { return pose_; }
+  Vec3 velocity() const { return dynamics_.modes * s_; }
+  const Eigen::VectorXd& modal_velocity() const { return s_; }
+  Eigen::MatrixXd mass_matrix() const;
+  /// N, k x n: normal velocity of every point of the outline for every mode.
+  Eigen::MatrixXd mode_vectors() const;
+  /// B^T load.
+  Eigen::VectorXd modal_load(const Vec3& load) const { return dynamics_.modes.transpose() * load; }
+
+  /// Where a point of the reference body is now, and how fast.
+  Vec2 position(const Vec2& x_bar) const;
+  Vec2 velocity_at(const Vec2& x) const;
+  /// The same for the whole outline, 2 n.
+  std::vector<double> positions() const;
+  std::vector<double> velocities(std::span<const double> x) const;
+
+  double kinetic_energy() const { return 0.5 * s_.dot(mass_matrix() * s_); }
+  Vec2 momentum() const { return dynamics_.mass * velocity().head<2>(); }
+  /// About the origin.
+  double angular_momentum() const;
+
+ private:
+  Outline outline_;
+  Vec2 reference_centre_;
+  Dynamics dynamics_;
+  Pose pose_, old_pose_;
+  Eigen::VectorXd s_, old_s_;                ///< modal velocities now and before the step
+  Eigen::VectorXd acceleration_, old_mean_;  ///< at the last corrected time; mean of the step before
+  double dt_ = 0, old_dt_ = 0;
+
+  void observe(std::span<const double> v_n);
+  void take_acceleration();
+};
+
+}  // namespace fsi::rigid

@@ -1,0 +1,184 @@
+#include "solid_solver/rigid/from_case.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string>
+
+#include "common/core/failure.hpp"
+#include "common/grid/moving_grid.hpp"
+#include "common/program/grid_from_case.hpp"
+
+namespace fsi::rigid {
+
+namespace {
+
+[[noreturn]] void refuse(const SolidSpec& spec, const std::string& what) {
+  throw UserMistake(fmt::format("solid \"{}\" is rigid: {}", spec.name, what));
+}
+
+const BoundarySpec& at(const std::array<BoundarySpec, 4>& boundary, Side side) {
+  return boundary[static_cast<std::size_t>(side)];
+}
+
+bool is_interface(const BoundarySpec& spec) {
+  return spec.kind == BoundaryKind::interface;
+}
+
+/// What the sides of a body leave of its freedom.
+class Freedom {
+ public:
+  explicit Freedom(const SolidSpec& spec) : spec_(spec) {}
+
+  void add(const BoundarySpec& boundary, Side side, const Vec2& along) {
+    switch (boundary.kind) {
+      case BoundaryKind::slip_wall:
+      case BoundaryKind::symmetry:
+        slide(side, along);
+        return;
+      case BoundaryKind::traction:
+        if (boundary.from_reference || loaded(*boundary.vector))
+          refuse(spec_,
+                 fmt::format("side {} cannot carry a load of its own; write free, and the load as body_force",
+                             name_of(side)));
+        return;
+      case BoundaryKind::displacement:
+      case BoundaryKind::dirichlet:
+        refuse(spec_,
+               fmt::format("the motion of side {} cannot be given; let the side be free", name_of(side)));
+      default:
+        return;
+    }
+  }
+
+  /// Columns: unit vectors of (along x, along y, rotation).
+  Eigen::MatrixXd modes() const {
+    if (!direction_) return Eigen::Matrix3d::Identity();
+    return Eigen::Vector3d(direction_->x(), direction_->y(), 0);
+  }
+
+ private:
+  const SolidSpec& spec_;
+  std::optional<Vec2> direction_;
+
+  static bool loaded(const VectorExpressions& load) {
+    constexpr const char* variables[] = {"x", "y", "r", "t"};
+    for (const char* variable : variables) {
+      if (load.c1.uses(variable) || load.c2.uses(variable)) return true;
+    }
+    return load.c1(0, 0, 0) != 0 || load.c2(0, 0, 0) != 0;
+  }
+
+  void slide(Side side, const Vec2& along) {
+    constexpr double parallel = 1e-8;
+    const bool same =
+        !direction_ || std::abs(direction_->x() * along.y() - direction_->y() * along.x()) < parallel;
+    if (!same)
+      refuse(spec_,
+             fmt::format("side {} and another one slide along different walls, so that nothing can move",
+                         name_of(side)));
+    direction_ = along;
+  }
+};
+
+/// Direction of a side that has to be straight to slide.
+Vec2 direction_along(const std::vector<double>& x) {
+  const std::size_t n = x.size() / 2;
+  return Vec2(x[n - 1] - x[0], x[2 * n - 1] - x[n]).normalized();
+}
+
+void append(std::vector<std::array<double, 2>>& rim, const std::vector<double>& side, bool backwards) {
+  const std::size_t n = side.size() / 2;
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::size_t at_k = backwards ? n - 1 - k : k;
+    rim.push_back({side[at_k], side[n + at_k]});
+  }
+}
+
+/// All four sides, the body to their left.
+std::vector<double> rim_of(const grid::MovingGrid& grid) {
+  std::vector<std::array<double, 2>> points;
+  append(points, grid.side_points(Side::bottom), false);
+  append(points, grid.side_points(Side::right), false);
+  append(points, grid.side_points(Side::top), true);
+  append(points, grid.side_points(Side::left), true);
+  std::vector<double> rim(2 * points.size());
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    rim[k] = points[k][0];
+    rim[points.size() + k] = points[k][1];
+  }
+  return rim;
+}
+
+BodyFromCase body_of_shape(const SolidSpec& spec, const BodyFittedSpec& fitted) {
+  Freedom freedom(spec);
+  for (const Side side : all_sides) {
+    const BoundarySpec& boundary = at(fitted.boundary, side);
+    Vec2 along(1, 0);
+    if (fitted.curve.walls && direction_of(side) == 0) {
+      const Side wall = (*fitted.curve.walls)[at_upper_end(side) ? 1 : 0];
+      if (direction_of(wall) == 0) along = Vec2(0, 1);
+    }
+    freedom.add(boundary, side, along);
+  }
+  const Inertia inertia = inertia_of(fitted.curve.x);
+  const Outline outline{.x = fitted.curve.x,
+                        .ends = fitted.curve.closed() ? grid::Curve::closed : grid::Curve::open,
+                        .orientation = grid::outward(fitted.side)};
+  return {.body = RigidBody(outline, inertia, spec.rho, freedom.modes()),
+          .area = inertia.area,
+          .meets_gas = is_interface(at(fitted.boundary, fitted.side))};
+}
+
+BodyFromCase body_of_grid(const SolidSpec& spec) {
+  const grid::MovingGrid grid(grid_from_case(spec.grid, false), 0);
+  Freedom freedom(spec);
+  Side outline_side = Side::bottom;
+  bool meets_gas = false;
+  for (const Side side : all_sides) {
+    const BoundarySpec& boundary = at(spec.boundary, side);
+    freedom.add(boundary, side, direction_along(grid.side_points(side)));
+    if (!is_interface(boundary)) continue;
+    outline_side = side;
+    meets_gas = true;
+  }
+  const Inertia inertia = inertia_of(rim_of(grid));
+  const bool closed = grid.periodic(1 - direction_of(outline_side));
+  const Outline outline{.x = grid.side_points(outline_side),
+                        .ends = closed ? grid::Curve::closed : grid::Curve::open,
+                        .orientation = grid::outward(outline_side)};
+  return {.body = RigidBody(outline, inertia, spec.rho, freedom.modes()),
+          .area = inertia.area,
+          .meets_gas = meets_gas};
+}
+
+/// Velocity of the centre, and the rotation that fits the velocities along the outline best.
+Vec3 initial_motion(const RigidBody& body, const VectorExpressions& v) {
+  const auto value = [&](const Vec2& x) { return Vec2(v.c1(x.x(), x.y(), 0), v.c2(x.x(), x.y(), 0)); };
+  const Vec2 centre = body.pose().centre, of_centre = value(centre);
+  const std::vector<double>& x = body.outline().x;
+  double turning = 0, squares = 0;
+  for (std::size_t k = 0; k < body.points(); ++k) {
+    const Vec2 at_k(x[k], x[body.points() + k]);
+    const Vec2 r = at_k - centre, difference = value(at_k) - of_centre;
+    turning += r.x() * difference.y() - r.y() * difference.x();
+    squares += r.squaredNorm();
+  }
+  return {of_centre.x(), of_centre.y(), turning / squares};
+}
+
+}  // namespace
+
+BodyFromCase body_from_case(const SolidSpec& spec) {
+  if (spec.initial_from_reference || spec.initial_u) {
+    refuse(spec, "initial may give `v`, and nothing else");
+  }
+  BodyFromCase result =
+      spec.body_fitted.empty() ? body_of_grid(spec) : body_of_shape(spec, spec.body_fitted.front());
+  if (spec.initial_v) result.body.start(initial_motion(result.body, *spec.initial_v));
+  return result;
+}
+
+}  // namespace fsi::rigid

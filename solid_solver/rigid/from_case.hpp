@@ -1,0 +1,22 @@
+#pragma once
+/// What a case file says about a solid, as a rigid body.
+
+#include "common/case/case.hpp"
+#include "solid_solver/rigid/body.hpp"
+
+namespace fsi::rigid {
+
+/// A body and the side of its grid along which the gas is; none for a body alone.
+struct BodyFromCase {
+  RigidBody body;
+  double area = 0;
+  bool meets_gas = false;
+};
+
+/// The body of `spec`: that of its shape, or of its grid. Where a side slides along a wall, the motion along
+/// the wall is left. Laws of deformation, dissipation and time steps have no meaning for it and are not
+/// looked at. An initial velocity gives that of the centre, and the rotation that fits it along the outline.
+/// @throws UserMistake for conditions a rigid body cannot meet
+BodyFromCase body_from_case(const SolidSpec& spec);
+
+}  // namespace fsi::rigid

@@ -1,0 +1,31 @@
+#include "solid_solver/rigid/load.hpp"
+
+#include <cstddef>
+
+namespace fsi::rigid {
+
+GasLoad load_of_gas(std::span<const double> x, std::span<const double> n, std::span<const double> w_n,
+                    std::span<const double> v_n) {
+  const std::size_t points = x.size() / 2;
+  const auto point = [&](std::size_t k) { return Vec2(x[k], x[points + k]); };
+  GasLoad load;
+  for (std::size_t k = 0; k < points; ++k) {
+    const double before = k > 0 ? (point(k) - point(k - 1)).norm() : 0;
+    const double after = k + 1 < points ? (point(k + 1) - point(k)).norm() : 0;
+    const double pull = 0.5 * (before + after) * w_n[k];
+    const Vec2 force = pull * Vec2(n[k], n[points + k]);
+    load.force += force;
+    load.moment += x[k] * force.y() - x[points + k] * force.x();
+    load.power += pull * v_n[k];
+  }
+  return load;
+}
+
+void Impulse::add(const GasLoad& load, double dt) {
+  sum_.force += 0.5 * dt * (last_.force + load.force);
+  sum_.moment += 0.5 * dt * (last_.moment + load.moment);
+  sum_.power += 0.5 * dt * (last_.power + load.power);
+  last_ = load;
+}
+
+}  // namespace fsi::rigid

@@ -1,0 +1,187 @@
+#include "solid_solver/rigid/port.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <limits>
+
+namespace fsi::rigid {
+
+namespace {
+
+constexpr std::array<const char*, 8> quantities{"u1", "u2", "v1", "v2", "P11", "P12", "P21", "P22"};
+
+std::vector<double> row_major(const Eigen::MatrixXd& matrix) {
+  std::vector<double> values;
+  values.reserve(static_cast<std::size_t>(matrix.size()));
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+    for (Eigen::Index j = 0; j < matrix.cols(); ++j) values.push_back(matrix(i, j));
+  }
+  return values;
+}
+
+}  // namespace
+
+RigidParticipant::RigidParticipant(const Setup& setup, const SolidSpec& spec)
+    : setup_(setup),
+      spec_(spec),
+      from_case_(body_from_case(spec)),
+      body_(from_case_.body),
+      fields_(setup.run_dir, "solid_" + spec.name),
+      own_(own_load(0)),
+      old_own_(own_),
+      initial_(totals()) {
+  place_grid();
+  open_tables();
+}
+
+wire::Hello RigidParticipant::hello() const {
+  wire::Hello hello;
+  hello.role = "solid";
+  hello.name = spec_.name;
+  hello.law = spec_.law;
+  hello.config_digest = setup_.problem.digest;
+  hello.points = body_.points();
+  const Outline& outline = body_.outline();
+  if (from_case_.meets_gas) {
+    hello.interfaces.push_back({.name = spec_.name,
+                                .dimension = 2,
+                                .x = outline.x,
+                                .n = grid::normals(outline.x, outline.ends, outline.orientation)});
+  }
+  return hello;
+}
+
+TimeStepBid RigidParticipant::compute_time_step() const {
+  return {.dt = std::numeric_limits<double>::infinity(), .reason = "a rigid body has no waves"};
+}
+
+void RigidParticipant::fill(std::size_t /*k*/, wire::PredictedInterface& predicted) const {
+  predicted.x = body_.positions();
+  predicted.v = body_.velocities(predicted.x);
+  predicted.modal = {.modes = static_cast<std::int32_t>(body_.modes()),
+                     .M = row_major(body_.mass_matrix()),
+                     .N = row_major(body_.mode_vectors()),
+                     .q_dot = row_major(body_.modal_velocity()),
+                     .f_own = row_major(body_.modal_load(own_))};
+}
+
+void RigidParticipant::apply_bcs(double /*t*/, ProjectedStates projected) {
+  const bool alone = projected.empty();
+  if (dt_ > 0) {
+    const Vec3 mean = 0.5 * (old_own_ + own_);
+    body_.correct(alone ? std::span<const double>{} : projected.front()->v_n, mean);
+  }
+  if (alone) return;
+  const wire::ProjectedInterface& gas = *projected.front();
+  load_ = load_of_gas(body_.positions(), gas.n, gas.w_n, gas.v_n);
+  impulse_.add(load_, dt_);
+}
+
+/// Any number of substeps is one: nothing happens inside a body during a step.
+void RigidParticipant::advance(double t, double dt, int /*substeps*/, ProjectedStates /*projected*/) {
+  dt_ = dt;
+  old_own_ = own_;
+  own_ = own_load(t + dt);
+  body_.advance(dt);
+}
+
+void RigidParticipant::write_fields(double t, std::uint64_t step) {
+  const int n = reference_.layout().n1;
+  for (int j = 0; j < 2; ++j) {
+    for (int i = 0; i < n; ++i) {
+      const Vec2 x_bar(reference_(0, i, j), reference_(1, i, j));
+      const Vec2 x = body_.position(x_bar), v = body_.velocity_at(x);
+      for (int c = 0; c < 2; ++c) {
+        state_(c, i, j) = x[c] - x_bar[c];
+        state_(2 + c, i, j) = v[c];
+      }
+    }
+  }
+  std::vector<io::NamedPlane> planes;
+  for (std::size_t k = 0; k < quantities.size(); ++k) {
+    planes.push_back({quantities[k], state_.view(), static_cast<int>(k)});
+  }
+  const io::GridOutput grids[] = {
+      {.grid = "body", .x = reference_.view(), .u = state_.view(), .fields = std::move(planes)}};
+  fields_.write(t, step, grids);
+}
+
+void RigidParticipant::write_tables(double t, double /*dt*/, ProjectedStates /*projected*/) {
+  const Pose& pose = body_.pose();
+  const Vec3 v = body_.velocity();
+  forces_->row({t, load_.force[0], load_.force[1], load_.moment, load_.power, pose.centre[0], pose.centre[1],
+                v[0], v[1], pose.angle});
+  if (!probe_table_) return;
+  std::vector<double> row{t};
+  for (const Vec2& x_bar : probes_) {
+    const Vec2 x = body_.position(x_bar), velocity = body_.velocity_at(x);
+    row.insert(row.end(), {x[0] - x_bar[0], x[1] - x_bar[1], velocity[0], velocity[1], 0, 0, 0, 0});
+  }
+  probe_table_->row(row);
+}
+
+wire::Health RigidParticipant::health() const {
+  return {.min_rho = 0, .min_p = 0, .min_det_F = 1, .first_order_fallbacks = 0, .floors = 0};
+}
+
+void RigidParticipant::report(double /*t*/, io::Part& part) const {
+  const Totals now = totals();
+  const GasLoad& impulse = impulse_.sum();
+  part.health["min_det_F"] = 1;
+  part.conservation = {{"mass", 0},
+                       {"energy", now.energy - initial_.energy},
+                       {"energy_initial", initial_.energy},
+                       {"momentum1", now.momentum[0] - initial_.momentum[0]},
+                       {"momentum2", now.momentum[1] - initial_.momentum[1]},
+                       {"angular_momentum", now.angular_momentum - initial_.angular_momentum},
+                       {"angular_momentum_initial", initial_.angular_momentum},
+                       {"impulse1", impulse.force[0]},
+                       {"impulse2", impulse.force[1]},
+                       {"angular_impulse", impulse.moment},
+                       {"work", impulse.power}};
+}
+
+RigidParticipant::Totals RigidParticipant::totals() const {
+  return {.momentum = body_.momentum(),
+          .angular_momentum = body_.angular_momentum(),
+          .energy = body_.kinetic_energy()};
+}
+
+/// The body force of the reference centre, on the whole area: no moment.
+Vec3 RigidParticipant::own_load(double t) const {
+  if (!spec_.body_force) return Vec3::Zero();
+  const Vec2& centre = body_.reference_centre();
+  return from_case_.area * Vec3(spec_.body_force->c1(centre[0], centre[1], t),
+                                spec_.body_force->c2(centre[0], centre[1], t), 0);
+}
+
+void RigidParticipant::open_tables() {
+  forces_.emplace(setup_.run_dir + "/forces_" + spec_.name + ".csv",
+                  std::vector<std::string>{"t [time]", "force1 [force/depth]", "force2 [force/depth]",
+                                           "moment [force*length/depth]", "power [power/depth]",
+                                           "centre1 [length]", "centre2 [length]", "velocity1 [length/time]",
+                                           "velocity2 [length/time]", "angle [rad]"});
+  std::vector<std::string> columns{"t [time]"};
+  for (const ProbeSpec& probe : setup_.problem.output.probes) {
+    if (probe.in != spec_.name) continue;
+    probes_.emplace_back(probe.x, probe.y);
+    for (const char* quantity : quantities) columns.push_back(fmt::format("{}.{}", probe.name, quantity));
+  }
+  if (!probes_.empty()) probe_table_.emplace(setup_.run_dir + "/probes_" + spec_.name + ".csv", columns);
+}
+
+void RigidParticipant::place_grid() {
+  const Outline& outline = body_.outline();
+  const auto n = static_cast<int>(body_.points());
+  reference_ = Field(Layout(n, 2), 2);
+  state_ = Field(Layout(n, 2), static_cast<int>(quantities.size()));
+  for (int i = 0; i < n; ++i) {
+    for (int c = 0; c < 2; ++c) {
+      reference_(c, i, 0) = outline.x[static_cast<std::size_t>(c * n + i)];
+      reference_(c, i, 1) = body_.reference_centre()[c];
+    }
+  }
+}
+
+}  // namespace fsi::rigid
