@@ -22,7 +22,7 @@ Coupler::Coupler(const CouplerOptions& options, std::span<const wire::Hello> hel
     if (std::ranges::find(participants_, pair.solid) == participants_.end())
       participants_.push_back(pair.solid);
     interfaces_.emplace_back(std::move(pair), options.projection,
-                             options.multirate ? options.robin_order + 1 : 1);
+                             options.multirate ? options.robin_order + 1 : 1, options.path);
   }
   bids_.resize(participants_.size());
   answers_.resize(2 * interfaces_.size());

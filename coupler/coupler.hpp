@@ -23,6 +23,7 @@ struct CouplerOptions {
   bool multirate = false;  ///< solids may take substeps inside the step of the gas
   int robin_order = 2;     ///< extrapolation of the Robin data in time: 1 linear, 2 quadratic
   Projection projection = Projection::simplified;
+  Path path = {};  ///< of the interfaces; empty: the solids move them
 };
 
 class Coupler {

@@ -50,7 +50,8 @@ void check_values(const Moment& moment, const wire::PredictedInterface& state, c
 
 }  // namespace
 
-InterfaceExchange::InterfaceExchange(InterfacePair pair, Projection projection, int robin_levels)
+InterfaceExchange::InterfaceExchange(InterfacePair pair, Projection projection, int robin_levels,
+                                     const Path& path)
     : pair_(std::move(pair)),
       projection_(projection),
       curve_(curve_of(pair_)),
@@ -59,12 +60,14 @@ InterfaceExchange::InterfaceExchange(InterfacePair pair, Projection projection, 
       n_(2 * curve_.n),
       ds_(curve_.n),
       v_(2 * curve_.n),
+      a_(2 * curve_.n),
       gas_(curve_.n),
       solid_v_n_(curve_.n) {
   for (Level& level : levels_) {
     level.v_n.resize(curve_.n);
     level.w_n.resize(curve_.n);
   }
+  if (path) prescribed_.emplace(path, pair_.x);
   report_.name = pair_.name;
 }
 
@@ -185,6 +188,10 @@ void InterfaceExchange::remember(const Moment& moment, const wire::PredictedInte
     v_[n + k] = solid.v[n + k] + correction * n_[n + k];
   }
   motion_.take(v_, moment.dt);
+  std::ranges::copy(motion_.a(), a_.begin());
+  if (!prescribed_) return;
+  prescribed_->velocity(moment.t, v_);
+  prescribed_->acceleration(moment.t, a_);
 }
 
 void InterfaceExchange::measure(const wire::PredictedInterface& gas, const wire::PredictedInterface& solid) {
@@ -211,7 +218,7 @@ void InterfaceExchange::fill_state(wire::ProjectedInterface& answer) const {
   answer.v_n = now.v_n;
   answer.w_n = now.w_n;
   answer.v = v_;
-  answer.a.assign(motion_.a().begin(), motion_.a().end());
+  answer.a = a_;
   answer.z_f = z_f_;
 }
 
@@ -230,7 +237,9 @@ void InterfaceExchange::fill_robin(wire::ProjectedInterface& answer) const {
 
 void InterfaceExchange::fill_motion(double dt, wire::ProjectedInterface& answer) const {
   answer.x_next.resize(2 * curve_.n);
-  if (dt > 0) {
+  if (dt > 0 && prescribed_) {
+    prescribed_->position(levels_.front().t + dt, answer.x_next);
+  } else if (dt > 0) {
     motion_.command(x_solid_, dt, answer.x_next);
   } else {
     answer.x_next = x_gas_;

@@ -35,7 +35,8 @@ class InterfaceExchange {
  public:
   /// @param robin_levels times t_k at which Robin data is kept, 1 to 3
   /// @throws PeerLost when the solid's reference normals are of no use
-  InterfaceExchange(InterfacePair pair, Projection projection, int robin_levels);
+  /// @param path where the interface goes; empty: where the solid takes it
+  InterfaceExchange(InterfacePair pair, Projection projection, int robin_levels, const Path& path = {});
 
   const InterfacePair& pair() const { return pair_; }
   std::size_t points() const { return curve_.n; }
@@ -72,10 +73,11 @@ class InterfaceExchange {
   Projection projection_;
   Curve curve_;
   InterfaceMotion motion_;
+  std::optional<PrescribedMotion> prescribed_;
   std::optional<ModalMotion> modal_;
   std::vector<Level> levels_;  ///< newest first
   std::size_t known_ = 0;      ///< levels that are filled
-  std::vector<double> n_, ds_, v_, z_f_, x_solid_, x_gas_;
+  std::vector<double> n_, ds_, v_, a_, z_f_, x_solid_, x_gas_;
   std::vector<NormalSide> gas_;    ///< predicted gas
   std::vector<double> solid_v_n_;  ///< predicted normal velocity of the solid
   double p_e_ = 0;

@@ -4,14 +4,15 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "common/core/types.hpp"
-
 namespace fsi::coupler {
 
 namespace {
 
 /// Points that lie closer than this part of the curve's length are one.
 constexpr double coincident = 1e-9;
+
+/// For derivatives of a path in time: truncation and rounding are of the order of 1e-8.
+constexpr double path_step = 1e-4;
 
 Vec2 point(std::span<const double> x, std::size_t k) {
   return {x[k], x[x.size() / 2 + k]};
@@ -71,6 +72,33 @@ void point_lengths(const Curve& curve, std::span<const double> x, std::span<doub
 void arclength(std::span<const double> x, std::span<double> s) {
   s[0] = 0;
   for (std::size_t k = 1; k < x.size() / 2; ++k) s[k] = s[k - 1] + (point(x, k) - point(x, k - 1)).norm();
+}
+
+template <class Value>
+void PrescribedMotion::each(std::span<double> out, const Value& value) const {
+  const std::size_t n = x_.size() / 2;
+  for (std::size_t k = 0; k < n; ++k) {
+    const Vec2 result = value(x_[k], x_[n + k]);
+    out[k] = result[0];
+    out[n + k] = result[1];
+  }
+}
+
+void PrescribedMotion::position(double t, std::span<double> x) const {
+  each(x, [&](double x1, double x2) { return path_(x1, x2, t); });
+}
+
+void PrescribedMotion::velocity(double t, std::span<double> v) const {
+  each(v, [&](double x1, double x2) -> Vec2 {
+    return (path_(x1, x2, t + path_step) - path_(x1, x2, t - path_step)) / (2 * path_step);
+  });
+}
+
+void PrescribedMotion::acceleration(double t, std::span<double> a) const {
+  each(a, [&](double x1, double x2) -> Vec2 {
+    return (path_(x1, x2, t + path_step) - 2 * path_(x1, x2, t) + path_(x1, x2, t - path_step)) /
+           (path_step * path_step);
+  });
 }
 
 void InterfaceMotion::take(std::span<const double> v, double dt) {

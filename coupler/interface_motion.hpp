@@ -3,8 +3,12 @@
 /// goes next. Arrays are component-major over the n points: component c of point k is at [c * n + k].
 
 #include <cstddef>
+#include <functional>
 #include <span>
+#include <utility>
 #include <vector>
+
+#include "common/core/types.hpp"
 
 namespace fsi::coupler {
 
@@ -30,6 +34,28 @@ void point_lengths(const Curve& curve, std::span<const double> x, std::span<doub
 
 /// Length from point 0 along the curve.
 void arclength(std::span<const double> x, std::span<double> s);
+
+/// Position at t of the interface point that is at (x, y) at t = 0.
+using Path = std::function<Vec2(double x, double y, double t)>;
+
+/// An interface that goes its own way, whatever the solid does: for chosen solutions.
+class PrescribedMotion {
+ public:
+  /// @param x positions of the points at t = 0
+  PrescribedMotion(Path path, std::span<const double> x) : path_(std::move(path)), x_(x.begin(), x.end()) {}
+
+  void position(double t, std::span<double> x) const;
+  /// By central differences of the path.
+  void velocity(double t, std::span<double> v) const;
+  void acceleration(double t, std::span<double> a) const;
+
+ private:
+  Path path_;
+  std::vector<double> x_;
+
+  template <class Value>
+  void each(std::span<double> out, const Value& value) const;
+};
 
 /// Velocity and acceleration of the interface points, and the position they are commanded to.
 class InterfaceMotion {

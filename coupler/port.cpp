@@ -20,6 +20,13 @@ bus::CouplerSession join(const Setup& setup) {
           std::move(who), problem.digest};
 }
 
+Path path_of(const InterfaceSpec& interface) {
+  if (!interface.motion) return {};
+  return [motion = *interface.motion](double x, double y, double t) {
+    return Vec2(motion.c1(x, y, t), motion.c2(x, y, t));
+  };
+}
+
 CouplerOptions options_of(const Case& problem) {
   const TimeSpec& time = problem.time;
   return {.time = {.end = time.end,
@@ -29,7 +36,8 @@ CouplerOptions options_of(const Case& problem) {
           .start = 0,
           .multirate = time.multirate,
           .robin_order = time.robin_order,
-          .projection = projection_named(problem.interface.projection)};
+          .projection = projection_named(problem.interface.projection),
+          .path = path_of(problem.interface)};
 }
 
 /// The coupler of a run; when the interfaces do not fit, everybody is told why before the run ends.

@@ -170,6 +170,15 @@ def piston_studies():
                             ["parameters.density_ratio=0.1", "parameters.c_p=8", "time.multirate=true"]))
 
 
+def chosen_studies():
+    for law in LAWS:
+        yield (f"Manufactured piston, {law}",
+               lambda l=law: converge(f"chosen-{l}", "manufactured_piston", "2,4,8,16", solids=[f"solid={l}"]))
+    yield ("Manufactured piston, full projection",
+           lambda: converge("chosen-full", "manufactured_piston", "2,4,8,16", ["interface.projection=full"]))
+    yield "Gas: manufactured solution on a moving grid", lambda: converge("chosen-gas", "gas_manufactured", "2,4,8,16")
+
+
 def sides():
     """Every kind of left side with every law, and sides that are mirrors of the grid."""
     key = "solids.solid.boundary"
@@ -260,7 +269,8 @@ def kept_sections():
 
 def main(words):
     sections = kept_sections()
-    studies = [*piston_studies(), *other_studies(), *disk_studies(), ("Benchmarks", lambda: bench("bench"))]
+    studies = [*piston_studies(), *chosen_studies(), *other_studies(), *disk_studies(),
+               ("Benchmarks", lambda: bench("bench"))]
     head = ("# Results\n\nWhat the commands gave on two cores; `docs/record_results.py` repeats them all and writes this page. "
             "Errors are largest absolute differences over all points and components.\n\n")
     for title, study in studies:

@@ -141,7 +141,8 @@ FluidParticipant::FluidParticipant(const Setup& setup)
     const BodyFittedSpec& fitted = spec_.body_fitted[k];
     if (!fitted.solid.empty()) interfaces_.push_back({static_cast<int>(k) + 1, fitted.side, fitted.solid});
   }
-  if (reference_ && setup.problem.reference.kind == "manufactured") solver_.force(field_of(reference_));
+  chosen_ = reference_ && setup.problem.reference.kind == "manufactured";
+  if (chosen_) solver_.force(field_of(reference_));
   solver_.assign_initial_conditions(
       data_of(spec_.initial_from_reference, spec_.initial, reference_, "initial"));
   initial_totals_ = solver_.totals();
@@ -177,8 +178,27 @@ TimeStepBid FluidParticipant::compute_time_step() const {
   return {.dt = step.dt, .reason = step.reason};
 }
 
+FluidParticipant::ChosenValues FluidParticipant::chosen_at(const InterfaceSide& interface) const {
+  const std::vector<double> x = solver_.grid(interface.grid).side_points(interface.side);
+  const std::size_t n = x.size() / 2;
+  ChosenValues values{std::vector<double>(2 * n), std::vector<double>(n)};
+  for (std::size_t k = 0; chosen_ && k < n; ++k) {
+    const exact::GasState gas = reference_->gas(x[k], x[n + k], solver_.time());
+    values.v[k] = gas.v1;
+    values.v[n + k] = gas.v2;
+    values.p[k] = gas.p - spec_.p_e;
+  }
+  return values;
+}
+
+/// With a chosen solution, the differences to it: v and p - p_e.
 void FluidParticipant::fill(std::size_t k, wire::PredictedInterface& predicted) const {
   GasInterface state = solver_.interface_state(interfaces_[k].side, interfaces_[k].grid);
+  if (chosen_) {
+    const ChosenValues exact = chosen_at(interfaces_[k]);
+    for (std::size_t i = 0; i < state.v.size(); ++i) state.v[i] -= exact.v[i];
+    for (std::size_t i = 0; i < state.p.size(); ++i) state.p[i] -= exact.p[i];
+  }
   predicted.x = std::move(state.x);
   predicted.v = std::move(state.v);
   predicted.p = std::move(state.p);
@@ -188,12 +208,22 @@ void FluidParticipant::fill(std::size_t k, wire::PredictedInterface& predicted) 
 
 void FluidParticipant::apply_bcs(double t, ProjectedStates projected) {
   std::vector<InterfaceValues> values;
+  std::vector<ChosenValues> sums(projected.size());  // projected differences and the chosen values
   for (std::size_t k = 0; k < projected.size(); ++k) {
     const wire::ProjectedInterface& p = *projected[k];
+    if (chosen_) {
+      const ChosenValues exact = chosen_at(interfaces_[k]);
+      sums[k] = {p.v_n, p.w_n};
+      const std::size_t n = p.v_n.size();
+      for (std::size_t i = 0; i < n; ++i) {
+        sums[k].v[i] += p.n[i] * exact.v[i] + p.n[n + i] * exact.v[n + i];
+        sums[k].p[i] -= exact.p[i];
+      }
+    }
     values.push_back({.side = interfaces_[k].side,
                       .n = p.n,
-                      .v_n = p.v_n,
-                      .w_n = p.w_n,
+                      .v_n = chosen_ ? std::as_const(sums[k]).v : p.v_n,
+                      .w_n = chosen_ ? std::as_const(sums[k]).p : p.w_n,
                       .v = p.v,
                       .a = p.a,
                       .grid = interfaces_[k].grid});

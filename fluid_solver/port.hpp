@@ -37,9 +37,16 @@ class FluidParticipant final : public Participant {
     std::string solid;
   };
 
+  /// The chosen solution at the points of an interface: n.v and p - p_e. Empty without one.
+  struct ChosenValues {
+    std::vector<double> v, p;
+  };
+  ChosenValues chosen_at(const InterfaceSide& interface) const;
+
   const Setup& setup_;
   const FluidSpec& spec_;
   std::shared_ptr<const exact::Solution> reference_;
+  bool chosen_ = false;  ///< source terms make the reference exact
   std::vector<InterfaceSide> interfaces_;
   GasSolver solver_;
   io::GridWriter fields_;

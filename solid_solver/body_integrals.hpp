@@ -131,11 +131,18 @@ SideLoad load_on_side(const SolidComponent<L>& component, Side side) {
   return load_of_side;
 }
 
-/// Fills `state` for the points of a side. Uses no ghost points, so that it may be called on a predicted
-/// state.
+/// Density and time of a state.
+struct InterfaceMoment {
+  double rho, t;
+};
+
+/// Fills `state` for the points of a side; of a body with a chosen solution, the differences to it. Uses no
+/// ghost points, so that it may be called on a predicted state.
 template <Law L>
-void gather_interface(const SolidComponent<L>& component, const L& law, double rho, Side side,
-                      SolidInterface& state) {
+void gather_interface(const SolidComponent<L>& component, const L& law, const InterfaceMoment& moment,
+                      Side side, SolidInterface& state) {
+  const double rho = moment.rho;
+  const ChosenSolution* chosen = component.chosen();
   const Layout layout = component.layout();
   const SideIndex line(layout, side);
   const ConstFieldView x = component.grid().x();
@@ -148,7 +155,8 @@ void gather_interface(const SolidComponent<L>& component, const L& law, double r
     const int point = static_cast<int>(k);
     const GridPoint p = grid_point(layout, side, point);
     const Vec2 n0 = side_metrics(component.metrics(), layout, side, point).n0;
-    const SolidState s = load(component.q(), line.at(point, 0));
+    SolidState s = load(component.q(), line.at(point, 0));
+    if (chosen != nullptr) s = sum_of(s, -1.0, chosen->state(x(0, p.i, p.j), x(1, p.i, p.j), moment.t));
     const Tensor2 F = component.deformation_gradient(p.i, p.j);
     const double eta = component.boundary().follows(side) ? area_ratio(F, n0) : 1.0;
     const SymmetricTensor2 Z = impedance_matrix(law.K(F), n0, rho, eta);

@@ -27,6 +27,12 @@ inline VectorFunction function_of(const VectorExpressions& vector) {
   return [vector](double x, double y, double t) { return Vec2(vector.c1(x, y, t), vector.c2(x, y, t)); };
 }
 
+inline TensorFunction function_of(const TensorExpressions& P) {
+  return [P](double x, double y, double t) -> Tensor2 {
+    return {P.c11(x, y, t), P.c12(x, y, t), P.c21(x, y, t), P.c22(x, y, t)};
+  };
+}
+
 /// Rate of change of a formula in t, by fourth-order differences.
 inline VectorFunction rate_of(VectorFunction f) {
   return [f = std::move(f)](double x, double y, double t) -> Vec2 {
@@ -49,8 +55,14 @@ class CaseData {
         solution_(reference_from_case(setup.problem, setup.run_dir)) {
     const ReferenceSpec& reference = setup.problem.reference;
     if (reference.u) {
-      manufactured_ = std::make_shared<Manufactured<L>>(function_of(*reference.u), law, spec.rho);
-      forced_ = reference.kind == "manufactured";
+      ChosenFields fields{.u = function_of(*reference.u)};
+      if (reference.v) fields.v = function_of(*reference.v);
+      if (reference.P) fields.P = function_of(*reference.P);
+      manufactured_ = std::make_shared<Manufactured<L>>(std::move(fields), law, spec.rho);
+      if (reference.kind == "manufactured") {
+        chosen_ = reference.v || reference.P || reference.fluid;
+        forced_ = !chosen_;
+      }
     } else if (reference.kind == "expressions" || reference.kind == "manufactured") {
       solution_ = nullptr;  // formulas for the gas only
     }
@@ -100,7 +112,18 @@ class CaseData {
     return spec_.initial_v ? function_of(*spec_.initial_v) : at_rest();
   }
 
+  /// Where the case gives more than a displacement: sources in all equations.
+  std::optional<ChosenSolution> chosen_solution() const {
+    if (!chosen_) return std::nullopt;
+    const auto& m = manufactured_;
+    return ChosenSolution{.state = reference_state(),
+                          .source = [m](double x, double y, double t) { return m->source(x, y, t); },
+                          .offset = [m](double x, double y, double t) { return m->offset(x, y, t); }};
+  }
+
+  /// With a chosen solution, it takes the place of that of the case.
   VectorFunction body_force() const {
+    if (chosen_) return {};
     if (forced_) {
       return [m = manufactured_](double x, double y, double t) { return m->body_force(x, y, t); };
     }
@@ -203,7 +226,7 @@ class CaseData {
           }
           const double n1 = n[nearest], n2 = n[count + nearest];
           const Tensor2 F = m->deformation_gradient(x1, x2, t);
-          const Tensor2 P = m->stress(F);
+          const Tensor2 P = m->stress(x1, x2, t);
           const double stretch = std::hypot(-F.a11 * n2 + F.a12 * n1, -F.a21 * n2 + F.a22 * n1);
           const double eta = on_reference ? 1 : 1 / stretch;
           return {eta * (n1 * P.a11 + n2 * P.a21), eta * (n1 * P.a12 + n2 * P.a22)};
@@ -215,6 +238,7 @@ class CaseData {
   std::shared_ptr<const exact::Solution> solution_;
   std::shared_ptr<const Manufactured<L>> manufactured_;  ///< motion given by formulas
   bool forced_ = false;                                  ///< a body force makes it a solution
+  bool chosen_ = false;                                  ///< sources in all equations do
 };
 
 }  // namespace fsi::solid

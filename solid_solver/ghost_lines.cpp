@@ -62,16 +62,22 @@ void extrapolate(FieldView q, const SideIndex& side, const GhostRange& range, Li
   }
 }
 
-void reflect(FieldView q, const SideIndex& side, const GhostRange& range, const Vec2& n) {
+SolidState reflected(const SolidState& s, const Vec2& n) {
   const Mat2 R = Mat2::Identity() - 2.0 * n * n.transpose();
-  for (int k = range.begin; k < range.end; ++k) {
-    SolidState s = load(q, side.at(k, -range.m));
-    const Mat2 P = R * (Mat2() << s.P.a11, s.P.a12, s.P.a21, s.P.a22).finished() * R;
-    s.u = R * s.u;
-    s.v = R * s.v;
-    s.P = {P(0, 0), P(0, 1), P(1, 0), P(1, 1)};
-    store(q, side.at(k, range.m), s);
-  }
+  const Mat2 P = R * (Mat2() << s.P.a11, s.P.a12, s.P.a21, s.P.a22).finished() * R;
+  return {.u = R * s.u, .v = R * s.v, .P = {P(0, 0), P(0, 1), P(1, 0), P(1, 1)}};
+}
+
+SolidState sum_of(const SolidState& a, double weight, const SolidState& b) {
+  return {.u = a.u + weight * b.u,
+          .v = a.v + weight * b.v,
+          .P = {a.P.a11 + weight * b.P.a11, a.P.a12 + weight * b.P.a12, a.P.a21 + weight * b.P.a21,
+                a.P.a22 + weight * b.P.a22}};
+}
+
+void reflect(FieldView q, const SideIndex& side, const GhostRange& range, const Vec2& n) {
+  for (int k = range.begin; k < range.end; ++k)
+    store(q, side.at(k, range.m), reflected(load(q, side.at(k, -range.m)), n));
 }
 
 void copy_period(FieldView q, const SideIndex& side, const GhostRange& range) {

@@ -60,6 +60,8 @@ struct GhostRange {
   int begin = 0, end = 0;
 };
 void extrapolate(FieldView q, const SideIndex& side, const GhostRange& range, Limiter limiter);
+/// Vectors and stress reflected at the plane with unit normal n.
+SolidState reflected(const SolidState& state, const Vec2& n);
 /// Mirror images: vectors and stress reflected at the plane with unit normal n.
 void reflect(FieldView q, const SideIndex& side, const GhostRange& range, const Vec2& n);
 /// Values of the opposite side, whose boundary line is the same line.
@@ -67,6 +69,8 @@ void copy_period(FieldView q, const SideIndex& side, const GhostRange& range);
 
 /// The state at an address.
 SolidState load(ConstFieldView q, std::ptrdiff_t at);
+/// a + weight * b.
+SolidState sum_of(const SolidState& a, double weight, const SolidState& b);
 void store(FieldView q, std::ptrdiff_t at, const SolidState& state);
 
 }  // namespace fsi::solid

@@ -1,22 +1,34 @@
 #pragma once
-/// A solution given by its displacement alone: velocity, stress and the body force that makes it exact follow
-/// from the law. Derivatives of the displacement are fourth-order differences of its formula, on few points:
-/// formulas of a case file are what takes the time.
+/// A solution by choice. Given by its displacement alone, velocity, stress and the body force that makes it
+/// exact follow from the law; given by u, v and P as in paper eq. (46), all equations need sources.
+/// Derivatives of the displacement are fourth-order differences of its formula, on few points: formulas of a
+/// case file are what takes the time.
 
 #include <cmath>
 #include <utility>
 
+#include "solid_solver/ghost_lines.hpp"
 #include "solid_solver/options.hpp"
+#include "solid_solver/traction_ghost.hpp"
 
 namespace fsi::solid {
+
+/// Formulas of the reference position; v and P follow from u where they are empty.
+struct ChosenFields {
+  VectorFunction u;
+  VectorFunction v = {};
+  TensorFunction P = {};
+};
 
 template <Law L>
 class Manufactured {
  public:
-  /// `u` must be smooth on the scale of `step_` also a little outside the body.
-  Manufactured(VectorFunction u, const L& law, double rho) : u_(std::move(u)), law_(law), rho_(rho) {}
+  /// The fields must be smooth on the scale of `step_` also a little outside the body.
+  Manufactured(ChosenFields fields, const L& law, double rho)
+      : u_(std::move(fields.u)), v_(std::move(fields.v)), P_(std::move(fields.P)), law_(law), rho_(rho) {}
 
   Vec2 velocity(double x, double y, double t) const {
+    if (v_) return v_(x, y, t);
     return first(around([&](double d) { return u_(x, y, t + d); }));
   }
 
@@ -25,10 +37,34 @@ class Manufactured {
                     around([&](double d) { return u_(x, y + d, t); }));
   }
 
-  Tensor2 stress(const Tensor2& F) const { return law_.P(F); }
+  Tensor2 stress(double x, double y, double t) const {
+    return P_ ? P_(x, y, t) : law_.P(deformation_gradient(x, y, t));
+  }
 
   SolidState state(double x, double y, double t) const {
-    return {.u = u_(x, y, t), .v = velocity(x, y, t), .P = law_.P(deformation_gradient(x, y, t))};
+    return {.u = u_(x, y, t), .v = velocity(x, y, t), .P = stress(x, y, t)};
+  }
+
+  /// What the rates of u, v and P lack to be those of the fields: u_t - v, v_t - div P / rho, P_t - K(F) grad
+  /// v. First derivatives only, by central differences of a step so small that their error is of no account.
+  /// paper eq. (4)
+  SolidState source(double x, double y, double t) const {
+    const SolidState in_t = difference(state(x, y, t + delta_), state(x, y, t - delta_));
+    const SolidState in_x = difference(state(x + delta_, y, t), state(x - delta_, y, t));
+    const SolidState in_y = difference(state(x, y + delta_, t), state(x, y - delta_, t));
+    const Vec2 div(in_x.P.a11 + in_y.P.a21, in_x.P.a12 + in_y.P.a22);
+    const Tensor2 rate =
+        contract(law_.K(deformation_gradient(x, y, t)), {in_x.v.x(), in_y.v.x(), in_x.v.y(), in_y.v.y()});
+    SolidState source = in_t;
+    source.u -= velocity(x, y, t);
+    source.v -= div / rho_;
+    source.P = minus(source.P, rate);
+    return source;
+  }
+
+  /// P - P(F(u)).
+  Tensor2 offset(double x, double y, double t) const {
+    return P_ ? minus(P_(x, y, t), law_.P(deformation_gradient(x, y, t))) : Tensor2{};
   }
 
   /// rho u_tt - div P per unit reference volume, with dP_ji/dx_j = K_jikl d2u_k/dx_j dx_l. paper eq. (2)
@@ -52,6 +88,11 @@ class Manufactured {
 
  private:
   static constexpr double step_ = 4e-3;
+  static constexpr double delta_ = 1e-5;
+
+  static SolidState difference(const SolidState& after, const SolidState& before) {
+    return sum_of(SolidState{}, 0.5 / delta_, sum_of(after, -1.0, before));
+  }
 
   /// Values on a line at -2, -1, 1 and 2 steps from its centre.
   struct Stencil {
@@ -70,7 +111,8 @@ class Manufactured {
     return {1 + u_x[0], u_y[0], u_x[1], 1 + u_y[1]};
   }
 
-  VectorFunction u_;
+  VectorFunction u_, v_;
+  TensorFunction P_;
   L law_;
   double rho_;
 };

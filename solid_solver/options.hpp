@@ -19,6 +19,15 @@ struct SolidState {
 /// Vector or state as a function of the reference position and time.
 using VectorFunction = std::function<Vec2(double x, double y, double t)>;
 using StateFunction = std::function<SolidState(double x, double y, double t)>;
+using TensorFunction = std::function<Tensor2(double x, double y, double t)>;
+
+/// A solution by choice: sources in all equations and at the sides make u, v and P exact, which need not
+/// belong to each other.
+struct ChosenSolution {
+  StateFunction state;
+  StateFunction source;   ///< added to the rates of u, v and P
+  TensorFunction offset;  ///< P - P(F(u))
+};
 
 /// Coefficient with a rate and a 1/dt part: beta = rate * dt + scaled.
 struct Beta {

@@ -34,6 +34,7 @@ class SolidParticipant final : public Participant {
     find_interface(0, spec.boundary);
     for (const BodyFittedSpec& fitted : spec.body_fitted) find_interface(1, fitted.boundary);
     if (const VectorFunction force = data_.body_force()) solver_.set_body_force(force);
+    if (const auto solution = data_.chosen_solution()) solver_.choose(*solution);
     if (const StateFunction initial = data_.initial_state()) {
       solver_.assign_initial_conditions(initial);
     } else {
@@ -53,6 +54,7 @@ class SolidParticipant final : public Participant {
     if (side_) {
       SolidInterface state;
       solver_.interface_state(*side_, state, grid_);
+      move_along(state.x);
       hello.interfaces.push_back(
           {.name = spec_.name,
            .dimension = 2,
@@ -70,6 +72,7 @@ class SolidParticipant final : public Participant {
   void fill(std::size_t /*k*/, wire::PredictedInterface& predicted) const override {
     solver_.interface_state(*side_, interface_, grid_);
     predicted.x = interface_.x;
+    move_along(predicted.x);
     predicted.v = interface_.v;
     predicted.w = interface_.w;
     predicted.Z = interface_.Z;
@@ -163,6 +166,18 @@ class SolidParticipant final : public Participant {
   }
 
   grid::Curve curve() const { return curve_along(solver_.grid(grid_), *side_); }
+
+  /// From where the reference configuration has the interface to where its given path has it.
+  void move_along(std::vector<double>& x) const {
+    const auto& motion = setup_.problem.interface.motion;
+    if (!motion) return;
+    const std::vector<double> x_bar = solver_.grid(grid_).side_points(*side_);
+    const std::size_t n = x_bar.size() / 2;
+    for (std::size_t k = 0; k < n; ++k) {
+      x[k] += motion->c1(x_bar[k], x_bar[n + k], solver_.t()) - x_bar[k];
+      x[n + k] += motion->c2(x_bar[k], x_bar[n + k], solver_.t()) - x_bar[n + k];
+    }
+  }
 
   /// The interface inside a macro step: the gas is known by its outgoing characteristic.
   void close_substep(double t, const wire::ProjectedInterface& p) {

@@ -51,6 +51,9 @@ class SolidBoundary {
   /// Conditions are applied next to interpolated points: these must have their values before.
   bool reads_interpolated_points() const;
 
+  /// From now on given values that are zero, and projected ones, are differences to this solution.
+  void choose(const ChosenSolution* solution) { chosen_ = solution; }
+
   Kind kind(Side side) const { return kinds_[index(side)]; }
   /// True when point k of a side also lies on a side whose motion is given.
   bool fixed(Side side, int k) const;
@@ -72,30 +75,36 @@ class SolidBoundary {
   /// False at a corner, unless the neighbour's ghost points are images, so that differences along the side
   /// are sound.
   bool inner(Side side, int k) const;
+  /// Of the chosen solution; zero where there is none.
+  SolidState chosen(std::ptrdiff_t at, double t) const;
+  Tensor2 chosen_offset(std::ptrdiff_t at, double t) const;
+  Tensor2 chosen_source(std::ptrdiff_t at, double t) const;
+  Tensor2 chosen_strain_rate(std::ptrdiff_t at, double t) const;
   Vec2 side_normal_at_end(Side side, int k) const;
   /// Central differences along the side of u (first = plane::u1) or v over one index.
   static Vec2 difference_along(ConstFieldView q, const SideIndex& line, int first, int k);
   static Vec2 difference_across(ConstFieldView q, const SideIndex& line, int first, int k, double sign);
 
   void set_motion(FieldView q, double t, std::span<const InterfaceValues> projected);
-  void project_velocity(FieldView q, const InterfaceValues& values) const;
+  void project_velocity(FieldView q, double t, const InterfaceValues& values) const;
   void set_given_motion(FieldView q, Side side, double t);
-  void remove_normal_motion(FieldView q, Side side);
+  void remove_normal_motion(FieldView q, Side side, double t);
+  void mirror(FieldView q, Side side, double t, const GhostRange& range) const;
   void set_exact(FieldView q, Side side, double t, int m) const;
   void fill_line(FieldView q, double t, const GhostRange& range) const;
   void fill_side(FieldView q, Side side, double t, const GhostRange& range) const;
   void set_tractions(FieldView q, double t, std::span<const InterfaceValues> projected);
   void find_traction(ConstFieldView q, Side side, double t);
   double stretch_along(ConstFieldView q, Side side, int k) const;
-  void find_projected_traction(ConstFieldView q, const InterfaceValues& values);
-  void set_normal_stress(FieldView q, Side side) const;
-  void follow_characteristics(FieldView q, Side side) const;
-  void set_corner_stress(FieldView q) const;
+  void find_projected_traction(ConstFieldView q, double t, const InterfaceValues& values);
+  void set_normal_stress(FieldView q, Side side, double t) const;
+  void follow_characteristics(FieldView q, Side side, double t) const;
+  void set_corner_stress(FieldView q, double t) const;
   void extend_stress_to_corners(FieldView q, Side side) const;
   void match_side(FieldView q, Side side, double t) const;
   void match_point(FieldView q, Side side, int k, double t) const;
   void match_slip_point(FieldView q, Side side, int k, double t) const;
-  void match_corners(FieldView q) const;
+  void match_corners(FieldView q, double t) const;
   Tensor2 gradient(ConstFieldView q, Side side, int k, int first) const;
   void set_corner_ghosts(FieldView q, Side side, int k, int first, const Tensor2& gradient) const;
   static void set_ghost(FieldView q, const SideIndex& line, int k, int first, const Vec2& change);
@@ -112,6 +121,7 @@ class SolidBoundary {
   std::array<std::vector<int>, 4> advanced_, interpolated_;  ///< points of the sides
   Limiter limiter_;
   double time_scale_;
+  const ChosenSolution* chosen_ = nullptr;
   std::array<std::vector<Vec2>, 4> T_, T_rate_,
       v_change_;  ///< nominal traction n0^T P of the loaded sides and its rate
 };

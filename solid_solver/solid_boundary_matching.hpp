@@ -14,7 +14,7 @@ void SolidBoundary<L>::apply(FieldView q, double t, std::span<const InterfaceVal
   for (const Side side : all_sides) {
     if (loaded(side) || kind(side) == Kind::slip) match_side(q, side, t);
   }
-  match_corners(q);
+  match_corners(q, t);
   for (const Side side : all_sides) extend_stress_to_corners(q, side);
   fill_line(q, t, {.first_plane = plane::P11, .last_plane = plane::P22, .m = -1});
   fill_line(q, t, {.m = -2});
@@ -27,17 +27,18 @@ void SolidBoundary<L>::set_tractions(FieldView q, double t, std::span<const Inte
     if (loaded(side)) find_traction(q, side, t);
   }
   for (const InterfaceValues& values : projected) {
-    if (values.grid == grid_.index) find_projected_traction(q, values);
+    if (values.grid == grid_.index) find_projected_traction(q, t, values);
   }
   for (const Side side : all_sides) {
     if (kind(side) == Kind::traction || kind(side) == Kind::displacement || kind(side) == Kind::slip) {
-      follow_characteristics(q, side);
+      follow_characteristics(q, side, t);
     }
   }
   for (const Side side : all_sides) {
-    if (loaded(side) || kind(side) == Kind::slip || kind(side) == Kind::symmetry) set_normal_stress(q, side);
+    if (loaded(side) || kind(side) == Kind::slip || kind(side) == Kind::symmetry)
+      set_normal_stress(q, side, t);
   }
-  set_corner_stress(q);
+  set_corner_stress(q, t);
   for (const Side side : all_sides) {
     if (kind(side) == Kind::dirichlet) set_exact(q, side, t, 0);
   }
@@ -88,16 +89,18 @@ double SolidBoundary<L>::stretch_along(ConstFieldView q, Side side, int k) const
   return extrapolated(stretch(k + step), stretch(k + 2 * step), stretch(k + 3 * step), limiter_);
 }
 
-/// T = (w_n / eta) n, or w_n n0 for loads on the reference configuration.
+/// T = (w_n / eta) n, or w_n n0 for loads on the reference configuration; besides the chosen traction.
 template <Law L>
-void SolidBoundary<L>::find_projected_traction(ConstFieldView q, const InterfaceValues& values) {
+void SolidBoundary<L>::find_projected_traction(ConstFieldView q, double t, const InterfaceValues& values) {
   const SideIndex line(layout(), values.side);
   const auto n = static_cast<std::size_t>(line.n);
   for (std::size_t k = 0; k < n; ++k) {
     const double eta = 1.0 / stretch_along(q, values.side, static_cast<int>(k));
     const Vec2 normal =
         follows(values.side) ? Vec2(values.n[k], values.n[n + k]) : at(values.side, static_cast<int>(k)).n0;
-    T_[index(values.side)][k] = values.w_n[k] / eta * normal;
+    const int point = static_cast<int>(k);
+    T_[index(values.side)][k] =
+        values.w_n[k] / eta * normal + traction_of(chosen(line.at(point, 0), t).P, at(values.side, point).n0);
   }
 }
 
@@ -107,7 +110,7 @@ void SolidBoundary<L>::find_projected_traction(ConstFieldView q, const Interface
 /// nothing damps, and corners of sides with given displacement are unstable. The change is of the size of the
 /// truncation error.
 template <Law L>
-void SolidBoundary<L>::follow_characteristics(FieldView q, Side side) const {
+void SolidBoundary<L>::follow_characteristics(FieldView q, Side side, double t) const {
   const SideIndex line(layout(), side);
   for (const int k : points(side)) {
     if (!inner(side, k)) continue;
@@ -128,7 +131,8 @@ void SolidBoundary<L>::follow_characteristics(FieldView q, Side side) const {
     } else if (kind(side) == Kind::displacement) {
       s.P = plus_dyad(s.P, m.n0, Z * dv);
     } else {
-      const Vec2 slide = -m.t0 * (m.t0.dot(w + Z * dv) / m.t0.dot(Z * m.t0));
+      const Vec2 shear = w - traction_of(chosen(a, t).P, m.n0);
+      const Vec2 slide = -m.t0 * (m.t0.dot(shear + Z * dv) / m.t0.dot(Z * m.t0));
       s.v += slide;
       s.P = plus_dyad(s.P, m.n0, Z * (dv + slide));
     }
@@ -145,18 +149,19 @@ Vec2 SolidBoundary<L>::side_normal_at_end(Side side, int k) const {
 
 /// n0^T P := T on loaded sides, no shear on slip and symmetry sides; the rest of P stays.
 template <Law L>
-void SolidBoundary<L>::set_normal_stress(FieldView q, Side side) const {
+void SolidBoundary<L>::set_normal_stress(FieldView q, Side side, double t) const {
   const SideIndex line(layout(), side);
   for (const int k : points(side)) {
     const std::ptrdiff_t a = line.at(k, 0);
     const SideMetrics m = at(side, k);
     SolidState s = load(q, a);
     Vec2 change = T_[index(side)][static_cast<std::size_t>(k)] - traction_of(s.P, m.n0);
-    if (!loaded(side)) change = -m.t0 * m.t0.dot(traction_of(s.P, m.n0));
+    const Tensor2 exact = chosen(a, t).P;
+    if (!loaded(side)) change = -m.t0 * m.t0.dot(traction_of(minus(s.P, exact), m.n0));
     s.P = plus(s.P,
                {m.n0.x() * change.x(), m.n0.x() * change.y(), m.n0.y() * change.x(), m.n0.y() * change.y()});
     if (kind(side) == Kind::symmetry) {
-      const double shear = m.n0.dot(traction_of(s.P, m.t0));
+      const double shear = m.n0.dot(traction_of(minus(s.P, exact), m.t0));
       s.P = plus(s.P, {-shear * m.t0.x() * m.n0.x(), -shear * m.t0.x() * m.n0.y(),
                        -shear * m.t0.y() * m.n0.x(), -shear * m.t0.y() * m.n0.y()});
     }
@@ -166,7 +171,7 @@ void SolidBoundary<L>::set_normal_stress(FieldView q, Side side) const {
 
 /// Two loaded sides: both tractions hold. Two sides with given displacement: P(F).
 template <Law L>
-void SolidBoundary<L>::set_corner_stress(FieldView q) const {
+void SolidBoundary<L>::set_corner_stress(FieldView q, double t) const {
   for (const Side side : {Side::left, Side::right}) {
     const SideIndex line(layout(), side);
     for (const int k : {0, line.n - 1}) {
@@ -179,7 +184,7 @@ void SolidBoundary<L>::set_corner_stress(FieldView q) const {
         s.P = stress_of_tractions(at(side, k).n0, T_[index(side)][static_cast<std::size_t>(k)],
                                   at(other, k_other).n0, T_[index(other)][static_cast<std::size_t>(k_other)]);
       } else if (kind(side) == Kind::displacement && kind(other) == Kind::displacement) {
-        s.P = law_.P(plus(identity, gradient(q, side, k, plane::u1)));
+        s.P = plus(law_.P(plus(identity, gradient(q, side, k, plane::u1))), chosen_offset(a, t));
       }
       store(q, a, s);
     }
@@ -243,17 +248,20 @@ void SolidBoundary<L>::match_point(FieldView q, Side side, int k, double t) cons
                                  .across = m.across,
                                  .n0 = m.n0,
                                  .sign = m.sign};
-  const auto du =
-      match_traction(law_, strain, traction_of(s.P, m.n0), difference_across(q, line, plane::u1, k, m.sign));
+  const std::ptrdiff_t a = line.at(k, 0);
+  const Tensor2 offset = chosen_offset(a, t);
+  const auto du = match_traction(law_, strain, traction_of(minus(s.P, offset), m.n0),
+                                 difference_across(q, line, plane::u1, k, m.sign));
   if (!du) broke(side, k, t);
   set_ghost(q, line, k, plane::u1, 2.0 * m.sign * *du);
   if (kind(side) == Kind::traction) {
     const Tensor2 along = plus_dyad({}, difference_along(q, line, plane::v1, k), m.along);
-    const Vec2 dv =
-        match_traction_rate(law_, strain, *du, along, T_rate_[index(side)][static_cast<std::size_t>(k)]);
+    const Vec2 rate =
+        T_rate_[index(side)][static_cast<std::size_t>(k)] - traction_of(chosen_source(a, t), m.n0);
+    const Vec2 dv = match_traction_rate(law_, strain, *du, along, rate);
     set_ghost(q, line, k, plane::v1, 2.0 * m.sign * dv);
   }
-  const Tensor2 P = law_.P(plus_dyad(strain.F, *du, m.across));
+  const Tensor2 P = plus(law_.P(plus_dyad(strain.F, *du, m.across)), offset);
   const Vec2 change = traction_of(P, m.t0) - traction_of(s.P, m.t0);
   s.P = plus_dyad(s.P, m.t0, change);
   store(q, line.at(k, 0), s);
@@ -268,11 +276,14 @@ void SolidBoundary<L>::match_slip_point(FieldView q, Side side, int k, double t)
                                  .across = m.across,
                                  .n0 = m.n0,
                                  .sign = m.sign};
-  const auto du = match_shear(law_, strain, 0.0, difference_across(q, line, plane::u1, k, m.sign));
+  const std::ptrdiff_t a = line.at(k, 0);
+  const double shear = m.t0.dot(traction_of(minus(chosen(a, t).P, chosen_offset(a, t)), m.n0));
+  const auto du = match_shear(law_, strain, shear, difference_across(q, line, plane::u1, k, m.sign));
   if (!du) broke(side, k, t);
   set_ghost(q, line, k, plane::u1, 2.0 * m.sign * *du);
   const Stiffness K = law_.K(plus_dyad(strain.F, *du, m.across));
-  const double rate = m.t0.dot(traction_of(contract(K, gradient(q, side, k, plane::v1)), m.n0));
+  const Tensor2 strain_rate = contract(K, gradient(q, side, k, plane::v1));
+  const double rate = m.t0.dot(traction_of(minus(strain_rate, chosen_strain_rate(a, t)), m.n0));
   const double stiffness = m.t0.dot(matrix(acoustic_matrix(K, m.n0)) * m.t0) * m.across.norm() * m.sign;
   const Vec2 dv = difference_across(q, line, plane::v1, k, m.sign) - rate / stiffness * m.t0;
   set_ghost(q, line, k, plane::v1, 2.0 * m.sign * dv);
@@ -280,7 +291,7 @@ void SolidBoundary<L>::match_slip_point(FieldView q, Side side, int k, double t)
 
 /// Corners of two loaded sides: ghost u, and ghost v where both tractions are given functions.
 template <Law L>
-void SolidBoundary<L>::match_corners(FieldView q) const {
+void SolidBoundary<L>::match_corners(FieldView q, double t) const {
   for (const Side side : {Side::left, Side::right}) {
     const SideIndex line(layout(), side);
     for (const int k : {0, line.n - 1}) {
@@ -290,7 +301,8 @@ void SolidBoundary<L>::match_corners(FieldView q) const {
       const SideIndex other_line(layout(), other);
       const int k_other = at_upper_end(side) ? other_line.n - 1 : 0;
       const SideMetrics m = at(side, k), m_other = at(other, k_other);
-      const Tensor2 P = load(q, line.at(k, 0)).P;
+      const std::ptrdiff_t a = line.at(k, 0);
+      const Tensor2 P = minus(load(q, a).P, chosen_offset(a, t));
       const Tensor2 start = gradient(q, side, k, plane::u1);
       const Tensor2 F = match_corner(law_, P, plus(identity, start));
       set_corner_ghosts(q, side, k, plane::u1, minus(F, identity));
@@ -298,8 +310,9 @@ void SolidBoundary<L>::match_corners(FieldView q) const {
       const Stiffness K = law_.K(F);
       const Tensor2 velocity = gradient(q, side, k, plane::v1);
       const Tensor2 rate =
-          stress_of_tractions(m.n0, T_rate_[index(side)][static_cast<std::size_t>(k)], m_other.n0,
-                              T_rate_[index(other)][static_cast<std::size_t>(k_other)]);
+          minus(stress_of_tractions(m.n0, T_rate_[index(side)][static_cast<std::size_t>(k)], m_other.n0,
+                                    T_rate_[index(other)][static_cast<std::size_t>(k_other)]),
+                chosen_source(a, t));
       set_corner_ghosts(q, side, k, plane::v1,
                         plus(velocity, least_change(K, minus(rate, contract(K, velocity)))));
     }

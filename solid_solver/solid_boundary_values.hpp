@@ -106,13 +106,46 @@ Vec2 SolidBoundary<L>::difference_along(ConstFieldView q, const SideIndex& line,
 }
 
 template <Law L>
-void SolidBoundary<L>::project_velocity(FieldView q, const InterfaceValues& values) const {
+SolidState SolidBoundary<L>::chosen(std::ptrdiff_t at, double t) const {
+  if (chosen_ == nullptr) return {};
+  const Vec2 x = position(at);
+  return chosen_->state(x.x(), x.y(), t);
+}
+
+template <Law L>
+Tensor2 SolidBoundary<L>::chosen_offset(std::ptrdiff_t at, double t) const {
+  if (chosen_ == nullptr) return {};
+  const Vec2 x = position(at);
+  return chosen_->offset(x.x(), x.y(), t);
+}
+
+/// Of the stress.
+template <Law L>
+Tensor2 SolidBoundary<L>::chosen_source(std::ptrdiff_t at, double t) const {
+  if (chosen_ == nullptr) return {};
+  const Vec2 x = position(at);
+  return chosen_->source(x.x(), x.y(), t).P;
+}
+
+/// K grad v of the chosen solution: what its source leaves of dP/dt.
+template <Law L>
+Tensor2 SolidBoundary<L>::chosen_strain_rate(std::ptrdiff_t at, double t) const {
+  if (chosen_ == nullptr) return {};
+  const double delta = 1e-3 * time_scale_;
+  const SolidState change = sum_of(chosen(at, t + delta), -1.0, chosen(at, t - delta));
+  return minus(sum_of(SolidState{}, 0.5 / delta, change).P, chosen_source(at, t));
+}
+
+template <Law L>
+void SolidBoundary<L>::project_velocity(FieldView q, double t, const InterfaceValues& values) const {
   const SideIndex line(layout(), values.side);
   const auto n = static_cast<std::size_t>(line.n);
   for (std::size_t k = 0; k < n; ++k) {
     const std::ptrdiff_t a = line.at(static_cast<int>(k), 0);
     double &v1 = q.plane(plane::v1)[a], &v2 = q.plane(plane::v2)[a];
-    const double change = values.v_n[k] - (values.n[k] * v1 + values.n[n + k] * v2);
+    const Vec2 exact = chosen(a, t).v;
+    const double change =
+        values.v_n[k] - (values.n[k] * (v1 - exact.x()) + values.n[n + k] * (v2 - exact.y()));
     v1 += change * values.n[k];
     v2 += change * values.n[n + k];
   }
@@ -122,10 +155,10 @@ void SolidBoundary<L>::project_velocity(FieldView q, const InterfaceValues& valu
 template <Law L>
 void SolidBoundary<L>::set_motion(FieldView q, double t, std::span<const InterfaceValues> projected) {
   for (const InterfaceValues& values : projected) {
-    if (values.grid == grid_.index) project_velocity(q, values);
+    if (values.grid == grid_.index) project_velocity(q, t, values);
   }
   for (const Side side : all_sides) {
-    if (kind(side) == Kind::slip || kind(side) == Kind::symmetry) remove_normal_motion(q, side);
+    if (kind(side) == Kind::slip || kind(side) == Kind::symmetry) remove_normal_motion(q, side, t);
   }
   for (const Side side : all_sides) {
     if (kind(side) == Kind::displacement) set_given_motion(q, side, t);
@@ -157,15 +190,17 @@ void SolidBoundary<L>::set_given_motion(FieldView q, Side side, double t) {
   }
 }
 
-/// n0 . u = n0 . v = 0; where two such sides meet at an angle the corner does not move at all.
+/// n0 . u = n0 . v = 0 for the difference to the chosen solution; where two such sides meet at an angle the
+/// corner does not move at all.
 template <Law L>
-void SolidBoundary<L>::remove_normal_motion(FieldView q, Side side) {
+void SolidBoundary<L>::remove_normal_motion(FieldView q, Side side, double t) {
   constexpr double parallel = 1e-6;
   const SideIndex line(layout(), side);
   for (const int k : points(side)) {
     const std::ptrdiff_t a = line.at(k, 0);
     const Vec2 n = at(side, k).n0;
-    SolidState s = load(q, a);
+    const SolidState exact = chosen(a, t);
+    SolidState s = sum_of(load(q, a), -1.0, exact);
     s.u -= n * n.dot(s.u);
     v_change_[index(side)][static_cast<std::size_t>(k)] = -n * n.dot(s.v);
     s.v -= n * n.dot(s.v);
@@ -174,7 +209,7 @@ void SolidBoundary<L>::remove_normal_motion(FieldView q, Side side) {
       const Vec2 m = at(other, at_upper_end(side) ? SideIndex(layout(), other).n - 1 : 0).n0;
       if (std::abs(n.x() * m.y() - n.y() * m.x()) > parallel) s.u = s.v = Vec2::Zero();
     }
-    store(q, a, s);
+    store(q, a, sum_of(s, 1.0, exact));
   }
 }
 
@@ -192,6 +227,18 @@ void SolidBoundary<L>::set_exact(FieldView q, Side side, double t, int m) const 
 }
 
 template <Law L>
+void SolidBoundary<L>::mirror(FieldView q, Side side, double t, const GhostRange& range) const {
+  const SideIndex line(layout(), side);
+  const Vec2 n0 = at(side, 0).n0;
+  if (chosen_ == nullptr) return reflect(q, line, range, n0);
+  for (int k = range.begin; k < range.end; ++k) {
+    const std::ptrdiff_t ghost = line.at(k, range.m), inner = line.at(k, -range.m);
+    const SolidState image = reflected(sum_of(load(q, inner), -1.0, chosen(inner, t)), n0);
+    store(q, ghost, sum_of(image, 1.0, chosen(ghost, t)));
+  }
+}
+
+template <Law L>
 void SolidBoundary<L>::fill_side(FieldView q, Side side, double t, const GhostRange& range) const {
   const SideIndex line(layout(), side);
   switch (kind(side)) {
@@ -201,7 +248,7 @@ void SolidBoundary<L>::fill_side(FieldView q, Side side, double t, const GhostRa
       copy_period(q, line, range);
       break;
     case Kind::symmetry:
-      reflect(q, line, range, at(side, 0).n0);
+      mirror(q, side, t, range);
       break;
     case Kind::dirichlet:
       set_exact(q, side, t, range.m);

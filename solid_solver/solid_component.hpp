@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <cstdint>
+#include <optional>
 
 #include "common/grid/moving_grid.hpp"
 #include "solid_solver/dissipation.hpp"
@@ -41,6 +42,9 @@ class SolidComponent {
   /// P := P(F(u)) at discretised points, F by central differences with one-sided ends.
   void assign_stress();
   void set_body_force(VectorFunction force);
+  void choose(const ChosenSolution& solution);
+  /// Null where there is none.
+  const ChosenSolution* chosen() const { return chosen_ ? &*chosen_ : nullptr; }
   /// Paper eq. (35) to paper eq. (41): the state at t + dt, boundary conditions not applied. On failure the
   /// state stays.
   void advance(double t, double dt);
@@ -66,6 +70,9 @@ class SolidComponent {
   template <class Row, class Gradient>
   void dissipate(double dt);
   void evaluate_force(double t);
+  void evaluate_source(double t);
+  void add_source(double weight);
+  void add_relaxation_offset(double t, double dt);
 
   grid::MovingGrid grid_;
   SolidPoints points_;
@@ -75,6 +82,9 @@ class SolidComponent {
   SolidBoundary<L> boundary_;
   Field q_, next_, work_, force_;
   VectorFunction body_force_;
+  std::optional<ChosenSolution> chosen_;
+  Field source_;             ///< of the chosen solution, at the time of the state
+  bool has_source_ = false;  ///< it was evaluated
   SweepResult measured_;
 };
 
@@ -158,6 +168,53 @@ void SolidComponent<L>::evaluate_force(double t) {
 }
 
 template <Law L>
+void SolidComponent<L>::choose(const ChosenSolution& solution) {
+  chosen_ = solution;
+  boundary_.choose(&*chosen_);
+  source_ = Field(layout(), plane::count);
+  has_source_ = false;
+}
+
+/// At points that have a value and at their ghosts.
+template <Law L>
+void SolidComponent<L>::evaluate_source(double t) {
+  constexpr int g = Layout::ghosts;
+  const ConstFieldView x = grid_.x();
+  for (int j = -g; j < layout().n2 + g; ++j) {
+    for (int i = -g; i < layout().n1 + g; ++i) {
+      if (!points_.is_valid(std::clamp(i, 0, layout().n1 - 1), std::clamp(j, 0, layout().n2 - 1))) continue;
+      store(source_.view(), layout().at(i, j), chosen_->source(x(0, i, j), x(1, i, j), t));
+    }
+  }
+  has_source_ = true;
+}
+
+template <Law L>
+void SolidComponent<L>::add_source(double weight) {
+  std::span<double> q = q_.values();
+  const std::span<const double> source = source_.values();
+  for (std::size_t k = 0; k < q.size(); ++k) q[k] += weight * source[k];
+}
+
+/// Paper eq. (41) then pulls P towards P(F(u)) + offset. The state it sees is at t with half of the step's
+/// source, and so is the difference of its P to P(F): the offset is taken at half time.
+template <Law L>
+void SolidComponent<L>::add_relaxation_offset(double t, double dt) {
+  const double beta = options_.relaxation.at(dt);
+  if (beta == 0) return;
+  const ConstFieldView x = grid_.x();
+  for (int j = 0; j < layout().n2; ++j) {
+    for (const auto& [begin, end] : points_.discretised(j)) {
+      for (int i = begin; i < end; ++i) {
+        const std::ptrdiff_t at = layout().at(i, j);
+        const SolidState offset = {.u = {}, .v = {}, .P = chosen_->offset(x(0, i, j), x(1, i, j), t)};
+        store(next_.view(), at, sum_of(load(next_.view(), at), beta, offset));
+      }
+    }
+  }
+}
+
+template <Law L>
 template <class Row>
 SweepResult SolidComponent<L>::sweep_with(double dt) {
   const SweepData data = {.points = &points_,
@@ -198,6 +255,10 @@ void SolidComponent<L>::dissipate(double dt) {
 template <Law L>
 void SolidComponent<L>::advance(double t, double dt) {
   evaluate_force(t + 0.5 * dt);
+  if (chosen_) {
+    if (!has_source_) evaluate_source(t);
+    add_source(0.5 * dt);
+  }
   measured_ = sweep(dt);
   if (measured_.broken > 0) throw NumbersBroke(trouble(dt));
   if (metrics_.cartesian()) {
@@ -205,7 +266,11 @@ void SolidComponent<L>::advance(double t, double dt) {
   } else {
     dissipate<MappedRow, MappedGradient4>(dt);
   }
+  if (chosen_) add_relaxation_offset(t + 0.5 * dt, dt);
   std::swap(q_, next_);
+  if (!chosen_) return;
+  evaluate_source(t + dt);
+  add_source(0.5 * dt);
 }
 
 template <Law L>

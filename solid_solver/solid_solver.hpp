@@ -94,6 +94,14 @@ class SolidSolver {
     for (SolidComponent<L>& component : components_) component.set_body_force(force);
   }
 
+  /// Makes chosen fields exact; half of a step's sources act before it, half after it. Conditions on the
+  /// sides then hold for the difference to the fields, and so does what an interface shows and is told: it
+  /// lies where the reference configuration has it, but for the difference in u. Before the initial
+  /// conditions.
+  void choose(const ChosenSolution& solution) {
+    for (SolidComponent<L>& component : components_) component.choose(solution);
+  }
+
   /// Largest stable step for the present state: paper eq. (44) in paper eq. (45), times the safety factor.
   /// The wave speeds are those the last sweep met (half a step old).
   TimeStep compute_time_step() const {
@@ -116,7 +124,7 @@ class SolidSolver {
   }
   /// Predicted state of the interface points of a side; reuses the memory of `state`. Needs no ghost points.
   void interface_state(Side side, SolidInterface& state, int grid = 0) const {
-    gather_interface(component(grid), law_, options_.rho, side, state);
+    gather_interface(component(grid), law_, {options_.rho, t_}, side, state);
   }
   /// Boundary conditions and ghost points at time t, then interpolation between the grids. `projected` has
   /// one entry per interface side.

@@ -122,6 +122,10 @@ ReferenceSpec reference_of(const Reader& reader) {
       result.fluid = reader.gas_state(entry.value, "reference.fluid");
     } else if (entry.key == "u") {
       result.u = reader.vector(entry.value);
+    } else if (entry.key == "v") {
+      result.v = reader.vector(entry.value);
+    } else if (entry.key == "P") {
+      result.P = reader.tensor(entry.value);
     } else {
       const double unit = entry.key == "rotation" ? std::numbers::pi / 180 : 1;
       result.numbers[entry.key] = *entry.value.number * unit;
@@ -192,8 +196,10 @@ Case build_case(const Node& root, const Scope& scope) {
   result.parameters = parameters_of(root);
   result.grid_factor = scope.constants.at("j");
   result.time = time_of(*root.find("time"));
-  if (const Node* node = root.find("interface"))
+  if (const Node* node = root.find("interface")) {
     Reader::assign(*node, "projection", result.interface.projection);
+    if (const Node* motion = node->find("motion")) result.interface.motion = reader.vector(*motion);
+  }
   if (const Node* node = root.find("solids")) {
     for (const config::Entry& entry : node->entries) result.solids.push_back(solid_of(reader, entry));
   }

@@ -7,9 +7,11 @@
 #include <filesystem>
 #include <fstream>
 #include <numbers>
+#include <optional>
 #include <sstream>
 #include <utility>
 
+#include "common/case/grid_points.hpp"
 #include "common/core/suggest.hpp"
 #include "common/grid/shapes/circle.hpp"
 #include "common/grid/shapes/ellipse.hpp"
@@ -149,16 +151,51 @@ BoundarySpec boundary_or(const Reader& reader, const Owner& owner, const Node* n
 const SolidSpec& solid_named(const std::vector<SolidSpec>& solids, const Node& name,
                              const std::string& path) {
   const auto found = std::ranges::find(solids, name.text, &SolidSpec::name);
-  if (found != solids.end() && !found->body_fitted.empty()) return *found;
+  if (found != solids.end()) return *found;
   std::vector<std::string> names;
   for (const SolidSpec& solid : solids) names.push_back(solid.name);
-  if (found == solids.end()) {
-    fail(name.place, path + ".solid",
-         fmt::format("there is no solid {}{}", in_ticks(name.text), did_you_mean(name.text, names)));
-  }
   fail(name.place, path + ".solid",
-       fmt::format("solid {} has no `shape`; give it one, or let a side of `fluid.grid` meet it",
-                   in_ticks(name.text)));
+       fmt::format("there is no solid {}{}", in_ticks(name.text), did_you_mean(name.text, names)));
+}
+
+std::optional<std::array<Side, 2>> walls_of(const Node& owner, const std::string& path) {
+  const Node* walls = owner.find("walls");
+  if (walls == nullptr) return std::nullopt;
+  if (walls->items.size() != 2) fail(walls->place, path + ".walls", "must be two sides, [bottom, bottom]");
+  return std::array{side_of(walls->items[0]), side_of(walls->items[1])};
+}
+
+/// The gas's grid at a solid: along its outline, or from wall to wall along its interface side, in the
+/// order of the side's points.
+BodyFittedSpec build_grid_at_solid(const Reader& reader, const Node& node, const std::string& path,
+                                   const SolidSpec& solid) {
+  const std::string name = node.find("name")->text;
+  const auto walls = walls_of(node, path);
+  if (!solid.body_fitted.empty()) {
+    if (walls)
+      fail(node.find("walls")->place, path + ".walls", "the outline of the solid has its own; leave it out");
+    BodyFittedSpec grid = build_fitted(reader, &node, solid.body_fitted.front().curve, name);
+    grid.side = Side::top;
+    return grid;
+  }
+  const auto meets = std::ranges::find(solid.boundary, BoundaryKind::interface, &BoundarySpec::kind);
+  if (meets == solid.boundary.end() || !walls) {
+    fail(
+        node.place, path,
+        fmt::format(
+            "solid {} has no `shape`: a grid along its interface side needs that side and `walls: [.., ..]`, "
+            "the sides of the background on which its ends lie",
+            in_ticks(solid.name)));
+  }
+  const Side side = all_sides[static_cast<std::size_t>(meets - solid.boundary.begin())];
+  CurveSpec curve{.x = {}, .spacing = reader.scope().constants.at("h"), .walls = walls};
+  const int n = points_along(solid.grid, side);
+  for (const int c : {0, 1}) {
+    for (int k = 0; k < n; ++k) curve.x.push_back(side_point(solid.grid, side, k)[c]);
+  }
+  BodyFittedSpec grid = build_fitted(reader, &node, std::move(curve), name);
+  grid.side = side == Side::right || side == Side::bottom ? Side::top : Side::bottom;
+  return grid;
 }
 
 BodyFittedSpec build_gas_grid(const Reader& reader, const Node& node, const std::string& path,
@@ -172,12 +209,12 @@ BodyFittedSpec build_gas_grid(const Reader& reader, const Node& node, const std:
       if (const Node* own = node.find(key))
         fail(own->place, path, fmt::format("`{}` belongs to `shape`; a solid's outline has its own", key));
     }
-    BodyFittedSpec grid =
-        build_fitted(reader, &node, solid_named(solids, *solid, path).body_fitted.front().curve, name);
+    BodyFittedSpec grid = build_grid_at_solid(reader, node, path, solid_named(solids, *solid, path));
     grid.solid = solid->text;
-    grid.side = Side::top;
     return grid;
   }
+  if (const Node* walls = node.find("walls"))
+    fail(walls->place, path + ".walls", "belongs to a grid at a solid; write it into `shape`");
   bool inside = false;
   Reader::assign(node, "inside", inside);
   BodyFittedSpec grid = build_fitted(reader, &node, build_curve(reader, *shape, path + ".shape"), name);
@@ -189,10 +226,7 @@ BodyFittedSpec build_gas_grid(const Reader& reader, const Node& node, const std:
 
 CurveSpec build_curve(const Reader& reader, const Node& shape, const std::string& path) {
   CurveSpec result;
-  if (const Node* walls = shape.find("walls")) {
-    if (walls->items.size() != 2) fail(walls->place, path + ".walls", "must be two sides, [bottom, bottom]");
-    result.walls = {side_of(walls->items[0]), side_of(walls->items[1])};
-  }
+  result.walls = walls_of(shape, path);
   try {
     const grid::PlaneCurve curve = curve_of(shape, result.closed(), path);
     const double length = grid::length_of(curve);

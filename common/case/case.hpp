@@ -25,6 +25,11 @@ struct VectorExpressions {
   Expression c1, c2;
 };
 
+/// Tensor field as expressions of x, y, r, t.
+struct TensorExpressions {
+  Expression c11, c12, c21, c22;
+};
+
 /// One mapped component grid.
 struct GridSpec {
   enum class Kind { rectangle, mapped };
@@ -143,7 +148,8 @@ struct TimeSpec {
 };
 
 struct InterfaceSpec {
-  std::string projection = "simplified";  ///< full, simplified, traditional
+  std::string projection = "simplified";    ///< full, simplified, traditional
+  std::optional<VectorExpressions> motion;  ///< position at t of the point that is at (x, y) at t = 0
 };
 
 struct ProbeSpec {
@@ -160,8 +166,10 @@ struct OutputSpec {
 struct ReferenceSpec {
   std::string kind = "none";              ///< none, expressions, manufactured, or a named solution
   std::map<std::string, double> numbers;  ///< data of a named solution
-  std::optional<GasExpressions> fluid;    ///< expressions
+  std::optional<GasExpressions> fluid;    ///< expressions, manufactured
   std::optional<VectorExpressions> u;     ///< expressions, manufactured: solid displacement of x, y, t
+  std::optional<VectorExpressions> v;     ///< manufactured: solid velocity where it is not du/dt
+  std::optional<TensorExpressions> P;     ///< manufactured: nominal stress where it is not P(F(u))
 };
 
 struct Expectation {

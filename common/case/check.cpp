@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "common/case/check_overlap.hpp"
+#include "common/case/grid_points.hpp"
 #include "common/core/suggest.hpp"
 #include "common/core/types.hpp"
 
@@ -25,28 +26,6 @@ const Node& at(const Node& root, std::initializer_list<std::string_view> keys) {
     node = next;
   }
   return *node;
-}
-
-/// Position of grid point (i, j) at time t.
-Vec2 position(const GridSpec& grid, int i, int j, double t) {
-  const double r = static_cast<double>(i) / (grid.n1 - 1);
-  const double s = static_cast<double>(j) / (grid.n2 - 1);
-  Vec2 x(grid.x_a + r * (grid.x_b - grid.x_a), grid.y_a + s * (grid.y_b - grid.y_a));
-  if (grid.kind == GridSpec::Kind::mapped) {
-    x = Vec2(grid.map.c1.at_parameters(r, s, t), grid.map.c2.at_parameters(r, s, t));
-  }
-  const double c = std::cos(grid.rotation);
-  const double sine = std::sin(grid.rotation);
-  return {c * x[0] - sine * x[1], sine * x[0] + c * x[1]};
-}
-
-int points_along(const GridSpec& grid, Side side) {
-  return direction_of(side) == 0 ? grid.n2 : grid.n1;
-}
-
-Vec2 side_point(const GridSpec& grid, Side side, int k) {
-  const int end = at_upper_end(side) ? (direction_of(side) == 0 ? grid.n1 : grid.n2) - 1 : 0;
-  return direction_of(side) == 0 ? position(grid, end, k, 0) : position(grid, k, end, 0);
 }
 
 /// The cells of a sample have positive area: a map that folds costs one look, not a run.
@@ -213,12 +192,20 @@ void check_interfaces(const Case& problem, const Node& root) {
     const Node& place = at(root, {"solids", solid.name, "boundary"});
     const std::vector<Side> gas =
         problem.fluid ? interface_sides(problem.fluid->boundary, solid.name) : std::vector<Side>{};
+    const auto fitted =
+        problem.fluid ? std::ranges::count(problem.fluid->body_fitted, solid.name, &BodyFittedSpec::solid)
+                      : 0;
     if (own.empty() && !problem.fluid) continue;
     if (own.empty())
       fail(place.place, path,
            "no side is an interface, yet the case has a gas; write `interface` on the side that meets it");
     const std::string own_path = fmt::format("{}.{}", path, name_of(own.front()));
     if (own.size() > 1) fail(place.place, path, "two sides are interfaces; a solid meets the gas along one");
+    if (fitted + std::ssize(gas) > 1 && fitted > 0) {
+      fail(at(root, {"fluid", "body_fitted"}).place, "fluid.body_fitted",
+           fmt::format("solid `{}` is met more than once; keep one", solid.name));
+    }
+    if (fitted == 1) continue;
     if (gas.empty()) {
       fail(at(place, {name_of(own.front())}).place, own_path,
            fmt::format("the interface has no partner; write {{kind: interface, solid: {}}} on a side of "
@@ -234,6 +221,14 @@ void check_interfaces(const Case& problem, const Node& root) {
 }
 
 void check_reference(const Case& problem, const Node& root) {
+  if (!problem.reference.u) {
+    for (const auto& [key, is_there] :
+         {std::pair{"v", problem.reference.v.has_value()}, std::pair{"P", problem.reference.P.has_value()}}) {
+      if (is_there)
+        fail(at(root, {"reference", key}).place, fmt::format("reference.{}", key),
+             "goes with `u`, which is missing");
+    }
+  }
   const auto need = [&](const BoundarySpec& spec, bool is_gas, const std::string& owner, Side side,
                         const Node& node) {
     if (!spec.from_reference) return;
@@ -258,6 +253,50 @@ void check_reference(const Case& problem, const Node& root) {
     for (const SolidSpec& solid : problem.solids) {
       need(solid.boundary[index], false, "solids." + solid.name, side,
            at(root, {"solids", solid.name, "boundary", name_of(side)}));
+    }
+  }
+}
+
+/// Points where a solid meets the gas at t = 0.
+std::vector<Vec2> meeting_points(const SolidSpec& solid) {
+  std::vector<Vec2> points;
+  if (!solid.body_fitted.empty()) {
+    const CurveSpec& curve = solid.body_fitted.front().curve;
+    const auto n = static_cast<std::size_t>(curve.points());
+    for (std::size_t k = 0; k < n; ++k) points.emplace_back(curve.x[k], curve.x[n + k]);
+  }
+  for (const Side side : interface_sides(solid.boundary)) {
+    for (int k = 0; k < points_along(solid.grid, side); ++k)
+      points.push_back(side_point(solid.grid, side, k));
+  }
+  return points;
+}
+
+/// A chosen solution of gas and solid and a given path of the interface belong together.
+void check_motion(const Case& problem, const Node& root) {
+  const ReferenceSpec& reference = problem.reference;
+  const bool chosen = reference.kind == "manufactured" && problem.fluid && !problem.solids.empty();
+  if (!problem.interface.motion) {
+    if (!chosen) return;
+    fail(at(root, {"reference"}).place, "reference",
+         "kind manufactured for gas and solid needs the path of the interface; write interface: {motion: "
+         "[.., ..]}");
+  }
+  const Node& node = at(root, {"interface", "motion"});
+  if (!chosen || !reference.fluid || !reference.u) {
+    fail(node.place, "interface.motion",
+         "goes with `reference: {kind: manufactured, fluid: .., u: ..}` only; leave it out: the solid moves "
+         "it");
+  }
+  constexpr double tolerance = 1e-9;
+  for (const SolidSpec& solid : problem.solids) {
+    for (const Vec2& x : meeting_points(solid)) {
+      const Vec2 start(problem.interface.motion->c1(x[0], x[1], 0),
+                       problem.interface.motion->c2(x[0], x[1], 0));
+      if ((start - x).norm() <= tolerance * (1 + x.norm())) continue;
+      fail(node.place, "interface.motion",
+           fmt::format("must be (x, y) at t = 0, but ({:.6g}, {:.6g}) goes to ({:.6g}, {:.6g})", x[0], x[1],
+                       start[0], start[1]));
     }
   }
 }
@@ -332,6 +371,7 @@ void check_case(const Case& problem, const Node& root) {
   }
   check_reference(problem, root);
   check_interfaces(problem, root);
+  check_motion(problem, root);
   check_probes(problem, root);
   check_expectations(problem, root);
 }

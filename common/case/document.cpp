@@ -74,6 +74,8 @@ std::string type_text(const Key& key) {
       return "field";
     case Type::vector:
       return "[field, field]";
+    case Type::tensor:
+      return "[field, field, field, field]";
     case Type::map:
       return "[map, map]";
     case Type::section:

@@ -37,6 +37,10 @@ class Reader {
   VectorExpressions vector(const config::Node& node) const {
     return {expression(node.items[0]), expression(node.items[1])};
   }
+  TensorExpressions tensor(const config::Node& node) const {
+    return {expression(node.items[0]), expression(node.items[1]), expression(node.items[2]),
+            expression(node.items[3])};
+  }
   /// State with p given, or T and then p = rho T. @throws UserMistake where both or none are there
   GasExpressions gas_state(const config::Node& node, const std::string& path) const;
   /// True where the data of `node` is the word `reference`. @throws UserMistake where the case has none

@@ -86,6 +86,16 @@ constexpr array manufactured_keys{
         .meaning = "displacement of the solid, of the reference position; the body force follows from it",
         .unit = "length",
         .fallback = "none"},
+    Key{.name = "v",
+        .type = Type::vector,
+        .meaning = "velocity of the solid, of the reference position; sources in all its equations then",
+        .unit = "velocity",
+        .fallback = "du/dt"},
+    Key{.name = "P",
+        .type = Type::tensor,
+        .meaning = "nominal stress [P11, P12, P21, P22] of the solid; sources in all its equations then",
+        .unit = "pressure",
+        .fallback = "P(F(u))"},
 };
 constexpr array piston_1d_keys{
     Key{.name = "points",
@@ -171,6 +181,11 @@ constexpr array interface_keys{
         .meaning = "AMP projection (28), its simplified form (29), or none",
         .fallback = "simplified",
         .words = projection_words},
+    Key{.name = "motion",
+        .type = Type::vector,
+        .meaning = "chosen solutions of gas and solid: where the interface point at (x, y) at t = 0 is at t",
+        .unit = "length",
+        .fallback = "the solid moves it"},
 };
 constexpr Section interface_section{.title = "The interface", .keys = interface_keys};
 

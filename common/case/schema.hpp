@@ -20,6 +20,7 @@ enum class Type {
   numbers,  ///< list of numbers
   field,    ///< expression of x, y, r, t
   vector,   ///< [field, field]
+  tensor,   ///< [field, field, field, field]: components 11, 12, 21, 22
   map,      ///< [expression, expression] of r, s, t
   section,  ///< keys of `section`
   named,    ///< any names, each with an `element`

@@ -121,8 +121,15 @@ constexpr array gas_fitted_keys{
     Key{.name = "name", .type = Type::name, .meaning = "name in messages and output", .required = true},
     Key{.name = "solid",
         .type = Type::name,
-        .meaning = "fitted to the outline of this solid, which it meets",
+        .meaning = "fitted to the outline of this solid, or to its interface side, which it meets",
         .fallback = "fitted to `shape`"},
+    Key{.name = "walls",
+        .type = Type::list,
+        .meaning =
+            "of a solid without `shape`, which is met along a side of its grid: the sides of the background "
+            "(left, right, bottom, top) on which the first and the last point of that side lie",
+        .fallback = "those of the outline",
+        .element = &side_element},
     Key{.name = "shape",
         .type = Type::section,
         .meaning = "the curve where it is not a solid's outline: a wall",

@@ -79,7 +79,7 @@ class Validator {
   static std::string unit_text(const Key& key) {
     const bool has_unit = key.type == Type::number || key.type == Type::integer || key.type == Type::pair ||
                           key.type == Type::numbers || key.type == Type::field || key.type == Type::vector ||
-                          key.type == Type::map;
+                          key.type == Type::tensor || key.type == Type::map;
     return has_unit ? fmt::format(" [{}]", key.unit) : "";
   }
 
@@ -161,6 +161,9 @@ class Validator {
       case Type::vector:
       case Type::map:
         each(node, key, path, 2, &Validator::formula);
+        break;
+      case Type::tensor:
+        each(node, key, path, 4, &Validator::formula);
         break;
       case Type::section:
         nested(node, key, path);
@@ -265,7 +268,8 @@ class Validator {
   void each(Node& node, const Key& key, const std::string& path, std::size_t count, Check check) const {
     if (!node.is_list() || (count != 0 && node.items.size() != count)) {
       const std::string wanted =
-          count == 0 ? "a list [a, b, ..]" : fmt::format("a list of {}: [a, b]", count);
+          count == 0 ? "a list [a, b, ..]"
+                     : fmt::format("a list of {}: {}", count, count == 2 ? "[a, b]" : "[a, b, c, d]");
       const std::string hint = node.is_list() ? "; put a formula with commas in quotes" : "";
       fail(node.place, path,
            fmt::format("must be {}{}, is {}{}", wanted, unit_text(key), config::describe(node), hint));

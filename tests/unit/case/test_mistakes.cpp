@@ -98,6 +98,13 @@ const Mistake keys[] = {
 };
 
 const Mistake values[] = {
+    {"PathOfAnInterfaceThatASolidMoves", "output:", "interface: {motion: [x + t, y]}\noutput:",
+     "case.yaml:28:21: interface.motion: goes with `reference: {kind: manufactured, fluid: .., u: ..}` only; "
+     "leave it "
+     "out: the solid moves it"},
+    {"ChosenSolutionsWithoutAPath", "output:", "reference: {kind: manufactured, u: [0, 0]}\noutput:",
+     "case.yaml:28:12: reference: kind manufactured for gas and solid needs the path of the interface; write "
+     "interface: {motion: [.., ..]}"},
     {"NegativeDensityOfTheSolid", "rho: 1\n", "rho: -1\n",
      "case.yaml:19:10: solids.solid.rho: must be > 0 [mass/volume], is -1"},
     {"NegativeDensityOfTheGas", "{rho: 1,", "{rho: -1,",

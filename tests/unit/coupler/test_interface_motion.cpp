@@ -162,5 +162,25 @@ TEST(InterfaceMotion, UniformMotionStartsWithoutAcceleration) {
   EXPECT_TRUE(std::ranges::all_of(motion.a(), [](double a) { return a == 0; }));
 }
 
+TEST(PrescribedMotion, GoesAlongItsPathWithTheVelocityAndAccelerationOfThePath) {
+  const PrescribedMotion motion(
+      [](double x, double y, double t) -> Vec2 {
+        return {x + 0.5 * t + y * t * t, y + std::sin(2 * t)};
+      },
+      points_of(
+          3, [](double r) { return r; }, [](double r) { return 2 * r; }));
+  constexpr double t = 0.3, rounding = 1e-6;
+  std::vector<double> x(6), v(6), a(6);
+  motion.position(t, x);
+  motion.velocity(t, v);
+  motion.acceleration(t, a);
+  EXPECT_DOUBLE_EQ(x[1], 0.5 + 0.5 * t + t * t);
+  EXPECT_DOUBLE_EQ(x[5], 2 + std::sin(2 * t));
+  EXPECT_NEAR(v[2], 0.5 + 2 * 2 * t, rounding);
+  EXPECT_NEAR(v[3], 2 * std::cos(2 * t), rounding);
+  EXPECT_NEAR(a[1], 2, rounding);
+  EXPECT_NEAR(a[4], -4 * std::sin(2 * t), rounding);
+}
+
 }  // namespace
 }  // namespace fsi::coupler
