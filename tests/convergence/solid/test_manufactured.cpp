@@ -198,20 +198,14 @@ Errors run_chosen(const std::array<Boundary::Kind, 4>& kinds, int cells) {
   return solver.errors(chosen.state, t);
 }
 
-/// Sides whose condition says zero hold it for the difference to the fields.
+/// Between mirrors, which hold for the difference to the fields.
 TYPED_TEST(Eq32ManufacturedMotion, Eq46FieldsThatDoNotBelongTogetherAreExactToSecondOrder) {
   using Kind = Boundary::Kind;
-  for (const std::array<Kind, 4>& kinds :
-       {std::array{Kind::dirichlet, Kind::displacement, Kind::symmetry, Kind::symmetry},
-        std::array{Kind::dirichlet, Kind::traction, Kind::symmetry, Kind::symmetry}}) {
-    const Errors coarse = run_chosen<TypeParam>(kinds, 20), fine = run_chosen<TypeParam>(kinds, 40);
-    const std::string what =
-        fmt::format("{}: u {:.2e} v {:.2e} P {:.2e}, coarse u {:.2e} v {:.2e} P {:.2e}",
-                    static_cast<int>(kinds[1]), fine.u, fine.v, fine.P, coarse.u, coarse.v, coarse.P);
-    EXPECT_GE(std::log2(coarse.u / fine.u), 1.8) << what;
-    EXPECT_GE(std::log2(coarse.v / fine.v), 1.8) << what;
-    EXPECT_GE(std::log2(coarse.P / fine.P), 1.8) << what;
-  }
+  const std::array kinds{Kind::dirichlet, Kind::traction, Kind::symmetry, Kind::symmetry};
+  const Errors coarse = run_chosen<TypeParam>(kinds, 20), fine = run_chosen<TypeParam>(kinds, 40);
+  EXPECT_GE(std::log2(coarse.u / fine.u), 1.8);
+  EXPECT_GE(std::log2(coarse.v / fine.v), 1.8);
+  EXPECT_GE(std::log2(coarse.P / fine.P), 1.8);
 }
 
 }  // namespace
