@@ -37,15 +37,6 @@ std::optional<Spacing> lattice_of(const grid::MovingGrid& grid) {
   return Spacing{dx, dy};
 }
 
-grid::RowSets all_points(const Layout& layout) {
-  grid::RowSets all;
-  for (int j = 0; j < layout.n2; ++j) {
-    all.append(grid::Interval{0, layout.n1});
-    all.end_row();
-  }
-  return all;
-}
-
 AnyRiemann riemann_of(const GasOptions& options) {
   if (options.riemann == Riemann::hllc) return RiemannHllc{options.gamma};
   return RiemannRoe{options.gamma, options.entropy_fix};
@@ -79,7 +70,7 @@ Component::Component(grid::MovingGrid grid, const GasOptions& options, std::arra
       next_(grid_.layout(), 4),
       workspace_(grid_.layout().n1, sweep_rows),
       row_rates_(static_cast<std::size_t>(grid_.layout().n2)) {
-  const grid::RowSets all = all_points(grid_.layout());
+  const grid::RowSets all = grid::all_points(grid_.layout().n1, grid_.layout().n2);
   use_points(all, all);
   for (const Side side : all_sides) {
     WallMotion& wall = walls_[static_cast<std::size_t>(side)];

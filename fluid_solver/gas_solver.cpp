@@ -55,19 +55,6 @@ std::vector<GasPart> one_part(grid::MovingGrid grid, std::array<Boundary, 4> bou
   return parts;
 }
 
-/// The background as the overlap knows it.
-grid::CartesianGrid background_of(const grid::MovingGrid& grid) {
-  const ConstFieldView x = grid.x();
-  const int n1 = x.layout.n1, n2 = x.layout.n2;
-  return {.name = grid.name(),
-          .n1 = n1,
-          .n2 = n2,
-          .x_a = x(0, 0, 0),
-          .x_b = x(0, n1 - 1, 0),
-          .y_a = x(1, 0, 0),
-          .y_b = x(1, 0, n2 - 1)};
-}
-
 }  // namespace
 
 GasSolver::GasSolver(grid::MovingGrid grid, const GasOptions& options, std::array<Boundary, 4> boundaries,
@@ -90,7 +77,7 @@ GasSolver::GasSolver(std::vector<GasPart> parts, std::vector<grid::BodyFittedGri
           fmt::format("grid \"{}\": the background of body-fitted grids must "
                       "be a rectangle at rest",
                       components_.front().grid().name()));
-  composite_.emplace(background_of(components_.front().grid()), std::move(bodies));
+  composite_.emplace(grid::background_of(components_.front().grid()), std::move(bodies));
   std::vector<ConstFieldView> x;
   for (int k = 1; k < grids(); ++k) x.push_back(grid(k).x());
   composite_->connect(x, t0);

@@ -20,21 +20,13 @@ Kind kind_of(const SolidPart& part, Side side) {
 }
 
 grid::CartesianGrid background_of(const SolidPart& part) {
-  const ConstFieldView x = part.grid.x();
-  if (!ReferenceMetrics(x).cartesian()) {
+  if (!ReferenceMetrics(part.grid.x()).cartesian()) {
     throw UserMistake(
         fmt::format("grid \"{}\": the first of several grids is the background; make it a rectangle with "
                     "evenly spaced points along x and y",
                     part.grid.name()));
   }
-  const int n1 = x.layout.n1, n2 = x.layout.n2;
-  return {.name = part.grid.name(),
-          .n1 = n1,
-          .n2 = n2,
-          .x_a = x(0, 0, 0),
-          .x_b = x(0, n1 - 1, 0),
-          .y_a = x(1, 0, 0),
-          .y_b = x(1, 0, n2 - 1)};
+  return grid::background_of(part.grid);
 }
 
 void check(const SolidPart& part, const grid::BodyFittedGrid& body) {

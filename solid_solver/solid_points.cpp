@@ -5,20 +5,8 @@
 
 namespace fsi::solid {
 
-namespace {
-
-grid::RowSets full(const Layout& layout) {
-  grid::RowSets rows;
-  for (int j = 0; j < layout.n2; ++j) {
-    rows.append(grid::Interval{0, layout.n1});
-    rows.end_row();
-  }
-  return rows;
-}
-
-}  // namespace
-
-SolidPoints::SolidPoints(const Layout& layout) : SolidPoints(layout, full(layout), full(layout)) {}
+SolidPoints::SolidPoints(const Layout& layout)
+    : SolidPoints(layout, grid::all_points(layout.n1, layout.n2), grid::all_points(layout.n1, layout.n2)) {}
 
 SolidPoints::SolidPoints(const Layout& layout, grid::RowSets discretised, grid::RowSets valid)
     : discretised_(std::move(discretised)), valid_(std::move(valid)) {

@@ -16,6 +16,15 @@ void RowSets::clear() {
   intervals_.clear();
 }
 
+RowSets all_points(int n1, int n2) {
+  RowSets all;
+  for (int j = 0; j < n2; ++j) {
+    all.append(Interval{0, n1});
+    all.end_row();
+  }
+  return all;
+}
+
 void unite(std::vector<Interval>& parts) {
   std::erase_if(parts, [](const Interval& part) { return part.begin >= part.end; });
   std::ranges::sort(parts, {}, &Interval::begin);

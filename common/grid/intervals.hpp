@@ -44,6 +44,9 @@ class RowSets {
   std::vector<Interval> intervals_;
 };
 
+/// All points of a grid of n1 x n2.
+RowSets all_points(int n1, int n2);
+
 /// Sorts and merges; empty intervals vanish.
 void unite(std::vector<Interval>& parts);
 

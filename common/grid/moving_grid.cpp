@@ -200,4 +200,16 @@ std::vector<double> MovingGrid::side_points(Side side) const {
   return points;
 }
 
+CartesianGrid background_of(const MovingGrid& grid) {
+  const ConstFieldView x = grid.x();
+  const int n1 = x.layout.n1, n2 = x.layout.n2;
+  return {.name = grid.name(),
+          .n1 = n1,
+          .n2 = n2,
+          .x_a = x(0, 0, 0),
+          .x_b = x(0, n1 - 1, 0),
+          .y_a = x(1, 0, 0),
+          .y_b = x(1, 0, n2 - 1)};
+}
+
 }  // namespace fsi::grid

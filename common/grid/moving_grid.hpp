@@ -10,6 +10,7 @@
 
 #include "common/core/field.hpp"
 #include "common/core/types.hpp"
+#include "common/grid/cartesian_grid.hpp"
 #include "common/grid/hyperbolic.hpp"
 
 namespace fsi::grid {
@@ -82,5 +83,9 @@ class MovingGrid {
   void shake();
   void check(double t) const;
 };
+
+/// A grid whose points form a rectangle along x and y, evenly spaced (for the caller to know), as a
+/// background.
+CartesianGrid background_of(const MovingGrid& grid);
 
 }  // namespace fsi::grid
