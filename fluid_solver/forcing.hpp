@@ -1,6 +1,6 @@
 #pragma once
-/// The method of analytic solutions: source terms that make a chosen state of the gas, such as paper eq.
-/// (47), an exact solution.
+/// The method of analytic solutions: source terms that make a chosen state of the gas an exact solution,
+/// such as paper eq. (47).
 ///
 /// Half of a step's source is added before the sweep, where the grid was, and half after it, where the grid
 /// is. So the predictor sees it, a control volume carries what it took in at either end of its way, and the
