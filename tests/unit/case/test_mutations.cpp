@@ -70,7 +70,7 @@ std::string coarse(std::string text) {
 }
 
 TEST(DamagedCase, IsAMistakeOrFineButNeverACrash) {
-  constexpr int damages = 150;
+  constexpr int damages = 100;
   unsigned seed = 1;
   int mistakes = 0, all = 0;
   for (const std::string& path : tests::config_paths()) {
