@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <string>
 
 #include "common/core/failure.hpp"
 #include "common/exact/table.hpp"
@@ -50,7 +52,8 @@ TEST(CubicTable, RefusesPointsThatDoNotIncrease) {
 class PistonTableFile : public testing::Test {
  protected:
   void SetUp() override {
-    directory = std::filesystem::path(testing::TempDir()) / "fsi_piston_table";
+    directory =
+        std::filesystem::path(testing::TempDir()) / ("fsi_piston_table_" + std::to_string(::getpid()));
     std::filesystem::create_directories(directory);
     io::Hdf5 file = io::Hdf5::create(directory / "reference.h5");
     for (const double t : {0.0, 0.5}) {
