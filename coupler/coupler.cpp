@@ -109,6 +109,7 @@ void Coupler::answer() {
     to_solid.to = interface.pair().solid;
     to_solid.substeps_next = substeps_of(to_solid.to);
     interface.fill_robin(to_solid);
+    interface.fit(to_fluid, to_solid);
   }
 }
 

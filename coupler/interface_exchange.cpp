@@ -19,9 +19,9 @@ Vec2 vector_at(std::span<const double> values, std::size_t k) {
   return {values[k], values[values.size() / 2 + k]};
 }
 
-Curve curve_of(const InterfacePair& pair) {
+Curve curve_of(const InterfacePair& pair, const std::vector<double>& x, const std::vector<double>& n0) {
   try {
-    return {pair.x, pair.n0};
+    return {x, n0};
   } catch (const std::invalid_argument& problem) {
     throw PeerLost(fmt::format("interface \"{}\", solid \"{}\": {}", pair.name, pair.solid, problem.what()));
   }
@@ -54,7 +54,7 @@ InterfaceExchange::InterfaceExchange(InterfacePair pair, Projection projection, 
                                      const Path& path)
     : pair_(std::move(pair)),
       projection_(projection),
-      curve_(curve_of(pair_)),
+      curve_(curve_of(pair_, pair_.x, pair_.n0)),
       motion_(curve_.n),
       levels_(static_cast<std::size_t>(robin_levels)),
       n_(2 * curve_.n),
@@ -67,23 +67,28 @@ InterfaceExchange::InterfaceExchange(InterfacePair pair, Projection projection, 
     level.v_n.resize(curve_.n);
     level.w_n.resize(curve_.n);
   }
+  if (const auto& coarser = pair_.coarser)
+    transfer_.emplace(curve_of(pair_, coarser->x, coarser->n0), coarser->x, pair_.x);
   if (path) prescribed_.emplace(path, pair_.x);
   report_.name = pair_.name;
 }
 
-void InterfaceExchange::check(const Moment& moment, const wire::PredictedInterface& gas,
-                              const wire::PredictedInterface& solid) const {
-  const std::size_t n = curve_.n;
+void InterfaceExchange::check_gas(const Moment& moment, const wire::PredictedInterface& gas) const {
+  const std::size_t n = transfer_ && pair_.coarser->is_gas ? transfer_->coarse_points() : curve_.n;
   check_values(moment, gas, "the position", gas.x, 2 * n, n);
   check_values(moment, gas, "the velocity", gas.v, 2 * n, n);
   check_values(moment, gas, "the pressure", gas.p, n, n);
   check_values(moment, gas, "the impedance", gas.z_f, n, n);
-  check_values(moment, solid, "the position", solid.x, 2 * n, n);
-  check_values(moment, solid, "the velocity", solid.v, 2 * n, n);
   for (std::size_t k = 0; k < n; ++k) {
     if (!(gas.z_f[k] > 0))
       throw_broken(moment, pair_, gas.from, k, fmt::format("the impedance is {}", gas.z_f[k]));
   }
+}
+
+void InterfaceExchange::check_solid(const Moment& moment, const wire::PredictedInterface& solid) const {
+  const std::size_t n = transfer_ && !pair_.coarser->is_gas ? transfer_->coarse_points() : curve_.n;
+  check_values(moment, solid, "the position", solid.x, 2 * n, n);
+  check_values(moment, solid, "the velocity", solid.v, 2 * n, n);
   if (!solid.fixed.empty() && solid.fixed.size() != n) {
     throw PeerLost(fmt::format("\"{}\" sent {} marks of clamped points for interface \"{}\", not {}",
                                solid.from, solid.fixed.size(), pair_.name, n));
@@ -106,13 +111,25 @@ void InterfaceExchange::check(const Moment& moment, const wire::PredictedInterfa
 
 void InterfaceExchange::project_interface(const Moment& moment, const wire::PredictedInterface& gas,
                                           const wire::PredictedInterface& solid) {
-  check(moment, gas, solid);
+  check_gas(moment, gas);
+  check_solid(moment, solid);
+  if (!transfer_) {
+    project(moment, gas, solid);
+  } else if (pair_.coarser->is_gas) {
+    project(moment, transfer_->bring(gas), solid);
+  } else {
+    project(moment, gas, transfer_->bring(solid));
+  }
+}
+
+void InterfaceExchange::project(const Moment& moment, const wire::PredictedInterface& gas,
+                                const wire::PredictedInterface& solid) {
   x_gas_ = gas.x;
   x_solid_ = solid.x;
   z_f_ = gas.z_f;
   p_e_ = gas.p_e;
   unit_normals(curve_, x_gas_, n_);
-  point_lengths(curve_, x_gas_, ds_);
+  point_lengths(x_gas_, ds_);
   for (std::size_t k = 0; k < curve_.n; ++k) {
     const GasPoint<2> point{.v = vector_at(gas.v, k), .p = gas.p[k], .p_e = gas.p_e, .z_f = gas.z_f[k]};
     gas_[k] = normal_side<2>(point, vector_at(n_, k));
@@ -147,10 +164,25 @@ void InterfaceExchange::project_deformable(const Moment& moment, const wire::Pre
     if (fixed && projection_ != Projection::traditional) {
       state = at_wall(solid_v_n_[k], gas_[k]);
     } else {
-      state = project<2>(point, gas_[k], normal, projection_);
+      state = fsi::project<2>(point, gas_[k], normal, projection_);
     }
     now.v_n[k] = state.v_n;
     now.w_n[k] = state.w_n;
+  }
+  const bool solid_is_coarser = transfer_ && !pair_.coarser->is_gas;
+  if (solid_is_coarser && projection_ != Projection::traditional) follow_solid();
+}
+
+/// The gas on finer points than the solid's sees an interface that moves as those points can; its own
+/// characteristic gives the traction.
+void InterfaceExchange::follow_solid() {
+  Level& now = levels_.front();
+  std::vector<double> change = now.v_n;
+  for (std::size_t k = 0; k < curve_.n; ++k) change[k] -= solid_v_n_[k];
+  transfer_->resolve(change);
+  for (std::size_t k = 0; k < curve_.n; ++k) {
+    now.v_n[k] = solid_v_n_[k] + change[k];
+    now.w_n[k] = at_wall(now.v_n[k], gas_[k]).w_n;
   }
 }
 
@@ -244,6 +276,10 @@ void InterfaceExchange::fill_motion(double dt, wire::ProjectedInterface& answer)
   } else {
     answer.x_next = x_gas_;
   }
+}
+
+void InterfaceExchange::fit(wire::ProjectedInterface& to_fluid, wire::ProjectedInterface& to_solid) const {
+  if (transfer_) transfer_->give(x_gas_, pair_.coarser->is_gas ? to_fluid : to_solid);
 }
 
 wire::Telemetry::Interface InterfaceExchange::profile(std::size_t most) const {

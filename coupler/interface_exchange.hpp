@@ -12,6 +12,7 @@
 #include "coupler/interface_motion.hpp"
 #include "coupler/matching.hpp"
 #include "coupler/modal.hpp"
+#include "coupler/transfer.hpp"
 
 namespace fsi::coupler {
 
@@ -51,6 +52,8 @@ class InterfaceExchange {
   void fill_robin(wire::ProjectedInterface& answer) const;
   /// Position commanded for a next step of size `dt`.
   void fill_motion(double dt, wire::ProjectedInterface& answer) const;
+  /// What is above speaks of the points of the exchange; this gives a side that has others its own.
+  void fit(wire::ProjectedInterface& to_fluid, wire::ProjectedInterface& to_solid) const;
 
   const InterfaceReport& report() const { return report_; }
   /// Predicted and projected values along the interface, at most `most` points.
@@ -62,9 +65,12 @@ class InterfaceExchange {
     std::vector<double> v_n, w_n;
   };
 
-  void check(const Moment& moment, const wire::PredictedInterface& gas,
-             const wire::PredictedInterface& solid) const;
+  void check_gas(const Moment& moment, const wire::PredictedInterface& gas) const;
+  void check_solid(const Moment& moment, const wire::PredictedInterface& solid) const;
+  void project(const Moment& moment, const wire::PredictedInterface& gas,
+               const wire::PredictedInterface& solid);
   void project_deformable(const Moment& moment, const wire::PredictedInterface& solid);
+  void follow_solid();
   void project_modal(const Moment& moment, const wire::ModalResponse& modal);
   void remember(const Moment& moment, const wire::PredictedInterface& solid);
   void measure(const wire::PredictedInterface& gas, const wire::PredictedInterface& solid);
@@ -72,6 +78,7 @@ class InterfaceExchange {
   InterfacePair pair_;
   Projection projection_;
   Curve curve_;
+  std::optional<InterfaceTransfer> transfer_;  ///< where the two sides have different points
   InterfaceMotion motion_;
   std::optional<PrescribedMotion> prescribed_;
   std::optional<ModalMotion> modal_;

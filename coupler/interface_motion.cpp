@@ -36,11 +36,16 @@ double length(std::span<const double> x) {
 
 }  // namespace
 
+bool is_closed(std::span<const double> x) {
+  const std::size_t n = x.size() / 2;
+  return n > 3 && (point(x, 0) - point(x, n - 1)).norm() < coincident * length(x);
+}
+
 Curve::Curve(std::span<const double> x, std::span<const double> n0) : n(x.size() / 2) {
   if (n < 2 || x.size() != 2 * n) throw std::invalid_argument("an interface needs at least two points");
   if (n0.size() != x.size())
     throw std::invalid_argument("the solid says no normals of its reference boundary");
-  closed = n > 3 && (point(x, 0) - point(x, n - 1)).norm() < coincident * length(x);
+  closed = is_closed(x);
   double agreement = 0;
   for (std::size_t k = 0; k < n; ++k) {
     const Vec2 t = tangent(x, closed, k).normalized();
@@ -60,9 +65,9 @@ void unit_normals(const Curve& curve, std::span<const double> x, std::span<doubl
   }
 }
 
-void point_lengths(const Curve& curve, std::span<const double> x, std::span<double> ds) {
+void point_lengths(std::span<const double> x, std::span<double> ds) {
   std::ranges::fill(ds, 0.0);
-  for (std::size_t k = 1; k < curve.n; ++k) {
+  for (std::size_t k = 1; k < x.size() / 2; ++k) {
     const double half = 0.5 * (point(x, k) - point(x, k - 1)).norm();
     ds[k - 1] += half;
     ds[k] += half;

@@ -12,6 +12,9 @@
 
 namespace fsi::coupler {
 
+/// True where the last point of a curve is the first one again.
+bool is_closed(std::span<const double> x);
+
 /// Order of the points along an interface curve.
 struct Curve {
   std::size_t n = 0;
@@ -30,7 +33,7 @@ void unit_normals(const Curve& curve, std::span<const double> x, std::span<doubl
 
 /// Length of interface that belongs to each point: half of the adjoining segments (the trapezoidal rule). The
 /// two copies of the point that closes a curve have half of its length each.
-void point_lengths(const Curve& curve, std::span<const double> x, std::span<double> ds);
+void point_lengths(std::span<const double> x, std::span<double> ds);
 
 /// Length from point 0 along the curve.
 void arclength(std::span<const double> x, std::span<double> s);

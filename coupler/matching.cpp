@@ -7,12 +7,14 @@
 
 #include "common/core/failure.hpp"
 #include "common/core/types.hpp"
+#include "coupler/curve_interpolation.hpp"
 
 namespace fsi::coupler {
 
 namespace {
 
-constexpr double largest_distance = 1e-3;  ///< of the mean spacing of the points
+constexpr double same_point = 1e-3;  ///< of the mean spacing of the points
+constexpr double same_curve = 0.05;  ///< of the mean spacing of the coarser side
 
 Vec2 point(const std::vector<double>& x, std::size_t k) {
   return {x[k], x[x.size() / 2 + k]};
@@ -52,42 +54,75 @@ void check_shape(const wire::Hello& hello, const wire::InterfaceInfo& info) {
   }
 }
 
-/// Throws unless the points of both sides lie on each other.
-void check_points(const std::string& name, const std::vector<double>& gas, const std::vector<double>& solid) {
-  const std::size_t n = gas.size() / 2;
-  if (solid.size() != gas.size()) {
-    throw UserMistake(
-        fmt::format("interface \"{}\": the gas has {} points and the solid {}; give the grids of fluid and "
-                    "solids.{} the same number of "
-                    "points along this side",
-                    name, n, solid.size() / 2, name));
-  }
-  const double tolerance = largest_distance * mean_spacing(gas);
-  const auto distance = [&](std::size_t k, std::size_t l) {
-    return (point(gas, k) - point(solid, l)).norm();
-  };
+/// Index of the two points of the same number that are farthest apart.
+std::size_t farthest_pair(const std::vector<double>& gas, const std::vector<double>& solid) {
   std::size_t worst = 0;
-  bool reversed = true;
-  for (std::size_t k = 0; k < n; ++k) {
-    if (distance(k, k) > distance(worst, worst)) worst = k;
-    reversed = reversed && distance(k, n - 1 - k) <= tolerance;
+  const auto distance = [&](std::size_t k) { return (point(gas, k) - point(solid, k)).norm(); };
+  for (std::size_t k = 1; k < gas.size() / 2; ++k) {
+    if (distance(k) > distance(worst)) worst = k;
   }
-  if (distance(worst, worst) <= tolerance) return;
-  if (reversed) {
-    throw UserMistake(
-        fmt::format("interface \"{}\": the points of gas and solid run in opposite directions; turn the "
-                    "parameter along this side "
-                    "round in the grid of fluid or of solids.{}",
-                    name, name));
-  }
-  const Vec2 g = point(gas, worst);
-  const Vec2 s = point(solid, worst);
+  return worst;
+}
+
+bool same_points(const std::vector<double>& gas, const std::vector<double>& solid) {
+  if (gas.size() != solid.size()) return false;
+  const std::size_t k = farthest_pair(gas, solid);
+  return (point(gas, k) - point(solid, k)).norm() <= same_point * mean_spacing(gas);
+}
+
+/// One side's points and what it is called in messages.
+struct Points {
+  std::string of;
+  const std::vector<double>& x;
+};
+
+/// Throws unless the points of `to` lie on the curve through those of `from`.
+void check_curve(const std::string& name, const Points& from, const Points& to, double tolerance) {
+  const CurveInterpolation curve(from.x, to.x);
+  if (curve.largest_distance() <= tolerance) return;
+  const Vec2 x = point(to.x, curve.farthest());
   throw UserMistake(
-      fmt::format("interface \"{}\": the points of gas and solid do not meet: point {} is at ({:.6g}, "
-                  "{:.6g}) in the gas and at ({:.6g}, "
-                  "{:.6g}) in the solid, {:.3g} apart; let the grids of fluid and solids.{} have the same "
-                  "curve on this side",
-                  name, worst, g.x(), g.y(), s.x(), s.y(), distance(worst, worst), name));
+      fmt::format("interface \"{}\": gas and solid do not meet: point {} of the {} is at ({:.6g}, {:.6g}), "
+                  "{:.3g} from the side of the {}; let the grids of fluid and solids.{} have the same curve "
+                  "on this side",
+                  name, curve.farthest(), to.of, x.x(), x.y(), curve.largest_distance(), from.of, name));
+}
+
+std::vector<double> normals_at(const std::vector<double>& to, const wire::InterfaceInfo& solid) {
+  std::vector<double> n(to.size());
+  if (solid.n.size() != solid.x.size()) return {};  // refused with its reason by `Curve`
+  CurveInterpolation(solid.x, to).linear(solid.n, n);
+  return n;
+}
+
+/// Both sides of an interface whose points differ.
+InterfacePair interpolated(const std::string& name, const wire::InterfaceInfo& gas,
+                           const wire::InterfaceInfo& solid) {
+  const bool gas_is_coarser = gas.x.size() < solid.x.size();
+  const double tolerance = same_curve * mean_spacing(gas_is_coarser ? gas.x : solid.x);
+  const Points of_gas{"gas", gas.x}, of_solid{"solid", solid.x};
+  check_curve(name, of_solid, of_gas, tolerance);
+  check_curve(name, of_gas, of_solid, tolerance);
+  InterfacePair pair{.fluid = {}, .solid = {}, .name = name, .x = {}, .n0 = {}};
+  pair.x = gas_is_coarser ? solid.x : gas.x;
+  pair.n0 = gas_is_coarser ? solid.n : normals_at(gas.x, solid);
+  pair.coarser = {.is_gas = gas_is_coarser,
+                  .x = gas_is_coarser ? gas.x : solid.x,
+                  .n0 = gas_is_coarser ? normals_at(gas.x, solid) : solid.n};
+  return pair;
+}
+
+InterfacePair pair_of(const wire::Hello& fluid, const wire::InterfaceInfo& gas, const wire::Hello& hello,
+                      const wire::InterfaceInfo& solid) {
+  InterfacePair pair;
+  if (same_points(gas.x, solid.x)) {
+    pair = {.fluid = {}, .solid = {}, .name = gas.name, .x = gas.x, .n0 = solid.n};
+  } else {
+    pair = interpolated(gas.name, gas, solid);
+  }
+  pair.fluid = fluid.name;
+  pair.solid = hello.name;
+  return pair;
 }
 
 }  // namespace
@@ -102,9 +137,7 @@ std::vector<InterfacePair> match_interfaces(std::span<const wire::Hello> hellos)
       for (const wire::InterfaceInfo& solid : hello.interfaces) {
         if (solid.name != gas.name) continue;
         check_shape(hello, solid);
-        check_points(gas.name, gas.x, solid.x);
-        pairs.push_back(
-            {.fluid = fluid.name, .solid = hello.name, .name = gas.name, .x = gas.x, .n0 = solid.n});
+        pairs.push_back(pair_of(fluid, gas, hello, solid));
       }
     }
     if (std::ranges::count(pairs, gas.name, &InterfacePair::name) != 1) {

@@ -1,6 +1,7 @@
 #pragma once
-/// Start-up: which solid meets the gas where, and whether the points of both sides lie on each other.
+/// Start-up: which solid meets the gas where, and whether the points of both sides lie on one curve.
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -13,13 +14,22 @@ namespace fsi::coupler {
 struct InterfacePair {
   std::string fluid, solid;  ///< participants
   std::string name;          ///< of the interface: that of the solid
-  std::vector<double> x;     ///< initial positions of the gas's points, 2 n
-  std::vector<double> n0;    ///< reference normals of the solid, 2 n
+  std::vector<double> x;     ///< initial positions of the points of the exchange, 2 n
+  std::vector<double> n0;    ///< reference normals of the solid there, 2 n
+
+  /// The side with fewer points, where the two sides do not have the same ones.
+  struct Coarser {
+    bool is_gas = false;
+    std::vector<double> x;   ///< its initial positions, 2 m
+    std::vector<double> n0;  ///< reference normals of the solid there, 2 m
+  };
+  std::optional<Coarser> coarser = {};
 };
 
-/// All interfaces of a run, in the order of the gas's hello. Each needs the same number of points on both
-/// sides, in the same order, no farther apart than a thousandth of their spacing.
-/// @throws UserMistake naming interface, point, distance and remedy
+/// All interfaces of a run, in the order of the gas's hello. Where the points of both sides are the same, in
+/// the same order and no farther apart than a thousandth of their spacing, the exchange happens at those of
+/// the gas; otherwise at those of the side with more of them.
+/// @throws UserMistake naming interface, point, distance and remedy where the sides are not one curve
 /// @throws PeerLost when a program's hello does not make sense
 std::vector<InterfacePair> match_interfaces(std::span<const wire::Hello> hellos);
 

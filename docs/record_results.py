@@ -259,6 +259,13 @@ def disk_studies():
                          + [("gap", "interface.max_gap"), ("velocity jump", "interface.max_velocity_jump")]))
 
 
+def ellipse_studies():
+    ratios = [(f"gas : solid = {name}", [f"fluid.body_fitted.0.points=round({factor} * 2 * pi / h) + 1"], [])
+              for name, factor in (("1 : 1", 1), ("1 : 2", 0.5), ("1 : 4", 0.25), ("2 : 1", 2), ("4 : 1", 4))]
+    yield ("Rotating disk, different numbers of points on the two sides, h = 1/80",
+           lambda: rates("disk-points", "rotating_disk", "2,4,8", ratios, COLUMNS))
+
+
 def kept_sections():
     """{title: text} of the present docs/results.md."""
     if not RESULTS.is_file():
@@ -269,7 +276,7 @@ def kept_sections():
 
 def main(words):
     sections = kept_sections()
-    studies = [*piston_studies(), *chosen_studies(), *other_studies(), *disk_studies(),
+    studies = [*piston_studies(), *chosen_studies(), *other_studies(), *disk_studies(), *ellipse_studies(),
                ("Benchmarks", lambda: bench("bench"))]
     head = ("# Results\n\nWhat the commands gave on two cores; `docs/record_results.py` repeats them all and writes this page. "
             "Errors are largest absolute differences over all points and components.\n\n")

@@ -165,6 +165,20 @@ std::optional<std::array<Side, 2>> walls_of(const Node& owner, const std::string
   return std::array{side_of(walls->items[0]), side_of(walls->items[1])};
 }
 
+/// Number of points a grid at a solid has of its own.
+std::optional<int> own_points(const Node& node) {
+  const Node* points = node.find("points");
+  return points == nullptr ? std::nullopt : std::optional(static_cast<int>(*points->number));
+}
+
+/// The outline of a solid, with points of its own where the grid at it asks for them.
+CurveSpec outline_of(const Reader& reader, const Node& node, const SolidSpec& solid) {
+  const std::optional<int> points = own_points(node);
+  if (!points) return solid.body_fitted.front().curve;
+  const Node& shape = *reader.root().find("solids")->find(solid.name)->find("shape");
+  return build_curve(reader, shape, fmt::format("solids.{}.shape", solid.name), points);
+}
+
 /// The gas's grid at a solid: along its outline, or from wall to wall along its interface side, in the
 /// order of the side's points.
 BodyFittedSpec build_grid_at_solid(const Reader& reader, const Node& node, const std::string& path,
@@ -174,7 +188,7 @@ BodyFittedSpec build_grid_at_solid(const Reader& reader, const Node& node, const
   if (!solid.body_fitted.empty()) {
     if (walls)
       fail(node.find("walls")->place, path + ".walls", "the outline of the solid has its own; leave it out");
-    BodyFittedSpec grid = build_fitted(reader, &node, solid.body_fitted.front().curve, name);
+    BodyFittedSpec grid = build_fitted(reader, &node, outline_of(reader, node, solid), name);
     grid.side = Side::top;
     return grid;
   }
@@ -189,10 +203,7 @@ BodyFittedSpec build_grid_at_solid(const Reader& reader, const Node& node, const
   }
   const Side side = all_sides[static_cast<std::size_t>(meets - solid.boundary.begin())];
   CurveSpec curve{.x = {}, .spacing = reader.scope().constants.at("h"), .walls = walls};
-  const int n = points_along(solid.grid, side);
-  for (const int c : {0, 1}) {
-    for (int k = 0; k < n; ++k) curve.x.push_back(side_point(solid.grid, side, k)[c]);
-  }
+  curve.x = points_on_side(solid.grid, side, own_points(node).value_or(points_along(solid.grid, side)));
   BodyFittedSpec grid = build_fitted(reader, &node, std::move(curve), name);
   grid.side = side == Side::right || side == Side::bottom ? Side::top : Side::bottom;
   return grid;
@@ -213,8 +224,11 @@ BodyFittedSpec build_gas_grid(const Reader& reader, const Node& node, const std:
     grid.solid = solid->text;
     return grid;
   }
-  if (const Node* walls = node.find("walls"))
-    fail(walls->place, path + ".walls", "belongs to a grid at a solid; write it into `shape`");
+  for (const char* key : {"walls", "points"}) {
+    if (const Node* own = node.find(key))
+      fail(own->place, fmt::format("{}.{}", path, key),
+           "belongs to a grid at a solid; write it into `shape`");
+  }
   bool inside = false;
   Reader::assign(node, "inside", inside);
   BodyFittedSpec grid = build_fitted(reader, &node, build_curve(reader, *shape, path + ".shape"), name);
@@ -224,13 +238,14 @@ BodyFittedSpec build_gas_grid(const Reader& reader, const Node& node, const std:
 
 }  // namespace
 
-CurveSpec build_curve(const Reader& reader, const Node& shape, const std::string& path) {
+CurveSpec build_curve(const Reader& reader, const Node& shape, const std::string& path,
+                      std::optional<int> wanted) {
   CurveSpec result;
   result.walls = walls_of(shape, path);
   try {
     const grid::PlaneCurve curve = curve_of(shape, result.closed(), path);
     const double length = grid::length_of(curve);
-    const int points = count_of(reader, shape, length, result.closed(), path);
+    const int points = wanted ? *wanted : count_of(reader, shape, length, result.closed(), path);
     result.x = grid::points_on(curve, points, weights_of(shape));
     result.spacing = length / (points - 1);
   } catch (const UserMistake& mistake) {

@@ -1,6 +1,7 @@
 #pragma once
 /// Curves and the grids fitted to them.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,8 +13,9 @@ namespace fsi {
 /// relative to `folder`. @throws UserMistake
 void inline_point_files(config::Node& root, const std::string& folder);
 
-/// Points of the curve under `shape`. @throws UserMistake
-CurveSpec build_curve(const Reader& reader, const config::Node& shape, const std::string& path);
+/// Points of the curve under `shape`, as many as it says or `points` of them. @throws UserMistake
+CurveSpec build_curve(const Reader& reader, const config::Node& shape, const std::string& path,
+                      std::optional<int> points = {});
 
 /// The grid along the outline of a solid; none where it has no `shape`. @throws UserMistake
 std::vector<BodyFittedSpec> build_outline_grid(const Reader& reader, const Owner& owner,

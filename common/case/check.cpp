@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/case/check_meeting.hpp"
 #include "common/case/check_overlap.hpp"
 #include "common/case/grid_points.hpp"
 #include "common/core/suggest.hpp"
@@ -116,39 +117,6 @@ std::vector<Side> interface_sides(const std::array<BoundarySpec, 4>& boundary,
   return sides;
 }
 
-void check_points_meet(const Case& problem, const SolidSpec& solid, Side gas_side, Side solid_side,
-                       const Node& root) {
-  const GridSpec& gas_grid = problem.fluid->grid;
-  const Node& place = at(root, {"fluid", "boundary", name_of(gas_side)});
-  const std::string path = fmt::format("fluid.boundary.{}", name_of(gas_side));
-  const int n = points_along(gas_grid, gas_side);
-  const int n_solid = points_along(solid.grid, solid_side);
-  if (n != n_solid) {
-    fail(place.place, path,
-         fmt::format("has {} points, but the {} side of solid `{}` has {}; give both sides the same number "
-                     "(points or spacing)",
-                     n, name_of(solid_side), solid.name, n_solid));
-  }
-  if (solid.initial_from_reference && problem.reference.kind != "elastic_piston")
-    return;                           // its displacement is not known here
-  constexpr double tolerance = 1e-8;  // of the interface's length
-  const double size = (side_point(gas_grid, gas_side, n - 1) - side_point(gas_grid, gas_side, 0)).norm();
-  for (int k = 0; k < n; ++k) {
-    const Vec2 x = side_point(gas_grid, gas_side, k);
-    Vec2 x_solid = side_point(solid.grid, solid_side, k);
-    if (solid.initial_u) {
-      const Vec2 x_bar = x_solid;
-      x_solid += Vec2(solid.initial_u->c1(x_bar[0], x_bar[1], 0), solid.initial_u->c2(x_bar[0], x_bar[1], 0));
-    }
-    if ((x - x_solid).norm() <= tolerance * size) continue;
-    fail(place.place, path,
-         fmt::format("point {} at ({:.6g}, {:.6g}) does not meet the {} side of solid `{}` at ({:.6g}, "
-                     "{:.6g}); let both grids have the same "
-                     "points there, in the same order",
-                     k, x[0], x[1], name_of(solid_side), solid.name, x_solid[0], x_solid[1]));
-  }
-}
-
 /// A solid with a shape of its own meets the gas along its outline.
 void check_outline(const Case& problem, const SolidSpec& solid, const Node& root) {
   const BodyFittedSpec& outline = solid.body_fitted.front();
@@ -216,7 +184,8 @@ void check_interfaces(const Case& problem, const Node& root) {
       fail(at(root, {"fluid", "boundary", name_of(gas[1])}).place, "fluid.boundary",
            fmt::format("two sides meet solid `{}`; keep one", solid.name));
     }
-    check_points_meet(problem, solid, gas.front(), own.front(), root);
+    check_sides_meet(problem, solid, gas.front(), own.front(),
+                     at(root, {"fluid", "boundary", name_of(gas.front())}));
   }
 }
 

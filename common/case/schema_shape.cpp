@@ -123,6 +123,11 @@ constexpr array gas_fitted_keys{
         .type = Type::name,
         .meaning = "fitted to the outline of this solid, or to its interface side, which it meets",
         .fallback = "fitted to `shape`"},
+    Key{.name = "points",
+        .type = Type::integer,
+        .meaning = "points along the solid's outline or side, where they are not those of the solid",
+        .fallback = "those of the solid",
+        .range = {.low = 9, .high = 100000}},
     Key{.name = "walls",
         .type = Type::list,
         .meaning =

@@ -28,8 +28,8 @@ class RotatingDisk(unittest.TestCase):
         self.addCleanup(scratch.cleanup)
         self.folder = Path(scratch.name)
 
-    def converge(self, *settings):
-        answer = fsi("converge", "rotating_disk", "--levels", "4,8", "--out", str(self.folder / "study"),
+    def converge(self, *settings, levels="4,8"):
+        answer = fsi("converge", "rotating_disk", "--levels", levels, "--out", str(self.folder / "study"),
                      *(f"--set={setting}" for setting in settings))
         self.assertEqual(answer.returncode, 0, answer.stderr)
         return json.loads((self.folder / "study" / "converge.json").read_text(encoding="utf-8"))
@@ -53,6 +53,17 @@ class RotatingDisk(unittest.TestCase):
 
     def test_light_disk(self):
         self.check("0.1")
+
+    def check_ratio(self, points):
+        table = self.converge(f"fluid.body_fitted.0.points={points}", levels="2,4")
+        for name in NAMES:
+            self.assertGreaterEqual(table["fitted"][name], 1.9, (name, table["errors"][name]))
+
+    def test_a_quarter_of_the_points_on_the_gas_side_keeps_the_order(self):
+        self.check_ratio("round(pi / (2 * h)) + 1")
+
+    def test_four_times_the_points_on_the_gas_side_keep_the_order(self):
+        self.check_ratio("round(8 * pi / h) + 1")
 
     def test_full_and_simplified_projection_agree_to_one_percent(self):
         _, simplified = self.run_once("simplified", "parameters.delta=0.1")

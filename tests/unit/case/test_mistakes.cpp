@@ -198,13 +198,10 @@ const Mistake partners[] = {
      "`interface` on the side that meets it"},
     {"TwoInterfacesOfASolid", "left: clamped", "left: interface",
      "case.yaml:24:7: solids.solid.boundary: two sides are interfaces; a solid meets the gas along one"},
-    {"DifferentNumbersOfPoints", "points: [11, 11]}\n    boundary", "points: [11, 21]}\n    boundary",
-     "case.yaml:11:11: fluid.boundary.left: has 11 points, but the right side of solid `solid` has 21; give "
-     "both sides the same number (points or spacing)"},
-    {"PointsThatDoNotMeet", "x: [-1, 0]", "x: [-1, 0.01]",
-     "case.yaml:11:11: fluid.boundary.left: point 0 at (0, 0) does not meet the right side of solid `solid` "
-     "at (0.01, 0); let both grids have the same points "
-     "there, in the same order"},
+    {"SidesThatDoNotMeet", "x: [-1, 0]", "x: [-1, 0.01]",
+     "case.yaml:11:11: fluid.boundary.left: its point at (0, 0) does not meet the right side of solid "
+     "`solid`, "
+     "nearest at (0.01, 0); let both grids have the same curve there"},
     {"OnePeriodicSide", "    right: outflow", "    right: periodic",
      "case.yaml:11:5: fluid.boundary: right is periodic and left is not; write both"},
     {"DataFromNoReference", "right: outflow", "right: dirichlet",

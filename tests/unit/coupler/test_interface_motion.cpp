@@ -107,7 +107,7 @@ TEST(UnitNormals, AreTheSameAtTheTwoCopiesOfThePointThatClosesACurve) {
 TEST(PointLengths, AddUpToTheLengthOfTheCurve) {
   const std::vector<double> x = circle(257, false);
   std::vector<double> ds(257);
-  point_lengths(Curve(x, x), x, ds);
+  point_lengths(x, ds);
   const double chords = std::accumulate(ds.begin(), ds.end(), 0.0);
   EXPECT_NEAR(chords, 4 * pi, 2e-3);  // chords of 256 points fall short by (2 pi / 256)^2 / 24 of the length
   std::vector<double> s(257);

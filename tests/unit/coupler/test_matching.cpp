@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <span>
 
 #include "common/core/failure.hpp"
 #include "coupler/matching.hpp"
@@ -38,13 +39,19 @@ TEST(Matching, FindsTheSolidOfEachSideOfTheGas) {
   EXPECT_EQ(pairs[1].x, vertical_line(4, 1));
 }
 
-TEST(Matching, PointsThatLieApartAreNamedWithTheirDistance) {
+TEST(Matching, SidesThatAreNotOneCurveAreNamedWithTheirDistance) {
   auto hellos = piston_hellos(5, "beam");
-  hellos[1].interfaces[0].x[3] = -0.125;
+  for (double& x : std::span(hellos[1].interfaces[0].x).first(5)) x = -0.125;
   const std::string message = mistake(hellos);
-  for (const char* part : {"\"beam\"", "point 3", "0.125 apart", "(0, 0.75)", "solids.beam"}) {
+  for (const char* part : {"\"beam\"", "point 0", "0.125 from", "(0, 0)", "solids.beam"}) {
     EXPECT_NE(message.find(part), std::string::npos) << part << " in: " << message;
   }
+}
+
+TEST(Matching, ASideThatIsShorterThanTheOtherIsNamed) {
+  auto hellos = piston_hellos(5);
+  for (double& y : std::span(hellos[1].interfaces[0].x).last(5)) y *= 0.5;
+  EXPECT_NE(mistake(hellos).find("do not meet"), std::string::npos);
 }
 
 TEST(Matching, RoundingOfThePositionsIsNoMistake) {
@@ -53,17 +60,31 @@ TEST(Matching, RoundingOfThePositionsIsNoMistake) {
   EXPECT_EQ(mistake(hellos), "accepted");
 }
 
-TEST(Matching, DifferentNumbersOfPointsAreNamed) {
+TEST(Matching, TheExchangeHappensAtThePointsOfTheFinerSide) {
   auto hellos = piston_hellos(5);
-  hellos[1].interfaces[0].x = vertical_line(9, 0);
-  EXPECT_NE(mistake(hellos).find("5 points and the solid 9"), std::string::npos);
+  EXPECT_FALSE(match_interfaces(hellos)[0].coarser);
+  const wire::InterfaceInfo fine{
+      .name = "solid", .dimension = 2, .x = vertical_line(9, 0), .n = everywhere(9, 1, 0)};
+  hellos[1].interfaces[0] = fine;
+  InterfacePair pair = match_interfaces(hellos)[0];
+  EXPECT_EQ(pair.x, fine.x);
+  EXPECT_TRUE(pair.coarser->is_gas);
+  EXPECT_EQ(pair.coarser->n0, everywhere(5, 1, 0));
+  hellos = piston_hellos(5);
+  hellos[0].interfaces[0].x = fine.x;
+  pair = match_interfaces(hellos)[0];
+  EXPECT_EQ(pair.x, fine.x);
+  EXPECT_FALSE(pair.coarser->is_gas);
+  EXPECT_EQ(pair.n0, everywhere(9, 1, 0));
 }
 
-TEST(Matching, OppositeDirectionsAreNamed) {
+TEST(Matching, PointsMayRunInOppositeDirections) {
   auto hellos = piston_hellos(5);
   std::vector<double>& x = hellos[1].interfaces[0].x;
   std::reverse(x.begin() + 5, x.end());
-  EXPECT_NE(mistake(hellos).find("opposite directions"), std::string::npos);
+  const InterfacePair pair = match_interfaces(hellos)[0];
+  EXPECT_EQ(pair.x, vertical_line(5, 0));
+  EXPECT_EQ(pair.coarser->x, x);
 }
 
 TEST(Matching, ASideWithoutAPartnerIsNamed) {
