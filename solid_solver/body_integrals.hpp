@@ -137,7 +137,8 @@ struct InterfaceMoment {
 };
 
 /// Fills `state` for the points of a side; of a body with a chosen solution, the differences to it. Uses no
-/// ghost points, so that it may be called on a predicted state.
+/// ghost points, so that it may be called on a predicted state; a point that also lies on a side whose motion
+/// is given has that motion, not the predicted one.
 template <Law L>
 void gather_interface(const SolidComponent<L>& component, const L& law, const InterfaceMoment& moment,
                       Side side, SolidInterface& state) {
@@ -156,6 +157,8 @@ void gather_interface(const SolidComponent<L>& component, const L& law, const In
     const GridPoint p = grid_point(layout, side, point);
     const Vec2 n0 = side_metrics(component.metrics(), layout, side, point).n0;
     SolidState s = load(component.q(), line.at(point, 0));
+    const auto given = component.boundary().given_motion(side, point, moment.t);
+    if (given) s.u = given->u, s.v = given->v;
     if (chosen != nullptr) s = sum_of(s, -1.0, chosen->state(x(0, p.i, p.j), x(1, p.i, p.j), moment.t));
     const Tensor2 F = component.deformation_gradient(p.i, p.j);
     const double eta = component.boundary().follows(side) ? area_ratio(F, n0) : 1.0;
@@ -170,7 +173,7 @@ void gather_interface(const SolidComponent<L>& component, const L& law, const In
     state.Z[k] = Z.a11;
     state.Z[n + k] = Z.a12;
     state.Z[2 * n + k] = Z.a22;
-    state.fixed[k] = component.boundary().fixed(side, point) ? 1 : 0;
+    state.fixed[k] = given ? 1 : 0;
   }
 }
 

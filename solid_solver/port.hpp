@@ -184,7 +184,7 @@ class SolidParticipant final : public Participant {
     solver_.interface_state(*side_, interface_, grid_);
     const std::vector<double> normal = grid::normals(interface_.x, curve(), grid::outward(*side_));
     const RobinData gas{.z_f = p.z_f, .t = p.robin_t, .r = p.robin_r};
-    const ClosedInterface closed = close_with_robin(gas, t, normal, interface_.v, interface_.w, interface_.Z);
+    const ClosedInterface closed = close_with_robin(gas, t, normal, interface_);
     const InterfaceValues values[] = {
         {.side = *side_, .n = normal, .v_n = closed.v_n, .w_n = closed.w_n, .grid = grid_}};
     solver_.apply_solid_bcs(t, values);

@@ -17,9 +17,9 @@ std::vector<double> lagrange_weights(std::span<const double> t, double now) {
 }
 
 ClosedInterface close_with_robin(const RobinData& gas, double now, std::span<const double> normal,
-                                 std::span<const double> v, std::span<const double> w,
-                                 std::span<const double> Z) {
+                                 const SolidInterface& predicted) {
   const std::size_t n = gas.z_f.size();
+  const std::vector<double>&v = predicted.v, &w = predicted.w, &Z = predicted.Z;
   const std::vector<double> weights = lagrange_weights(gas.t, now);
   ClosedInterface closed{std::vector<double>(n), std::vector<double>(n)};
   for (std::size_t k = 0; k < n; ++k) {
@@ -29,7 +29,9 @@ ClosedInterface close_with_robin(const RobinData& gas, double now, std::span<con
     Z_k << Z[k], Z[n + k], Z[n + k], Z[2 * n + k];
     const SolidPoint<2> solid{.v = {v[k], v[n + k]}, .w = {w[k], w[n + k]}, .Z = Z_k};
     const Vector<2> normal_k(normal[k], normal[n + k]);
-    const NormalState state = between(normal_side(solid, normal_k), {.z = gas.z_f[k], .v_n = 0, .w_n = r});
+    const NormalSide gas_side{.z = gas.z_f[k], .v_n = 0, .w_n = r};
+    const NormalState state = predicted.fixed[k] != 0 ? at_wall(normal_k.dot(solid.v), gas_side)
+                                                      : between(normal_side(solid, normal_k), gas_side);
     closed.v_n[k] = state.v_n;
     closed.w_n[k] = state.w_n;
   }

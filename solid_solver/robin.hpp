@@ -5,6 +5,8 @@
 #include <span>
 #include <vector>
 
+#include "solid_solver/interface.hpp"
+
 namespace fsi::solid {
 
 /// r_k of the gas at the newest times t_k (newest first), n values each.
@@ -22,11 +24,9 @@ struct ClosedInterface {
 /// Weights of the Lagrange polynomial through the times `t` (1 to 3 of them), evaluated at `now`.
 std::vector<double> lagrange_weights(std::span<const double> t, double now);
 
-/// Solves the gas relation together with the solid's for v_n and w_n with zero tangential traction.
-/// v and w are component-major (2 n), Z is Z11, Z12, Z22 (3 n), `normal` points from the solid into the gas
-/// (2 n).
+/// Solves the gas relation together with the solid's for v_n and w_n with zero tangential traction; points
+/// whose motion is given keep it. `normal` points from the solid into the gas (2 n).
 ClosedInterface close_with_robin(const RobinData& gas, double now, std::span<const double> normal,
-                                 std::span<const double> v, std::span<const double> w,
-                                 std::span<const double> Z);
+                                 const SolidInterface& predicted);
 
 }  // namespace fsi::solid

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -55,8 +56,11 @@ class SolidBoundary {
   void choose(const ChosenSolution* solution) { chosen_ = solution; }
 
   Kind kind(Side side) const { return kinds_[index(side)]; }
-  /// True when point k of a side also lies on a side whose motion is given.
-  bool fixed(Side side, int k) const;
+  /// Displacement and velocity of point k of a side where it also lies on a side whose motion is given.
+  struct Motion {
+    Vec2 u, v;
+  };
+  std::optional<Motion> given_motion(Side side, int k, double t) const;
   /// The load of a side follows the deformation: its area and its normal are the present ones.
   bool follows(Side side) const { return boundaries_[index(side)].load == LoadConfiguration::current; }
 
@@ -88,6 +92,7 @@ class SolidBoundary {
   void set_motion(FieldView q, double t, std::span<const InterfaceValues> projected);
   void project_velocity(FieldView q, double t, const InterfaceValues& values) const;
   void set_given_motion(FieldView q, Side side, double t);
+  Motion displacement_of(Side side, const Vec2& x, double t) const;
   void remove_normal_motion(FieldView q, Side side, double t);
   void mirror(FieldView q, Side side, double t, const GhostRange& range) const;
   void set_exact(FieldView q, Side side, double t, int m) const;

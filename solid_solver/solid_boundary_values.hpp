@@ -83,11 +83,16 @@ bool SolidBoundary<L>::mirrored(Side side) const {
 }
 
 template <Law L>
-bool SolidBoundary<L>::fixed(Side side, int k) const {
+std::optional<typename SolidBoundary<L>::Motion> SolidBoundary<L>::given_motion(Side side, int k,
+                                                                                double t) const {
   const SideIndex line(layout(), side);
-  if (!end_of(line, k)) return false;
-  const Kind other = kind(neighbour(side, k != 0));
-  return other == Kind::displacement || other == Kind::dirichlet;
+  if (!end_of(line, k)) return std::nullopt;
+  const Side other = neighbour(side, k != 0);
+  const Vec2 x = position(line.at(k, 0));
+  if (kind(other) == Kind::displacement) return displacement_of(other, x, t);
+  if (kind(other) != Kind::dirichlet) return std::nullopt;
+  const SolidState given = boundaries_[index(other)].state(x.x(), x.y(), t);
+  return Motion{.u = given.u, .v = given.v};
 }
 
 template <Law L>
@@ -173,14 +178,21 @@ void SolidBoundary<L>::set_motion(FieldView q, double t, std::span<const Interfa
 }
 
 template <Law L>
+typename SolidBoundary<L>::Motion SolidBoundary<L>::displacement_of(Side side, const Vec2& x,
+                                                                    double t) const {
+  const Boundary& boundary = boundaries_[index(side)];
+  Motion motion{.u = Vec2::Zero(), .v = Vec2::Zero()};
+  if (boundary.vector) motion.u = boundary.vector(x.x(), x.y(), t);
+  if (boundary.velocity) motion.v = boundary.velocity(x.x(), x.y(), t);
+  return motion;
+}
+
+template <Law L>
 void SolidBoundary<L>::set_given_motion(FieldView q, Side side, double t) {
   const SideIndex line(layout(), side);
-  const Boundary& boundary = boundaries_[index(side)];
   for (const int k : points(side)) {
     const std::ptrdiff_t a = line.at(k, 0);
-    const Vec2 x = position(a);
-    const Vec2 u = boundary.vector ? boundary.vector(x.x(), x.y(), t) : Vec2::Zero().eval();
-    const Vec2 v = boundary.velocity ? boundary.velocity(x.x(), x.y(), t) : Vec2::Zero().eval();
+    const auto [u, v] = displacement_of(side, position(a), t);
     Vec2& change = v_change_[index(side)][static_cast<std::size_t>(k)];
     for (int c = 0; c < 2; ++c) {
       q.plane(plane::u1 + c)[a] = u[c];

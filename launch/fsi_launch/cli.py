@@ -136,10 +136,10 @@ def _parser():
     verb.set_defaults(act=_ctl)
 
     verb = verbs.add_parser("plot", description="Draws the results of a run, or the table of fsi converge, as PNG "
-                            "pictures into DIR/plots.")
-    verb.add_argument("directory", metavar="DIR", help="folder of a run or of fsi converge")
+                            "pictures into DIR/plots. Of several runs it draws what can be compared.")
+    verb.add_argument("directories", metavar="DIR", nargs="+", help="folder of a run or of fsi converge")
     verb.add_argument("--contours", action="store_true", help="contour lines over the fields")
-    verb.add_argument("--out", metavar="DIR", help="folder of the pictures (default: DIR/plots)")
+    verb.add_argument("--out", metavar="DIR", help="folder of the pictures (default: plots in the first DIR)")
     verb.set_defaults(act=_plot)
 
     verb = verbs.add_parser("bench", description="Runs all benchmarks; prints one table and writes JSON.")

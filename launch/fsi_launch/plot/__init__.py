@@ -6,26 +6,44 @@ from pathlib import Path
 from fsi_launch.failure import DONE, UserMistake
 
 
-def main(options):
-    """Draws everything the results hold and prints the paths of the pictures."""
-    try:
-        from fsi_launch.plot import convergence, curves, data, disk, fields, grids, scales, style
-    except ModuleNotFoundError as error:
-        raise UserMistake(f"plot needs Debian's {error.name}: apt-get install python3-h5py python3-matplotlib") from None
-    directory = Path(options.directory)
+def _folder(name):
+    directory = Path(name)
     if not directory.is_dir():
         raise UserMistake(f"no folder '{directory}'")
-    out = Path(options.out) if options.out else directory / "plots"
+    return directory
+
+
+def _one(directory, out, contours):
+    """(name, figure) of everything the results of one run hold."""
+    from fsi_launch.plot import beams, convergence, curves, data, disk, fields, grids, scales, streamlines
     series, tables, table = data.all_series(directory), data.all_tables(directory), data.convergence(directory)
     if not series and not tables and not table:
         raise UserMistake(f"'{directory}' holds no results: no fluid.h5, solid_*.h5, tables or converge.json")
     out.mkdir(parents=True, exist_ok=True)
-    style.use()
     size = scales.of_run(series)
-    parts = (convergence.pictures(table), fields.pictures(series, fields.Look(size, options.contours)),
-             grids.pictures(series), disk.pictures(series, data.disk_reference(directory)),
-             curves.pictures(series, tables, size))
-    for name, figure in itertools.chain(*parts):
+    return itertools.chain(
+        convergence.pictures(table), fields.pictures(series, fields.Look(size, contours)), grids.pictures(series),
+        disk.pictures(series, data.disk_reference(directory)), streamlines.pictures(series), beams.pictures(series),
+        curves.pictures(series, tables, size))
+
+
+def _several(directories, out):
+    """(name, figure) of what several runs have to compare."""
+    from fsi_launch.plot import compare
+    return compare.pictures(directories, out)
+
+
+def main(options):
+    """Draws everything the results hold and prints the paths of the pictures."""
+    try:
+        from fsi_launch.plot import style
+    except ModuleNotFoundError as error:
+        raise UserMistake(f"plot needs Debian's {error.name}: apt-get install python3-h5py python3-matplotlib") from None
+    directories = [_folder(name) for name in options.directories]
+    out = Path(options.out) if options.out else directories[0] / "plots"
+    style.use()
+    pictures = _one(directories[0], out, options.contours) if len(directories) == 1 else _several(directories, out)
+    for name, figure in pictures:
         path = out / f"{name}.png"
         style.save(figure, path)
         print(path, flush=True)

@@ -140,7 +140,7 @@ def _fill(axes, grids):
                                            edgecolors=style.SOLID_FILL, linewidths=0.5))
 
 
-def _outline(axes, grids):
+def outline(axes, grids):
     lines = [line for grid in grids for line in mesh.outer_lines(grid)]
     axes.add_collection(LineCollection(lines, colors=style.SOLID_EDGE, linewidths=0.7))
 
@@ -157,7 +157,7 @@ def _draw(figure, axes, gas, solids, panel, look):
     for solid in solids:
         if not of_solid:
             _fill(axes, solid.grids)
-        _outline(axes, solid.grids)
+        outline(axes, solid.grids)
     axes.set_title(title, loc="left")
 
 

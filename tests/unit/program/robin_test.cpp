@@ -23,11 +23,21 @@ class RobinPoint : public testing::Test {
  protected:
   const std::vector<double> normal{0.6, 0.8}, v{0.3, -0.1}, w{0.05, 0.02}, Z{2.0, 0.5, 1.2}, z_f{0.7}, t{0.0},
       r{0.11};
-  const ClosedInterface closed = close_with_robin({.z_f = z_f, .t = t, .r = r}, 0.0, normal, v, w, Z);
+  ClosedInterface closed_with(std::uint8_t fixed) const {
+    return close_with_robin({.z_f = z_f, .t = t, .r = r}, 0.0, normal,
+                            {.x = {0, 0}, .v = v, .w = w, .Z = Z, .fixed = {fixed}, .z_p = 1});
+  }
+  const ClosedInterface closed = closed_with(0);
 };
 
 TEST_F(RobinPoint, LiesOnTheGasCharacteristic) {
   EXPECT_NEAR(closed.w_n[0] + z_f[0] * closed.v_n[0], r[0], 1e-15);
+}
+
+TEST_F(RobinPoint, KeepsAGivenMotion) {
+  const ClosedInterface clamped = closed_with(1);
+  EXPECT_EQ(clamped.v_n[0], normal[0] * v[0] + normal[1] * v[1]);
+  EXPECT_NEAR(clamped.w_n[0] + z_f[0] * clamped.v_n[0], r[0], 1e-15);
 }
 
 TEST_F(RobinPoint, Eq23IsSatisfiedWithNoTangentialTraction) {

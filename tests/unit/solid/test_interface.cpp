@@ -44,6 +44,24 @@ TEST(InterfaceState, ShowsTractionPerCurrentAreaAndTheImpedanceThatBelongsToIt) 
   EXPECT_NEAR(state.Z[4], std::sqrt(2 * 0.8), 1e-13);
 }
 
+TEST(InterfaceState, ShowsTheGivenMotionOfAPointThatAlsoLiesOnAMovingClampAndThePredictedOneElsewhere) {
+  Boundaries boundaries = interface_on_top();
+  const auto clamp = [](double, double, double t) -> Vec2 { return {0.1 * t, -0.2 * t}; };
+  boundaries[0].vector = clamp;
+  boundaries[0].velocity = [](double, double, double) -> Vec2 { return {0.1, -0.2}; };
+  SolidSolver<NeoHookean> solver(test::skewed_grid(16), {.lambda = 1.2, .mu = 0.8}, {.rho = 2}, boundaries,
+                                 0);
+  solver.assign_initial_conditions(bend, bend);
+  const double dt = solver.compute_time_step().dt;
+  solver.advance_solid(0, dt);
+  SolidInterface state;
+  solver.interface_state(Side::top, state);
+  const ConstFieldView x = solver.reference(), q = std::as_const(solver).state();
+  EXPECT_EQ(Vec2(state.v[0], state.v[17]), Vec2(0.1, -0.2));
+  EXPECT_EQ(Vec2(state.x[0], state.x[17]), Vec2(x(0, 0, 16), x(1, 0, 16)) + clamp(0, 0, dt));
+  EXPECT_EQ(Vec2(state.v[1], state.v[18]), Vec2(q(plane::v1, 1, 16), q(plane::v2, 1, 16)));
+}
+
 TEST(ApplySolidBcs, PutsTheProjectedValuesOnTheInterface) {
   SolidSolver<NeoHookean> solver(test::skewed_grid(16), {.lambda = 1.2, .mu = 0.8}, {.rho = 2},
                                  interface_on_top(), 0);

@@ -1,0 +1,205 @@
+"""Centrelines of beams (the paper's figures 22 and 23): solids that stand on a wall with both ends of their outline."""
+
+import csv
+from dataclasses import dataclass
+
+import numpy as np
+from matplotlib import pyplot
+from matplotlib.tri import LinearTriInterpolator
+
+from fsi_launch.plot import mesh, style
+
+SLENDER = 3         # a beam is so many times longer than it is thick
+STATIONS = 201      # along a centreline
+SAME_TIME = 1e-9
+FINEST, COARSER = "-", ("--", ":", "-.")
+
+
+@dataclass
+class Beam:
+    """Centrelines of one solid: {t: positions (STATIONS, 2)}, the first station at the wall."""
+
+    name: str
+    lines: dict
+
+
+@dataclass
+class Run:
+    """A run and what tells it from others: its parameters, and the grid factor apart."""
+
+    parameters: dict
+    factor: float
+    beams: list
+
+    def beam(self, name):
+        return next((beam for beam in self.beams if beam.name == name), None)
+
+
+# --- centrelines
+
+
+def _axis(grid):
+    """Reference ends of the centreline of the body a fitted grid belongs to, or None where it is no beam."""
+    outline = np.column_stack([grid.fields["x1_bar"][0], grid.fields["x2_bar"][0]])
+    foot = 0.5 * (outline[0] + outline[-1])
+    away = np.hypot(*(outline - foot).T)
+    width = np.hypot(*(outline[0] - outline[-1]))
+    if away.max() < SLENDER * width:
+        return None
+    along = outline[away.argmax()] - foot
+    along = along / np.hypot(*along)
+    across = np.array([-along[1], along[0]])
+    if abs((outline[-1] - outline[0]) @ across) < 0.5 * width:
+        return None
+    return foot, foot + (outline - foot).dot(along).max() * along
+
+
+def _displacement(grids, x, y):
+    """Displacements (len(x), 2) at reference positions; grids that come last win."""
+    u = np.full((len(x), 2), np.nan)
+    for grid in grids:
+        cells = mesh.triangles(grid)
+        if not cells:
+            continue
+        cells = type(cells)(grid.fields["x1_bar"].ravel(), grid.fields["x2_bar"].ravel(), cells.triangles)
+        for c in (0, 1):
+            values = np.where(grid.used(), grid.fields[f"u{c + 1}"], 0).ravel()
+            found = LinearTriInterpolator(cells, values)(x, y).filled(np.nan)
+            u[:, c] = np.where(np.isnan(found), u[:, c], found)
+    return u
+
+
+def _beam(one):
+    """The beam a program computed, or None."""
+    fitted = [grid for grid in one.outputs[0].grids if not grid.is_cartesian() and not grid.closed]
+    ends = _axis(fitted[0]) if len(fitted) == 1 else None
+    if ends is None:
+        return None
+    s = np.linspace(0, 1 - 1e-9, STATIONS)[:, None]
+    reference = (1 - s) * ends[0] + s * ends[1]
+    lines = {}
+    for output in one.outputs:
+        position = reference + _displacement(output.grids, *reference.T)
+        lines[output.t] = position[np.isfinite(position).all(axis=1)]
+    return Beam(one.name, lines)
+
+
+def of(series):
+    """All beams among the programs of a run."""
+    return [beam for beam in map(_beam, (one for one in series if not one.is_gas())) if beam]
+
+
+def run_of(series, case):
+    """A run for comparison; `case`: the text of its case file."""
+    parameters, factor, section = {}, 0.0, ""
+    for line in case.splitlines():
+        if line and not line[0].isspace():
+            section = line.split(":")[0]
+        key, _, value = line.strip().partition(":")
+        if section == "parameters" and line.startswith("  "):
+            parameters[key] = value.strip()
+        if section == "grid" and key == "factor":
+            factor = float(value)
+    return Run(parameters, factor, of(series))
+
+
+# --- comparison
+
+
+def _common_times(a, b):
+    return [(t, other) for t in a.lines for other in b.lines if abs(t - other) < SAME_TIME]
+
+
+def distances(a, b):
+    """{t: largest distance between the same stations of two centrelines}."""
+    result = {}
+    for t, other in _common_times(a, b):
+        count = min(len(a.lines[t]), len(b.lines[other]))
+        result[t] = np.hypot(*(a.lines[t][:count] - b.lines[other][:count]).T).max()
+    return result
+
+
+def _groups(runs):
+    """Lists of runs that differ in their grid only, the finest first."""
+    groups = []
+    for run in runs:
+        for group in groups:
+            if group[0].parameters == run.parameters:
+                group.append(run)
+                break
+        else:
+            groups.append([run])
+    return [sorted(group, key=lambda run: -run.factor) for group in groups]
+
+
+def _label(run, runs):
+    """The parameters in which the runs differ."""
+    names = [name for name in run.parameters if len({other.parameters.get(name) for other in runs}) > 1]
+    return ", ".join(f"{name} = {run.parameters[name]}" for name in names)
+
+
+def table(runs):
+    """[(label, coarse factor, fine factor, t, largest distance)] of runs that differ in their grid only."""
+    rows = []
+    for group in _groups(runs):
+        for fine, coarse in zip(group, group[1:]):
+            for beam in fine.beams:
+                other = coarse.beam(beam.name)
+                found = distances(beam, other) if other else {}
+                rows += [(_label(fine, runs) or beam.name, coarse.factor, fine.factor, t, d) for t, d in found.items()]
+    return rows
+
+
+def write_table(rows, path):
+    with open(path, "w", encoding="utf-8", newline="") as file:
+        out = csv.writer(file)
+        out.writerow(["beam", "coarse", "fine", "t", "largest distance"])
+        out.writerows(rows)
+
+
+# --- pictures
+
+
+def _draw(axes, beam, line, colours):
+    for (t, positions), colour in zip(sorted(beam.lines.items()), colours):
+        axes.plot(*positions.T, line, color=colour, linewidth=1.1, label=f"{t:.4g}")
+
+
+def _colours(count):
+    return pyplot.get_cmap(style.GAS_MAP)(np.linspace(0, 0.9, count))
+
+
+def _panel(axes, group, title):
+    """The runs of a group: the finest in full lines, coarser ones broken."""
+    for run, line in zip(group, (FINEST, *COARSER)):
+        for beam in run.beams:
+            _draw(axes, beam, line, _colours(len(beam.lines)))
+    handles = [handle for handle in axes.get_lines()[:len(group[0].beams[0].lines)]]
+    axes.legend(handles=handles, title="t", loc="center left", bbox_to_anchor=(1.0, 0.5), handlelength=1.2)
+    axes.set_aspect("equal")
+    axes.set_title(title, loc="left")
+    lines = [f"j = {run.factor:g} {name}" for run, name in zip(group, ("full", "dashed", "dotted", "dash-dot"))]
+    if len(group) > 1:
+        axes.set_xlabel(", ".join(lines))
+
+
+def picture(runs):
+    """Centrelines of all runs, one panel for runs that differ in their grid only; None where there are no beams."""
+    groups = _groups([run for run in runs if run.beams])
+    if not groups:
+        return None
+    columns = min(2, len(groups))
+    rows = -(-len(groups) // columns)
+    figure, panels = pyplot.subplots(rows, columns, figsize=(4.6 * columns, 3.9 * rows), squeeze=False)
+    for axes, group in zip(panels.flat, groups):
+        _panel(axes, group, _label(group[0], [run for other in groups for run in other]) or "centreline")
+    for axes in list(panels.flat)[len(groups):]:
+        axes.set_visible(False)
+    return figure
+
+
+def pictures(series):
+    """(name, figure) of the centrelines of one run."""
+    beams = of(series)
+    if beams:
+        yield "centrelines", picture([Run({}, 0.0, beams)])

@@ -1,0 +1,30 @@
+"""What several runs have in common, drawn side by side."""
+
+from fsi_launch.failure import UserMistake
+from fsi_launch.plot import beams, data
+
+
+def _case_of(directory):
+    path = directory / "case.yaml"
+    return path.read_text(encoding="utf-8") if path.is_file() else ""
+
+
+def _beams(directories, out):
+    runs = [beams.run_of(data.all_series(directory), _case_of(directory)) for directory in directories]
+    runs = [run for run in runs if run.beams]
+    if not runs:
+        return
+    yield "centrelines_compared", beams.picture(runs)
+    if rows := beams.table(runs):
+        beams.write_table(rows, out / "centrelines.csv")
+        for label, coarse, fine, t, distance in rows:
+            print(f"{label}: j = {coarse:g} against {fine:g}, t = {t:g}: {distance:.2e}")
+
+
+def pictures(directories, out):
+    """(name, figure) for each kind of thing at least one of the runs holds."""
+    out.mkdir(parents=True, exist_ok=True)
+    parts = [*_beams(directories, out)]
+    if not parts:
+        raise UserMistake("the runs hold nothing that can be compared: several runs are for beams")
+    yield from parts
