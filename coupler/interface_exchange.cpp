@@ -42,6 +42,14 @@ void check_values(const Moment& moment, const wire::PredictedInterface& state, c
   }
 }
 
+/// At most `most` of n indices, the first and the last among them.
+std::vector<std::size_t> evenly_spread(std::size_t n, std::size_t most) {
+  const std::size_t count = std::min(n, most);
+  std::vector<std::size_t> shown(count);
+  for (std::size_t k = 0; k < count; ++k) shown[k] = count < 2 ? 0 : k * (n - 1) / (count - 1);
+  return shown;
+}
+
 [[noreturn]] void throw_broken(const Moment& moment, const InterfacePair& pair, const std::string& who,
                                std::size_t k, const std::string& what) {
   throw NumbersBroke(fmt::format("step {}, t = {:.6g}: \"{}\" at interface \"{}\", point {}: {}", moment.step,
@@ -229,12 +237,14 @@ void InterfaceExchange::remember(const Moment& moment, const wire::PredictedInte
 void InterfaceExchange::measure(const wire::PredictedInterface& gas, const wire::PredictedInterface& solid) {
   report_ = {.name = pair_.name};
   const Level& now = levels_.front();
+  solid_w_n_.resize(solid.w.size() / 2);
   for (std::size_t k = 0; k < curve_.n; ++k) {
     const Vec2 normal = vector_at(n_, k);
     const bool fixed = !solid.fixed.empty() && solid.fixed[k] != 0;
     if (!fixed)
       report_.velocity_jump = std::max(report_.velocity_jump, std::abs(gas_[k].v_n - solid_v_n_[k]));
     if (!solid.w.empty()) {
+      solid_w_n_[k] = normal.dot(vector_at(solid.w, k));
       const Vec2 jump = vector_at(solid.w, k) - gas_[k].w_n * normal;
       report_.traction_jump = std::max(report_.traction_jump, jump.norm());
     }
@@ -289,16 +299,29 @@ wire::Telemetry::Interface InterfaceExchange::profile(std::size_t most) const {
   profile.traction_jump = report_.traction_jump;
   profile.gap = report_.gap;
   profile.power = report_.power;
-  std::vector<double> s(curve_.n);
-  arclength(x_gas_, s);
-  const std::size_t every = (curve_.n + most - 1) / most;
+  profile.closed = curve_.closed;
+  const std::size_t n = curve_.n;
   const Level& now = levels_.front();
-  for (std::size_t k = 0; k < curve_.n; k += every) {
+  const auto [v_min, v_max] = std::ranges::minmax(now.v_n);
+  const auto [w_min, w_max] = std::ranges::minmax(now.w_n);
+  profile.v_min = v_min;
+  profile.v_max = v_max;
+  profile.p_min = p_e_ - w_max;
+  profile.p_max = p_e_ - w_min;
+  std::vector<double> s(n);
+  arclength(x_gas_, s);
+  const std::vector<std::size_t> shown = evenly_spread(n, most);
+  for (const std::size_t k : shown) {
     profile.s.push_back(s[k]);
     profile.p_predicted.push_back(p_e_ - gas_[k].w_n);
+    if (!solid_w_n_.empty()) profile.p_predicted_solid.push_back(p_e_ - solid_w_n_[k]);
     profile.p_projected.push_back(p_e_ - now.w_n[k]);
     profile.v_predicted.push_back(solid_v_n_[k]);
+    profile.v_predicted_gas.push_back(gas_[k].v_n);
     profile.v_projected.push_back(now.v_n[k]);
+  }
+  for (const std::size_t component : {std::size_t{0}, n}) {
+    for (const std::size_t k : shown) profile.x.push_back(x_gas_[component + k]);
   }
   return profile;
 }

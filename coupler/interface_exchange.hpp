@@ -87,6 +87,7 @@ class InterfaceExchange {
   std::vector<double> n_, ds_, v_, a_, z_f_, x_solid_, x_gas_;
   std::vector<NormalSide> gas_;    ///< predicted gas
   std::vector<double> solid_v_n_;  ///< predicted normal velocity of the solid
+  std::vector<double> solid_w_n_;  ///< predicted normal traction of the solid; empty for one without traction
   double p_e_ = 0;
   InterfaceReport report_;
 };

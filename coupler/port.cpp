@@ -141,14 +141,14 @@ void CoupledRun::record() {
 void CoupledRun::show() {
   const AgreedStep& next = coupler_.next();
   progress_.show(coupler_.step_number(), coupler_.t(), next.plan.dt, next.limited_by);
-  if (!session_.telemetry_due()) return;
+  if (!session_.telemetry_due() && !coupler_.finished()) return;
   wire::Telemetry telemetry;
-  telemetry.state = "computing";
+  telemetry.state = coupler_.finished() ? "done" : "computing";
   telemetry.step = coupler_.step_number();
   telemetry.t = coupler_.t();
   telemetry.t_end = setup_.problem.time.end;
-  telemetry.dt = next.plan.dt;
-  telemetry.dt_reason = fmt::format("{}: {}", next.limited_by, next.reason);
+  telemetry.dt = coupler_.finished() ? coupler_.dt() : next.plan.dt;
+  if (!coupler_.finished()) telemetry.dt_reason = fmt::format("{}: {}", next.limited_by, next.reason);
   telemetry.compute_s = part_.compute_s;
   telemetry.wait_s = part_.wait_s;
   telemetry.interfaces = coupler_.profiles();

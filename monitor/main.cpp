@@ -1,46 +1,36 @@
 /// Watches a run from outside; see README.md.
 
 #include <fmt/format.h>
-#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <chrono>
-#include <csignal>
-#include <cstdio>
-#include <iostream>
+#include <memory>
 #include <string>
 
 #include "common/bus/listener.hpp"
 #include "common/core/failure.hpp"
+#include "monitor/follow.hpp"
+#include "monitor/json.hpp"
+#include "monitor/live.hpp"
 #include "monitor/registry.hpp"
+#include "monitor/replay.hpp"
+#include "monitor/screen.hpp"
 #include "monitor/state.hpp"
-#include "monitor/table.hpp"
 
 namespace {
 
 using namespace fsi;
 using namespace fsi::monitor;
 
-volatile std::sig_atomic_t caught = 0;
-
-constexpr double refresh_s = 0.25;
-constexpr double plain_refresh_s = 1;
-
 struct Wishes {
-  std::string run, send;
+  std::string run, send, record, replay;
   bool once = false, json = false, plain = false;
   double wait_s = 5;  ///< how long `--once` waits for the first word
+  double speed = 1;   ///< of a replay
 };
 
-double now() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-Extent terminal_extent() {
-  winsize size{};
-  if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return {};
-  return {.columns = size.ws_col, .rows = size.ws_row - 1};
+bool at_terminal() {
+  return isatty(STDIN_FILENO) != 0 && isatty(STDOUT_FILENO) != 0;
 }
 
 std::string list_of(const std::vector<RunEntry>& runs) {
@@ -51,119 +41,80 @@ std::string list_of(const std::vector<RunEntry>& runs) {
   return text;
 }
 
-/// The run that is meant; asks when several may be and a person is there to answer.
-RunEntry choose_run(const std::string& wanted) {
+/// The run that is meant; asks when several may be and a person is there to answer. None when they leave.
+std::optional<RunEntry> choose_run(const Wishes& wishes) {
   const auto running = running_runs(registry_folders());
-  const auto runs = matching(running, wanted);
+  const auto runs = matching(running, wishes.run);
   if (runs.size() == 1) return runs.front();
   if (runs.empty()) {
     if (running.empty()) throw UserMistake("no run is going on; start one with ./launch/fsi run CASE");
-    throw UserMistake(fmt::format("no running run is called '{}'; running now:{}", wanted, list_of(running)));
+    throw UserMistake(
+        fmt::format("no running run is called '{}'; running now:{}", wishes.run, list_of(running)));
   }
-  if (isatty(STDIN_FILENO) == 0 || isatty(STDOUT_FILENO) == 0) {
+  if (!at_terminal() || wishes.once || !wishes.send.empty()) {
     throw UserMistake("several runs are going on; name one:" + list_of(runs));
   }
-  fmt::print("several runs are going on:{}\nwhich one? ", list_of(runs));
-  std::fflush(stdout);
-  std::size_t number = 0;
-  std::cin >> number;
-  if (!std::cin || number < 1 || number > runs.size()) throw UserMistake("no such run");
-  return runs[number - 1];
+  return choose_on_terminal(runs);
 }
 
-/// Takes in what can be heard within `seconds`.
-void listen(bus::Listener& listener, RunState& state, double seconds) {
-  for (const wire::Telemetry& telemetry : listener.wait(seconds)) state.hear(telemetry, now());
-  const auto& aborted = listener.aborted();
-  if (aborted && !state.abort()) state.hear(*aborted);
-  state.count_programs(listener.programs(), now());
+void print(const Wishes& wishes, const RunState& state, double now) {
+  fmt::print("{}\n", wishes.json ? to_json(state, now) : plain_line(state));
 }
 
-void show_once(const Wishes& wishes, bus::Listener& listener, RunState& state) {
-  const double start = now();
-  const auto complete = [&] {
-    const int heard = static_cast<int>(state.programs().size());
-    return state.over() || (heard > 0 && heard >= listener.programs());
-  };
-  while (caught == 0 && !complete() && now() - start < wishes.wait_s) listen(listener, state, 0.1);
+void show_once(const Wishes& wishes, Live& live, RunState& state) {
+  const double start = live.now();
+  while (!interrupted() && !state.over() && !live.heard_everybody(state) &&
+         live.now() - start < wishes.wait_s) {
+    live.listen(state, 0.1);
+  }
   if (state.programs().empty() && !state.abort()) {
     throw PeerLost(fmt::format("run '{}' said nothing for {} s", state.run().run, wishes.wait_s));
   }
-  if (wishes.json) {
-    fmt::print("{}\n", to_json(state, now()));
+  print(wishes, state, live.now());
+}
+
+void follow(const Wishes& wishes, Source& source, RunState& state) {
+  if (wishes.plain || wishes.json || isatty(STDOUT_FILENO) == 0) {
+    follow_plain(source, state, wishes.json);
   } else {
-    fmt::print("{}\n", plain_line(state));
+    follow_on_terminal(source, state);
   }
 }
 
-void follow_plain(const Wishes& wishes, bus::Listener& listener, RunState& state) {
-  double last = 0;
-  while (caught == 0 && !state.over()) {
-    listen(listener, state, refresh_s);
-    if (now() - last < plain_refresh_s && !state.over()) continue;
-    last = now();
-    fmt::print("{}\n", wishes.json ? to_json(state, last) : plain_line(state));
-    if (std::fflush(stdout) != 0) return;  // whoever read this is gone
-  }
-}
-
-/// The alternate screen for as long as it lives: what was on the terminal comes back.
-class Screen {
- public:
-  Screen() { fmt::print("\x1b[?1049h\x1b[?25l"); }
-  Screen(const Screen&) = delete;
-  Screen& operator=(const Screen&) = delete;
-  Screen(Screen&&) = delete;
-  Screen& operator=(Screen&&) = delete;
-  ~Screen() {
-    std::fputs("\x1b[?25h\x1b[?1049l", stdout);
-    std::fflush(stdout);
-  }
-  static void show(const std::vector<std::string>& lines) {
-    std::string text = "\x1b[H";
-    for (const std::string& line : lines) text += line + "\x1b[K\r\n";
-    fmt::print("{}\x1b[J", text);
-    std::fflush(stdout);
-  }
-};
-
-void follow_on_screen(bus::Listener& listener, RunState& state) {
-  {
-    const Screen screen;
-    double last = 0;
-    while (caught == 0 && !state.over()) {
-      listen(listener, state, refresh_s);
-      if (now() - last < refresh_s) continue;
-      last = now();
-      Screen::show(table(state, last, terminal_extent()));
-    }
-  }
-  for (const std::string& line : table(state, now(), terminal_extent())) fmt::print("{}\n", line);
+void replay(const Wishes& wishes) {
+  Replay source(wishes.replay, wishes.once ? 1e9 : wishes.speed);
+  RunState state(source.run());
+  if (!wishes.once) return follow(wishes, source, state);
+  while (!interrupted() && !state.over()) source.listen(state, 1);
+  print(wishes, state, source.now());
 }
 
 void act(const Wishes& wishes) {
-  const RunEntry run = choose_run(wishes.run);
-  if (!wishes.send.empty()) {
-    bus::send_control(run.run, wishes.send);
-    return;
-  }
-  bus::Listener listener(run.run);
-  RunState state(run);
-  if (wishes.once) {
-    show_once(wishes, listener, state);
-  } else if (wishes.plain || wishes.json || isatty(STDOUT_FILENO) == 0) {
-    follow_plain(wishes, listener, state);
-  } else {
-    follow_on_screen(listener, state);
-  }
+  if (!wishes.replay.empty()) return replay(wishes);
+  const auto run = choose_run(wishes);
+  if (!run) return;
+  if (!wishes.send.empty()) return bus::send_control(run->run, wishes.send);
+  Live live(*run, wishes.record);
+  RunState state(*run);
+  if (wishes.once) return show_once(wishes, live, state);
+  follow(wishes, live, state);
 }
 
-void catch_signals() {
-  struct sigaction action {};
-  action.sa_handler = [](int signal) { caught = signal; };
-  sigemptyset(&action.sa_mask);
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
+void add_options(CLI::App& app, Wishes& wishes) {
+  app.add_option("RUN", wishes.run,
+                 "identity, folder or case of the run; may be left out when only one is going on");
+  app.add_flag("--once", wishes.once, "print the state once and exit");
+  app.add_flag("--json", wishes.json, "print JSON, one object per line");
+  app.add_flag("--plain", wishes.plain, "print one line per second instead of using the whole terminal");
+  app.add_option("--wait", wishes.wait_s, "longest wait of --once for the first word [s]")
+      ->capture_default_str();
+  app.add_option("--record", wishes.record, "write everything heard to this HDF5 file");
+  app.add_option("--replay", wishes.replay, "show a recording instead of a run");
+  app.add_option("--speed", wishes.speed, "of the replay: 2 is twice as fast")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option("--send", wishes.send, "send a request to the run instead of watching it")
+      ->check(CLI::IsMember({"pause", "resume", "checkpoint", "stop"}));
 }
 
 }  // namespace
@@ -171,15 +122,7 @@ void catch_signals() {
 int main(int argc, char** argv) {
   Wishes wishes;
   CLI::App app("Watches a run, without disturbing it, until it ends. Ctrl-C leaves; the run goes on.");
-  app.add_option("RUN", wishes.run,
-                 "identity, folder or case of the run; may be left out when only one is going on");
-  app.add_flag("--once", wishes.once, "print the state once and exit");
-  app.add_flag("--json", wishes.json, "print JSON, one object per line");
-  app.add_flag("--plain", wishes.plain, "print one line per second instead of a table");
-  app.add_option("--wait", wishes.wait_s, "longest wait of --once for the first word [s]")
-      ->capture_default_str();
-  app.add_option("--send", wishes.send, "send a request to the run instead of watching it")
-      ->check(CLI::IsMember({"pause", "resume", "checkpoint", "stop"}));
+  add_options(app, wishes);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -1,80 +1,67 @@
 #include "monitor/state.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <nlohmann/json.hpp>
+#include <utility>
 
 namespace fsi::monitor {
 
 namespace {
 
-/// The pace is the mean over this time [s].
+/// Rates are means over this time [s].
 constexpr double pace_window_s = 5;
 /// A run whose programs are all gone for this time is over [s].
 constexpr double end_patience_s = 0.5;
+/// A program that says nothing for this time is silent [s]: longer than a program that waits or computes a
+/// step of usual size ever is.
+constexpr double silent_after_s = 2;
+/// Entries of the timeline of each program: about a minute.
+constexpr std::size_t timeline_length = 600;
 
-using nlohmann::json;
-
-/// JSON knows no infinity: such numbers become null.
-json number(double value) {
-  return std::isfinite(value) ? json(value) : json();
+bool finite(const std::vector<double>& values) {
+  return std::ranges::all_of(values, [](double value) { return std::isfinite(value); });
 }
 
-json numbers(const std::vector<double>& values) {
-  json result = json::array();
-  for (const double value : values) result.push_back(number(value));
-  return result;
+/// Rate of something counted, 0 where the counter began again.
+double per_second(std::uint64_t before, std::uint64_t after, double seconds) {
+  return after < before ? 0 : static_cast<double>(after - before) / seconds;
 }
 
-json program_json(const wire::Telemetry& program, double silence) {
-  const auto& health = program.health;
-  const auto share = computing_share(program);
-  return {{"role", program.role},
-          {"state", program.state},
-          {"step", program.step},
-          {"t", number(program.t)},
-          {"dt", number(program.dt)},
-          {"dt_reason", program.dt_reason},
-          {"compute_s", number(program.compute_s)},
-          {"wait_s", number(program.wait_s)},
-          {"computing_share", share ? json(*share) : json()},
-          {"point_updates_per_s", number(program.point_updates_per_s)},
-          {"health",
-           {{"min_rho", number(health.min_rho)},
-            {"min_p", number(health.min_p)},
-            {"min_det_F", number(health.min_det_F)},
-            {"first_order_fallbacks", health.first_order_fallbacks},
-            {"floors", health.floors}}},
-          {"bus",
-           {{"messages", program.messages},
-            {"bytes", program.bytes},
-            {"round_trip_p50_us", number(program.round_trip_p50_us)},
-            {"round_trip_p99_us", number(program.round_trip_p99_us)}}},
-          {"silent_s", number(silence)}};
-}
-
-json interface_json(const wire::Telemetry::Interface& side) {
-  return {{"velocity_jump", number(side.velocity_jump)},
-          {"traction_jump", number(side.traction_jump)},
-          {"gap", number(side.gap)},
-          {"power", number(side.power)},
-          {"s", numbers(side.s)},
-          {"p_predicted", numbers(side.p_predicted)},
-          {"p_projected", numbers(side.p_projected)},
-          {"v_predicted", numbers(side.v_predicted)},
-          {"v_projected", numbers(side.v_projected)}};
+std::optional<double> share(double compute_s, double wait_s) {
+  if (!(compute_s + wait_s > 0)) return std::nullopt;
+  return std::clamp(compute_s / (compute_s + wait_s), 0.0, 1.0);
 }
 
 }  // namespace
 
 void RunState::hear(const wire::Telemetry& telemetry, double now) {
+  note_timeline(telemetry, now);
   programs_[telemetry.from] = telemetry;
   heard_at_[telemetry.from] = now;
-  if (leader()->from != telemetry.from) return;
-  if (pace_of_ != telemetry.from) pace_.clear();
-  pace_of_ = telemetry.from;
-  pace_.push_back({.now = now, .t = telemetry.t, .step = telemetry.step});
-  std::erase_if(pace_, [&](const Moment& moment) { return moment.now < now - pace_window_s; });
+  auto& pace = pace_[telemetry.from];
+  pace.push_back({.now = now,
+                  .t = telemetry.t,
+                  .compute_s = telemetry.compute_s,
+                  .wait_s = telemetry.wait_s,
+                  .step = telemetry.step,
+                  .messages = telemetry.messages,
+                  .bytes = telemetry.bytes});
+  while (pace.front().now < now - pace_window_s) pace.pop_front();
+  if (leader()->from == telemetry.from) history_.add(telemetry);
+}
+
+/// What it did since it was heard last; what a program does that is being waited for shows when it is done.
+void RunState::note_timeline(const wire::Telemetry& telemetry, double now) {
+  const auto before = programs_.find(telemetry.from);
+  if (before == programs_.end()) return;
+  const auto busy =
+      share(telemetry.compute_s - before->second.compute_s, telemetry.wait_s - before->second.wait_s);
+  auto& line = timeline_[telemetry.from];
+  line.push_back({.at = now, .value = busy.value_or(0)});
+  if (line.size() > timeline_length) line.pop_front();
 }
 
 void RunState::count_programs(int programs, double now) {
@@ -83,7 +70,7 @@ void RunState::count_programs(int programs, double now) {
     return;
   }
   if (!empty_since_) empty_since_ = now;
-  ended_ = now - *empty_since_ > end_patience_s;
+  ended_ = ended_ || now - *empty_since_ > end_patience_s;
 }
 
 const wire::Telemetry* RunState::leader() const {
@@ -93,14 +80,76 @@ const wire::Telemetry* RunState::leader() const {
   return programs_.empty() ? nullptr : &programs_.begin()->second;
 }
 
+const std::vector<wire::Telemetry::Interface>& RunState::interfaces() const {
+  static const std::vector<wire::Telemetry::Interface> none;
+  const wire::Telemetry* speaker = leader();
+  return speaker == nullptr ? none : speaker->interfaces;
+}
+
 double RunState::silence(const std::string& program, double now) const {
   return now - heard_at_.at(program);
+}
+
+std::string RunState::standing(const std::string& program, double now) const {
+  const std::string& said = programs_.at(program).state;
+  if (said == "done") return said;
+  const auto process = processes_.find(program);
+  const Process seen = process == processes_.end() ? Process::unknown : process->second;
+  if (abort_ && abort_->from == program) return "failed";
+  if (seen == Process::gone) return "lost";
+  if (seen == Process::stopped) return "stopped";
+  if (!over() && silence(program, now) > silent_after_s) return "silent";
+  return said == "waiting" || said == "paused" ? said : "alive";
+}
+
+RunState::Window RunState::window(const std::string& program) const {
+  const auto pace = pace_.find(program);
+  if (pace == pace_.end() || pace->second.size() < 2) return {};
+  const Moment &first = pace->second.front(), &last = pace->second.back();
+  if (last.now <= first.now) return {};
+  return {.first = &first, .last = &last};
+}
+
+Rates RunState::rates(const std::string& program) const {
+  const auto [first, last] = window(program);
+  if (first == nullptr) return {};
+  const double seconds = last->now - first->now;
+  return {.steps_per_s = per_second(first->step, last->step, seconds),
+          .messages_per_s = per_second(first->messages, last->messages, seconds),
+          .bytes_per_s = per_second(first->bytes, last->bytes, seconds),
+          .computing = share(last->compute_s - first->compute_s, last->wait_s - first->wait_s)};
 }
 
 std::string RunState::status() const {
   if (abort_) return "aborted";
   if (ended_) return "ended";
-  return programs_.empty() ? "waiting" : "running";
+  if (programs_.empty()) return "waiting";
+  return leader()->state == "paused" ? "paused" : "running";
+}
+
+std::vector<std::string> RunState::non_finite() const {
+  std::vector<std::string> found;
+  for (const auto& [name, program] : programs_) {
+    const wire::Health& health = program.health;
+    if (!finite({health.min_rho, health.min_p, health.min_det_F}))
+      found.push_back(fmt::format("health of {}", name));
+  }
+  for (const auto& side : interfaces()) {
+    const std::array<std::pair<const char*, const std::vector<double>*>, 6> all = {
+        {{"p of the gas", &side.p_predicted},
+         {"p of the solid", &side.p_predicted_solid},
+         {"projected p", &side.p_projected},
+         {"v_n of the solid", &side.v_predicted},
+         {"v_n of the gas", &side.v_predicted_gas},
+         {"projected v_n", &side.v_projected}}};
+    for (const auto& [what, values] : all) {
+      if (!finite(*values)) found.push_back(fmt::format("{} at {}", what, side.name));
+    }
+    if (!finite({side.velocity_jump, side.traction_jump, side.gap, side.power})) {
+      found.push_back(fmt::format("jumps at {}", side.name));
+    }
+  }
+  return found;
 }
 
 double RunState::progress() const {
@@ -110,46 +159,20 @@ double RunState::progress() const {
 }
 
 double RunState::steps_per_s() const {
-  if (pace_.size() < 2 || pace_.back().now <= pace_.front().now || pace_.back().step < pace_.front().step)
-    return 0;
-  return static_cast<double>(pace_.back().step - pace_.front().step) / (pace_.back().now - pace_.front().now);
+  const wire::Telemetry* program = leader();
+  return program == nullptr ? 0 : rates(program->from).steps_per_s;
 }
 
 std::optional<double> RunState::remaining_s() const {
   const wire::Telemetry* program = leader();
-  if (program == nullptr || pace_.size() < 2 || pace_.back().t <= pace_.front().t) return std::nullopt;
-  const double pace = (pace_.back().t - pace_.front().t) / (pace_.back().now - pace_.front().now);
-  return std::max(0.0, program->t_end - program->t) / pace;
+  if (program == nullptr) return std::nullopt;
+  const auto [first, last] = window(program->from);
+  if (first == nullptr || last->t <= first->t) return std::nullopt;
+  return std::max(0.0, program->t_end - program->t) * (last->now - first->now) / (last->t - first->t);
 }
 
 std::optional<double> computing_share(const wire::Telemetry& program) {
-  const double total = program.compute_s + program.wait_s;
-  if (!(total > 0)) return std::nullopt;
-  return program.compute_s / total;
-}
-
-std::string to_json(const RunState& state, double now) {
-  json result = {{"run", state.run().run},         {"case", state.run().name},
-                 {"dir", state.run().dir},         {"status", state.status()},
-                 {"progress", state.progress()},   {"steps_per_s", number(state.steps_per_s())},
-                 {"participants", json::object()}, {"interfaces", json::object()}};
-  const auto remaining = state.remaining_s();
-  result["remaining_s"] = remaining ? number(*remaining) : json();
-  if (const wire::Telemetry* leader = state.leader()) {
-    result["t"] = number(leader->t);
-    result["t_end"] = number(leader->t_end);
-    result["dt"] = number(leader->dt);
-    result["dt_reason"] = leader->dt_reason;
-    result["step"] = leader->step;
-    for (const auto& side : leader->interfaces) result["interfaces"][side.name] = interface_json(side);
-  }
-  for (const auto& [name, program] : state.programs()) {
-    result["participants"][name] = program_json(program, state.silence(name, now));
-  }
-  if (const auto& abort = state.abort()) {
-    result["abort"] = {{"from", abort->from}, {"exit_code", abort->exit_code}, {"reason", abort->reason}};
-  }
-  return result.dump(-1, ' ', false, json::error_handler_t::replace);
+  return share(program.compute_s, program.wait_s);
 }
 
 }  // namespace fsi::monitor

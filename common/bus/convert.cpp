@@ -110,16 +110,26 @@ Borrowed<amp_fsi_Telemetry, amp_fsi_InterfaceTelemetry> borrow(const wire::Telem
                             .traction_jump = side.traction_jump,
                             .gap = side.gap,
                             .power = side.power,
+                            .p_min = side.p_min,
+                            .p_max = side.p_max,
+                            .v_min = side.v_min,
+                            .v_max = side.v_max,
+                            .closed = side.closed,
                             .s = borrow(side.s),
+                            .x = borrow(side.x),
                             .p_predicted = borrow(side.p_predicted),
+                            .p_predicted_solid = borrow(side.p_predicted_solid),
                             .p_projected = borrow(side.p_projected),
                             .v_predicted = borrow(side.v_predicted),
+                            .v_predicted_gas = borrow(side.v_predicted_gas),
                             .v_projected = borrow(side.v_projected)});
   }
   result.sample = {.run = borrow(telemetry.run),
                    .from = borrow(telemetry.from),
                    .role = borrow(telemetry.role),
                    .state = borrow(telemetry.state),
+                   .host = borrow(telemetry.host),
+                   .pid = telemetry.pid,
                    .step = telemetry.step,
                    .t = telemetry.t,
                    .t_end = telemetry.t_end,
@@ -220,6 +230,8 @@ void copy(const amp_fsi_Telemetry& from, wire::Telemetry& to) {
   copy(from.from, to.from);
   copy(from.role, to.role);
   copy(from.state, to.state);
+  copy(from.host, to.host);
+  to.pid = from.pid;
   to.step = from.step;
   to.t = from.t;
   to.t_end = from.t_end;
@@ -242,10 +254,18 @@ void copy(const amp_fsi_Telemetry& from, wire::Telemetry& to) {
     out.traction_jump = in.traction_jump;
     out.gap = in.gap;
     out.power = in.power;
+    out.p_min = in.p_min;
+    out.p_max = in.p_max;
+    out.v_min = in.v_min;
+    out.v_max = in.v_max;
+    out.closed = in.closed;
     copy(in.s, out.s);
+    copy(in.x, out.x);
     copy(in.p_predicted, out.p_predicted);
+    copy(in.p_predicted_solid, out.p_predicted_solid);
     copy(in.p_projected, out.p_projected);
     copy(in.v_predicted, out.v_predicted);
+    copy(in.v_predicted_gas, out.v_predicted_gas);
     copy(in.v_projected, out.v_projected);
   }
 }

@@ -292,7 +292,7 @@ struct CouplerSession::Implementation {
   void idle(double seconds) {
     const auto start = Clock::now();
     while (requests.empty() && since(start) < seconds) {
-      link.sleep(seconds - since(start));
+      link.sleep(seconds - since(start), "paused");
       drain();
       if (!link.time_to_check()) continue;
       for (Member& member : members) {

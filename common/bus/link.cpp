@@ -1,11 +1,13 @@
 #include "common/bus/link.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 
 #include "common/bus/convert.hpp"
+#include "common/bus/peer.hpp"
 
 namespace fsi::bus {
 
@@ -15,6 +17,8 @@ namespace {
 constexpr double abort_patience_s = 0.3;
 /// Cyclone forgets a silent participant after this time [s]; it must outlive `peer_timeout`.
 constexpr double shortest_participant_lease_s = 10;
+/// Who waits for long says so this often [s].
+constexpr double repetition_s = 0.2;
 
 ExitCode exit_code_of(std::int32_t number) {
   constexpr std::array known = {ExitCode::user_mistake,  ExitCode::numbers_broke, ExitCode::peer_lost,
@@ -51,6 +55,7 @@ Link::Link(BusOptions options, std::string role, std::string name)
     : options_(std::move(options)),
       role_(std::move(role)),
       name_(std::move(name)),
+      host_(host_name()),
       domain_(join_domain(options_.run, std::max(shortest_participant_lease_s, 2 * options_.peer_timeout_s))),
       participant_(create_participant(options_.run)),
       waitset_(participant_),
@@ -60,10 +65,11 @@ Link::Link(BusOptions options, std::string role, std::string name)
   waitset_.attach(abort_reader_.condition());
 }
 
-void Link::sleep(double seconds) {
+void Link::sleep(double seconds, const char* state) {
   const auto start = Clock::now();
   waitset_.wait(std::min(seconds, slice_s));
   statistics_.wait_s += since(start);
+  repeat_telemetry(state);
   check_aborts();
   if (options_.throw_if_interrupted) options_.throw_if_interrupted();
 }
@@ -90,11 +96,27 @@ void Link::publish(wire::Telemetry telemetry) {
   telemetry.run = options_.run;
   telemetry.from = name_;
   telemetry.role = role_;
+  telemetry.host = host_;
+  telemetry.pid = getpid();
   telemetry.messages = now.messages;
   telemetry.bytes = now.bytes;
   telemetry.round_trip_p50_us = now.round_trip_p50_us;
   telemetry.round_trip_p99_us = now.round_trip_p99_us;
   telemetry_writer_.write(borrow(telemetry).sample);
+  telemetry_ = std::move(telemetry);
+  waited_before_it_s_ = statistics_.wait_s;
+  last_repetition_ = last_telemetry_;
+}
+
+/// The latest telemetry once more, so that a program that waits is not taken for one that is gone. It does
+/// not count as new: `telemetry_due` holds as before.
+void Link::repeat_telemetry(const char* state) {
+  if (telemetry_.run.empty() || since(last_repetition_) < repetition_s) return;
+  last_repetition_ = Clock::now();
+  telemetry_.state = state;
+  telemetry_.wait_s += statistics_.wait_s - waited_before_it_s_;
+  waited_before_it_s_ = statistics_.wait_s;
+  telemetry_writer_.write(borrow(telemetry_).sample);
 }
 
 void Link::abort(ExitCode code, const std::string& reason) noexcept {

@@ -51,8 +51,9 @@ class Link {
   Link(BusOptions options, std::string role, std::string name);
 
   /// Sleeps until an attached reader has something or `slice_s` has passed, then throws what ends the run.
+  /// Who watches is told now and then that this program lives and is in this `state`.
   void sleep() { sleep(slice_s); }
-  void sleep(double seconds);
+  void sleep(double seconds, const char* state = "waiting");
   /// Throws another program's Abort as a Failure with its code and reason.
   void check_aborts();
   /// True once per `slice_s`: time to look after the peers.
@@ -77,8 +78,10 @@ class Link {
   Statistics statistics() const;
 
  private:
+  void repeat_telemetry(const char* state);
+
   BusOptions options_;
-  std::string role_, name_;
+  std::string role_, name_, host_;
   std::shared_ptr<const Entity> domain_;
   Entity participant_;
   Waitset waitset_;
@@ -86,7 +89,9 @@ class Link {
   Writer<amp_fsi_Abort> abort_writer_;
   Writer<amp_fsi_Telemetry> telemetry_writer_;
   bool aborted_ = false;  ///< somebody's Abort was heard, or ours was sent
-  Clock::time_point last_telemetry_{}, last_check_{};
+  Clock::time_point last_telemetry_{}, last_repetition_{}, last_check_{};
+  wire::Telemetry telemetry_;      ///< the latest
+  double waited_before_it_s_ = 0;  ///< time waited until then
   Statistics statistics_;
   RoundTrips round_trips_;
 };

@@ -20,7 +20,8 @@ struct SoloSession::Implementation {
 
   void idle(double seconds) {
     const auto start = Clock::now();
-    for (drain(); requests.empty() && since(start) < seconds; drain()) link.sleep(seconds - since(start));
+    for (drain(); requests.empty() && since(start) < seconds; drain())
+      link.sleep(seconds - since(start), "paused");
   }
 
   Link link;

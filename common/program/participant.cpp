@@ -22,7 +22,7 @@ bus::BusOptions bus_options(const Setup& setup) {
 wire::Telemetry telemetry_of(const Setup& setup, const io::Part& part, const Participant& solver, double dt,
                              const std::string& reason) {
   wire::Telemetry telemetry;
-  telemetry.state = "computing";
+  telemetry.state = part.t < setup.problem.time.end ? "computing" : "done";
   telemetry.step = part.steps;
   telemetry.t = part.t;
   telemetry.t_end = setup.problem.time.end;
@@ -86,6 +86,9 @@ class CoupledRun {
       if (answer.stop) {
         if (!answer.stop_reason.empty()) part_.status = "stopped";
         part_.reason = answer.stop_reason;
+        wire::Telemetry last = telemetry_of(setup_, part_, solver_, dt, bid_.reason);
+        last.state = "done";
+        session_.publish(last);
         return;
       }
       dt = answer.dt_next;
@@ -182,7 +185,8 @@ void run_alone(const Setup& setup, io::Part& part, Participant& solver) {
       if (step.output) solver.write_fields(t, part.steps);
       part.compute_s += watch.lap();
       progress.show(part.steps, t, step.dt, part.participant);
-      if (session.telemetry_due()) session.publish(telemetry_of(setup, part, solver, step.dt, bid.reason));
+      if (session.telemetry_due() || step.end)
+        session.publish(telemetry_of(setup, part, solver, step.dt, bid.reason));
       end = step.end;
     }
   };

@@ -9,7 +9,7 @@
 
 namespace fsi::wire {
 
-inline constexpr std::uint32_t protocol_version = 1;
+inline constexpr std::uint32_t protocol_version = 2;
 
 /// Where one program meets the gas or a solid.
 struct InterfaceInfo {
@@ -124,7 +124,9 @@ struct Telemetry {
   std::string run;
   std::string from;   ///< participant's name
   std::string role;   ///< "fluid", "solid" or "coupler"
-  std::string state;  ///< "computing", "waiting", "done", "failed"
+  std::string state;  ///< "computing", "waiting", "paused", "done"
+  std::string host;   ///< where it runs, for those who watch whether it does
+  std::int32_t pid = 0;
   std::uint64_t step = 0;
   double t = 0, t_end = 0, dt = 0;
   std::string dt_reason;
@@ -138,8 +140,15 @@ struct Telemetry {
   struct Interface {
     std::string name;
     double velocity_jump = 0, traction_jump = 0, gap = 0, power = 0;
-    std::vector<double> s;  ///< arclength at the points shown (at most 256)
-    std::vector<double> p_predicted, p_projected, v_predicted, v_projected;
+    double p_min = 0, p_max = 0, v_min = 0, v_max = 0;  ///< of the projected state, over all points
+    bool closed = false;                                ///< the last point is the first one again
+    std::vector<double> s;                              ///< arclength at the points shown (at most 256)
+    std::vector<double> x;                              ///< their positions, n_d * points
+    std::vector<double> p_predicted;                    ///< of the gas
+    std::vector<double> p_predicted_solid;  ///< p_e - n . w of the solid; empty for a solid without traction
+    std::vector<double> p_projected;
+    std::vector<double> v_predicted;  ///< normal velocity of the solid
+    std::vector<double> v_predicted_gas, v_projected;
   };
   std::vector<Interface> interfaces;
 };

@@ -62,6 +62,9 @@ def _plot(options):
 def _monitor(options):
     """Becomes the monitor program."""
     words = [f"--{name}" for name in ("once", "json", "plain") if getattr(options, name)]
+    for name in ("record", "replay", "speed"):
+        if (value := getattr(options, name)) is not None:
+            words += [f"--{name}", str(value)]
     return _become("monitor", *words, *([options.run] if options.run else []))
 
 
@@ -125,9 +128,12 @@ def _parser():
     verb = verbs.add_parser("monitor", description="Shows a run live until it ends, without disturbing it. RUN is its "
                             "identity, its folder or its case; it may be left out when only one is going on.")
     verb.add_argument("run", metavar="RUN", nargs="?")
-    verb.add_argument("--plain", action="store_true", help="a line per second instead of a table")
+    verb.add_argument("--plain", action="store_true", help="a line per second instead of the whole terminal")
     verb.add_argument("--once", action="store_true", help="show the state once and exit")
     verb.add_argument("--json", action="store_true", help="JSON, one object per line")
+    verb.add_argument("--record", metavar="FILE", help="write everything that is heard to this HDF5 file")
+    verb.add_argument("--replay", metavar="FILE", help="show such a recording instead of a run")
+    verb.add_argument("--speed", metavar="X", type=float, help="of the replay: 2 is twice as fast")
     verb.set_defaults(act=_monitor)
 
     verb = verbs.add_parser("ctl", usage="fsi ctl [RUN] pause|resume|stop", description="Asks a run to pause, to go on "

@@ -1,15 +1,65 @@
 #!/usr/bin/python3
 """A run is watched and controlled from outside by ./launch/fsi monitor and ctl."""
 
+import fcntl
 import json
 import os
+import pty
+import select
 import signal
+import struct
 import subprocess
+import termios
 import time
 import unittest
 
 from running import BIN, EndToEnd, FSI
 from test_lost_programs import LONG
+
+
+class Screen:
+    """A monitor on a terminal of its own."""
+
+    def __init__(self, run, *words, columns=80, rows=24):
+        self.text = ""
+        self.pid, self.terminal = pty.fork()
+        if self.pid == 0:
+            os.environ |= {"FSI_BIN": str(BIN), "XDG_RUNTIME_DIR": str(run.runtime), "TERM": "xterm", "LC_ALL": "C.UTF-8"}
+            os.execv(FSI, [str(FSI), "monitor", *words])
+        self.resize(columns, rows)
+
+    def resize(self, columns, rows):
+        fcntl.ioctl(self.terminal, termios.TIOCSWINSZ, struct.pack("HHHH", rows, columns, 0, 0))
+        os.kill(self.pid, signal.SIGWINCH)
+
+    def until(self, words, seconds=30):
+        """Waits for these words; what came before them is forgotten."""
+        end = time.monotonic() + seconds
+        while words not in self.text and time.monotonic() < end:
+            if not select.select([self.terminal], [], [], 0.1)[0]:
+                continue
+            try:
+                self.text += os.read(self.terminal, 65536).decode(errors="replace")
+            except OSError:  # it has ended
+                break
+        found, self.text = words in self.text, self.text.partition(words)[2]
+        return found
+
+    def press(self, key):
+        os.write(self.terminal, key.encode())
+
+    def end(self):
+        """Exit code; kills what is still there."""
+        for _ in range(100):
+            pid, status = os.waitpid(self.pid, os.WNOHANG)
+            if pid:
+                os.close(self.terminal)
+                return os.waitstatus_to_exitcode(status)
+            self.until("no such words", 0.05)  # an unread terminal would hold it up
+        os.kill(self.pid, signal.SIGKILL)
+        os.waitpid(self.pid, 0)
+        os.close(self.terminal)
+        return None
 
 
 class Watching(EndToEnd):
@@ -54,6 +104,74 @@ class Watching(EndToEnd):
         time.sleep(0.3)
         os.kill(watcher.pid, signal.SIGSTOP)
         self.assertEqual(run.wait(), 0, run.stderr)
+
+    def test_terminal_shows_the_run_and_stops_it_when_asked_twice(self):
+        run = self.launch(*LONG)
+        run.until_stepping()
+        screen = Screen(run, str(run.directory))
+        for words in ("AMP-FSI", "limited by", "p50/p99", "v jump", "along solid"):
+            self.assertTrue(screen.until(words), words)
+        screen.resize(100, 30)
+        screen.press("p")
+        self.assertTrue(screen.until("paused"))
+        screen.press("r")
+        self.assertTrue(screen.until("running"))
+        screen.press("s")
+        self.assertTrue(screen.until("stop the run after this step?"))
+        screen.press("n")
+        self.assertTrue(screen.until("pause"))
+        self.assertIsNone(run.process.poll())
+        screen.press("s")
+        self.assertTrue(screen.until("stop the run after this step?"))
+        screen.press("y")
+        self.assertEqual(run.wait(), 0, run.stderr)
+        self.assertTrue(screen.until("the run is over"))
+        screen.press("q")
+        self.assertEqual(screen.end(), 0)
+        self.assertEqual(run.summary()["status"], "stopped")
+        self.assert_nothing_left(run)
+
+    def test_terminal_lets_choose_among_several_runs(self):
+        one, two = self.launch(*LONG), self.launch(*LONG, out="another")
+        one.until_stepping()
+        two.until_stepping()
+        screen = Screen(one)
+        self.assertTrue(screen.until("several runs are going on"))
+        screen.press("\r")
+        self.assertTrue(screen.until("limited by"))
+        screen.press("q")
+        self.assertEqual(screen.end(), 0)
+        self.assertIsNone(one.process.poll())
+
+    def test_stopped_and_killed_programs_are_shown_as_such(self):
+        run = self.launch(*LONG)
+        gas = run.until_stepping()["fluid_solver"]
+        screen = Screen(run, str(run.directory))
+        self.assertTrue(screen.until("alive"))
+        os.kill(gas, signal.SIGSTOP)
+        self.assertTrue(screen.until("stopped"))
+        self.assertTrue(screen.until("waiting"))
+        os.kill(gas, signal.SIGCONT)
+        self.assertTrue(screen.until("alive"))
+        os.kill(gas, signal.SIGKILL)
+        self.assertTrue(screen.until("ended the run"))
+        self.assertEqual(run.wait(), 4)
+        screen.press("q")
+        self.assertEqual(screen.end(), 0)
+
+    def test_recording_shows_the_run_again(self):
+        run = self.launch(*LONG)
+        run.until_stepping()
+        recording = self.folder / "run.h5"
+        recorder = self.outside(run, "monitor", str(run.directory), "--plain", "--record", str(recording), wait=False)
+        time.sleep(2)
+        self.outside(run, "ctl", str(run.directory), "stop")
+        self.assertEqual(run.wait(), 0, run.stderr)
+        recorder.communicate(timeout=30)
+        state = json.loads(self.outside(run, "monitor", "--replay", str(recording), "--once", "--json"))
+        self.assertEqual(state["step"], run.summary()["steps"])
+        self.assertEqual(set(state["participants"]), {"fluid", "solid", "coupler"})
+        self.assertIn("status=running", self.outside(run, "monitor", "--replay", str(recording), "--plain", "--speed", "4"))
 
     def test_unknown_run_is_a_mistake(self):
         answer = subprocess.run([FSI, "monitor", "no_such_run", "--once"], capture_output=True, text=True, check=False,

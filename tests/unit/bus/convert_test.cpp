@@ -118,6 +118,8 @@ TEST(Convert, HelloAndTelemetryKeepTheirInterfaces) {
                             .from = "coupler",
                             .role = "coupler",
                             .state = "waiting",
+                            .host = "here",
+                            .pid = 12,
                             .step = 1,
                             .t = 2,
                             .t_end = 3,
@@ -132,11 +134,37 @@ TEST(Convert, HelloAndTelemetryKeepTheirInterfaces) {
                             .round_trip_p50_us = 10,
                             .round_trip_p99_us = 11,
                             .interfaces = {}};
-  telemetry.interfaces.push_back({"beam", 1, 2, 3, 4, {5}, {6}, {7}, {8}, {9}});
+  telemetry.interfaces.push_back({.name = "beam",
+                                  .velocity_jump = 1,
+                                  .traction_jump = 2,
+                                  .gap = 3,
+                                  .power = 4,
+                                  .p_min = 5,
+                                  .p_max = 6,
+                                  .v_min = 7,
+                                  .v_max = 8,
+                                  .closed = true,
+                                  .s = {9},
+                                  .x = {10, 11},
+                                  .p_predicted = {12},
+                                  .p_predicted_solid = {13},
+                                  .p_projected = {14},
+                                  .v_predicted = {15},
+                                  .v_predicted_gas = {16},
+                                  .v_projected = {17}});
   const wire::Telemetry shown = carried(telemetry);
   ASSERT_EQ(shown.interfaces.size(), 1U);
-  EXPECT_EQ(shown.interfaces[0].v_projected, telemetry.interfaces[0].v_projected);
-  EXPECT_EQ(shown.interfaces[0].gap, 3);
+  const auto &there = shown.interfaces[0], &here = telemetry.interfaces[0];
+  EXPECT_EQ(std::tie(there.name, there.velocity_jump, there.traction_jump, there.gap, there.power,
+                     there.p_min, there.p_max, there.v_min, there.v_max, there.closed),
+            std::tie(here.name, here.velocity_jump, here.traction_jump, here.gap, here.power, here.p_min,
+                     here.p_max, here.v_min, here.v_max, here.closed));
+  EXPECT_EQ(std::tie(there.s, there.x, there.p_predicted, there.p_predicted_solid, there.p_projected,
+                     there.v_predicted, there.v_predicted_gas, there.v_projected),
+            std::tie(here.s, here.x, here.p_predicted, here.p_predicted_solid, here.p_projected,
+                     here.v_predicted, here.v_predicted_gas, here.v_projected));
+  EXPECT_EQ(std::tie(shown.state, shown.host, shown.pid),
+            std::tie(telemetry.state, telemetry.host, telemetry.pid));
   EXPECT_EQ(shown.round_trip_p99_us, 11);
   EXPECT_EQ(shown.health.floors, 5U);
 }

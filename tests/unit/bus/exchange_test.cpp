@@ -208,5 +208,26 @@ TEST(Exchange, ListenerHearsTheNewestTelemetryOfEveryProgram) {
   EXPECT_EQ(listener.aborted().value_or(wire::Abort{}).reason, "p < 0");
 }
 
+TEST(Exchange, ProgramThatWaitsKeepsSayingSoAndThatIsNoNews) {
+  const std::string run = own_run();
+  Listener listener(run);
+  SoloSession one(options(run), "fluid", "fluid");
+  while (listener.programs() < 1) listener.wait(0.01);
+  wire::Telemetry telemetry;
+  telemetry.state = "computing";
+  telemetry.step = 7;
+  one.publish(telemetry);
+  std::optional<wire::Telemetry> last;
+  for (int k = 0; k < 100 && (!last || last->state != "paused"); ++k) {
+    one.idle(0.1);
+    for (const wire::Telemetry& heard : listener.wait(0)) last = heard;
+  }
+  ASSERT_TRUE(last);
+  EXPECT_EQ(last->state, "paused");
+  EXPECT_EQ(last->step, 7U);
+  EXPECT_EQ(last->pid, getpid());
+  EXPECT_TRUE(one.telemetry_due()) << "what is repeated must not delay what is new";
+}
+
 }  // namespace
 }  // namespace fsi::bus::test

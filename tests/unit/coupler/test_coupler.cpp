@@ -201,6 +201,30 @@ TEST(Coupler, ABodyWithoutMassMovesWithTheGasThroughTheModalResponse) {
   }
 }
 
+TEST(Coupler, WhoWatchesSeesFewPointsBothEndsAndTheExtremesOfAll) {
+  constexpr std::size_t many = 1000;
+  Coupler coupler(until(1), piston_hellos(many));
+  auto gas = gas_state(many, 0);
+  gas.p.assign(many, 1.2);
+  gas.p[many / 3] = 9;
+  coupler.step(std::vector{gas, solid_state(many, 0)});
+  const wire::Telemetry::Interface shown = coupler.profiles().front();
+  const std::size_t count = shown.s.size();
+  EXPECT_LE(count, 256U);
+  EXPECT_EQ(shown.x.size(), 2 * count);
+  EXPECT_EQ(shown.p_predicted_solid.size(), count);
+  EXPECT_EQ(shown.s.front(), 0.0);
+  EXPECT_EQ(shown.x.front(), gas.x.front());
+  EXPECT_EQ(shown.x.back(), gas.x.back());
+  for (std::size_t k = 0; k < count; ++k) {
+    EXPECT_GE(shown.p_projected[k], shown.p_min);
+    EXPECT_LE(shown.p_projected[k], shown.p_max);
+    EXPECT_GE(shown.v_projected[k], shown.v_min);
+    EXPECT_LE(shown.v_projected[k], shown.v_max);
+  }
+  EXPECT_GT(shown.p_max, 2 * shown.p_min) << "a peak between the points shown counts";
+}
+
 TEST(Coupler, NumbersThatAreNotFiniteAreNamed) {
   auto gas = gas_state(n, 0);
   gas.p[2] = std::nan("");

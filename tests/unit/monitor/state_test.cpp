@@ -1,5 +1,7 @@
 /// What the monitor makes of telemetry, and which runs it finds.
 
+#include "monitor/state.hpp"
+
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -7,33 +9,18 @@
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <regex>
+#include <sstream>
+#include <string>
 
+#include "monitor/json.hpp"
 #include "monitor/registry.hpp"
-#include "monitor/state.hpp"
-#include "monitor/table.hpp"
+#include "tests/unit/monitor/telemetry.hpp"
 
 namespace fsi::monitor {
 namespace {
 
 namespace fs = std::filesystem;
-
-wire::Telemetry telemetry(const std::string& role, const std::string& name, std::uint64_t step, double t) {
-  wire::Telemetry result;
-  result.role = role;
-  result.from = name;
-  result.state = "computing";
-  result.step = step;
-  result.t = t;
-  result.t_end = 4;
-  result.dt = 0.01;
-  result.compute_s = 3;
-  result.wait_s = 1;
-  return result;
-}
-
-RunEntry entry(const std::string& run, const std::string& name = "piston") {
-  return {.run = run, .name = name, .dir = "", .pid = getpid()};
-}
 
 TEST(RunState, PaceAndRemainingTimeComeFromTheCoupler) {
   RunState state(entry("r"));
@@ -73,8 +60,11 @@ TEST(RunState, JsonHoldsEverythingAndStaysValidWithInfiniteNumbersAndOddNames) {
   auto coupler = telemetry("coupler", "coupler", 7, 1);
   coupler.dt = std::numeric_limits<double>::infinity();
   coupler.dt_reason = "odd \xff \" byte";
-  coupler.interfaces.push_back(
-      {"beam", 1, 2, 3, std::numeric_limits<double>::quiet_NaN(), {0, 1}, {5, 6}, {}, {}, {}});
+  auto& beam = coupler.interfaces.emplace_back();
+  beam.name = "beam";
+  beam.gap = 3;
+  beam.power = std::numeric_limits<double>::quiet_NaN();
+  beam.s = {0, 1};
   state.hear(coupler, 1);
   state.hear(telemetry("solid", "beam", 7, 1), 2);
   const auto json = nlohmann::json::parse(to_json(state, 4));
@@ -86,29 +76,70 @@ TEST(RunState, JsonHoldsEverythingAndStaysValidWithInfiniteNumbersAndOddNames) {
   EXPECT_EQ(json.at("participants").at("beam").at("silent_s"), 2);
 }
 
-TEST(Table, FitsTheTerminalWhateverTheRunSays) {
-  RunState state(entry("a run with a very long name " + std::string(200, 'x')));
-  for (int k = 0; k < 40; ++k) {
-    auto one = telemetry("solid", "solid \x1b[31m" + std::to_string(k) + std::string(100, 'y'), 1, 1);
-    one.interfaces.resize(30);
-    one.dt_reason = std::string(300, 'z');
-    state.hear(one, 0);
+TEST(RunState, ProgramIsAliveWaitingPausedStoppedSilentOrLost) {
+  RunState state(entry("r"));
+  auto gas = telemetry("fluid", "fluid", 1, 1);
+  state.hear(gas, 0);
+  EXPECT_EQ(state.standing("fluid", 1), "alive");
+  EXPECT_EQ(state.standing("fluid", 10), "silent");
+  state.see_process("fluid", Process::stopped);
+  EXPECT_EQ(state.standing("fluid", 1), "stopped");
+  state.see_process("fluid", Process::gone);
+  EXPECT_EQ(state.standing("fluid", 1), "lost");
+  state.see_process("fluid", Process::lives);
+  for (const char* said : {"waiting", "paused", "done"}) {
+    gas.state = said;
+    state.hear(gas, 2);
+    EXPECT_EQ(state.standing("fluid", 2), said);
   }
-  for (const Extent extent : {Extent{.columns = 80, .rows = 24}, Extent{.columns = 20, .rows = 5}}) {
-    const auto lines = table(state, 0, extent);
-    EXPECT_LE(std::ssize(lines), extent.rows);
-    for (const std::string& line : lines) {
-      EXPECT_LE(std::ssize(line), extent.columns);
-      EXPECT_EQ(line.find('\x1b'), std::string::npos) << "names from outside must not steer the terminal";
-    }
-  }
+  gas.state = "paused";
+  state.hear(gas, 3);
+  EXPECT_EQ(state.status(), "paused");
 }
 
-TEST(Table, DurationsReadLikeTime) {
-  EXPECT_EQ(duration_text(12.3), "12 s");
-  EXPECT_EQ(duration_text(185), "3 min 05 s");
-  EXPECT_EQ(duration_text(7800), "2 h 10 min");
-  EXPECT_EQ(duration_text(std::numeric_limits<double>::infinity()), "-");
+TEST(RunState, RatesAreThoseOfTheLastSeconds) {
+  RunState state(entry("r"));
+  auto gas = telemetry("fluid", "fluid", 0, 0);
+  for (int k = 0; k <= 300; ++k) {
+    const double now = 0.1 * k;
+    gas.messages = static_cast<std::uint64_t>(k < 150 ? 1000 * k : 150000 + 2 * (k - 150));
+    gas.bytes = 10 * gas.messages;
+    gas.compute_s = 0.25 * now;
+    gas.wait_s = 0.75 * now;
+    state.hear(gas, now);
+  }
+  EXPECT_NEAR(state.rates("fluid").messages_per_s, 20, 0.5);
+  EXPECT_NEAR(state.rates("fluid").bytes_per_s, 200, 5);
+  EXPECT_NEAR(state.rates("fluid").computing.value_or(0), 0.25, 1e-9);
+  EXPECT_LE(state.timeline().at("fluid").size(), 600U);
+  EXPECT_NEAR(state.timeline().at("fluid").back().value, 0.25, 1e-9);
+}
+
+TEST(RunState, WhatIsNotFiniteIsNamed) {
+  RunState state(entry("r"));
+  auto coupler = with_interface("beam", 8);
+  state.hear(coupler, 0);
+  EXPECT_TRUE(state.non_finite().empty());
+  coupler.interfaces[0].v_predicted_gas[3] = std::numeric_limits<double>::quiet_NaN();
+  state.hear(coupler, 1);
+  ASSERT_EQ(state.non_finite().size(), 1U);
+  EXPECT_EQ(state.non_finite()[0], "v_n of the gas at beam");
+}
+
+TEST(Prometheus, EveryLineIsACommentOrANumberWithLabels) {
+  RunState state(entry("a \"quoted\" run"));
+  state.hear(with_interface("beam", 8), 0);
+  state.hear(telemetry("fluid", "fluid", 3, 1), 0);
+  std::istringstream page(to_prometheus(state, 0));
+  const std::regex number(
+      R"(amp_fsi_[a-z0-9_]+\{run="a \\"quoted\\" run"(,[a-z]+="[^"]*")?\} (NaN|[+-]Inf|[-+.e0-9]+))");
+  int numbers = 0;
+  for (std::string line; std::getline(page, line);) {
+    if (line.starts_with("# ")) continue;
+    EXPECT_TRUE(std::regex_match(line, number)) << line;
+    ++numbers;
+  }
+  EXPECT_GT(numbers, 20);
 }
 
 class Registry : public testing::Test {

@@ -1,0 +1,96 @@
+#include "monitor/history.hpp"
+
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+namespace fsi::monitor {
+
+namespace {
+
+/// Larger by size; what is not finite counts most.
+bool larger(double one, double other) {
+  if (!std::isfinite(one)) return true;
+  return std::isfinite(other) && std::abs(one) > std::abs(other);
+}
+
+std::vector<std::string> split(const std::string& line) {
+  std::vector<std::string> cells;
+  std::istringstream stream(line);
+  for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
+  return cells;
+}
+
+/// "beam.gap [length]" -> "beam.gap"
+std::string without_unit(const std::string& heading) {
+  return heading.substr(0, heading.find(" ["));
+}
+
+}  // namespace
+
+void Series::add(double at, double value) {
+  if (!points_.empty() && !(at > points_.back().at)) return;
+  if (gathered_ > 0 && gathered_ < every_) {
+    Point& last = points_.back();
+    last.at = at;
+    if (larger(value, last.value)) last.value = value;
+    ++gathered_;
+    return;
+  }
+  if (points_.size() >= capacity) thin_out();
+  points_.push_back({.at = at, .value = value});
+  gathered_ = 1;
+}
+
+void Series::thin_out() {
+  std::vector<Point> kept;
+  for (std::size_t k = 0; k + 1 < points_.size(); k += 2) {
+    const Point &one = points_[k], &next = points_[k + 1];
+    kept.push_back({.at = next.at, .value = larger(one.value, next.value) ? one.value : next.value});
+  }
+  if (points_.size() % 2 == 1) kept.push_back(points_.back());
+  points_ = std::move(kept);
+  every_ *= 2;
+}
+
+void History::add(const wire::Telemetry& leader) {
+  if (leader.t > 0) add("dt", leader.t, leader.dt);  // no step led to the initial state
+  for (const wire::Telemetry::Interface& side : leader.interfaces) {
+    add(side.name + ".velocity_jump", leader.t, side.velocity_jump);
+    add(side.name + ".traction_jump", leader.t, side.traction_jump);
+    add(side.name + ".gap", leader.t, side.gap);
+    add(side.name + ".power", leader.t, side.power);
+    add(side.name + ".p_max", leader.t, side.p_max);
+  }
+}
+
+void History::read_table(const std::string& path) {
+  std::ifstream file(path);
+  std::string line;
+  if (!std::getline(file, line)) return;
+  std::vector<std::string> headings = split(line);
+  std::size_t time = headings.size();
+  for (std::size_t k = 0; k < headings.size(); ++k) {
+    headings[k] = without_unit(headings[k]);
+    if (headings[k] == "t") time = k;
+  }
+  while (std::getline(file, line)) {
+    const std::vector<std::string> cells = split(line);
+    if (cells.size() != headings.size() || time >= cells.size()) continue;
+    const double t = std::strtod(cells[time].c_str(), nullptr);
+    for (std::size_t k = 0; k < cells.size(); ++k) {
+      if (k == time || headings[k] == "step") continue;
+      if (headings[k] == "dt" && t == 0) continue;  // no step led to the initial state
+      add(headings[k], t, std::strtod(cells[k].c_str(), nullptr));
+    }
+  }
+}
+
+const Series& History::of(const std::string& name) const {
+  static const Series none;
+  const auto found = series_.find(name);
+  return found == series_.end() ? none : found->second;
+}
+
+}  // namespace fsi::monitor

@@ -1,0 +1,82 @@
+#include "monitor/live.hpp"
+
+#include <fmt/format.h>
+
+#include <cctype>
+#include <chrono>
+#include <fstream>
+#include <utility>
+
+#include "common/bus/peer.hpp"
+#include "common/core/failure.hpp"
+
+namespace fsi::monitor {
+
+namespace {
+
+/// Time between two looks at the processes [s].
+constexpr double look_s = 0.25;
+
+}  // namespace
+
+Live::Live(RunEntry run, const std::string& record)
+    : run_(std::move(run)), listener_(run_.run), host_(bus::host_name()) {
+  if (!record.empty()) recorder_ = std::make_unique<Recorder>(record, run_, now());
+}
+
+double Live::now() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+void Live::listen(RunState& state, double seconds) {
+  if (!std::exchange(table_read_, true) && !run_.dir.empty()) state.read_table(run_.dir + "/interface.csv");
+  for (const wire::Telemetry& telemetry : listener_.wait(seconds)) {
+    state.hear(telemetry, now());
+    if (recorder_) recorder_->add(telemetry, now());
+  }
+  const auto& aborted = listener_.aborted();
+  if (aborted && !state.abort()) {
+    state.hear(*aborted);
+    if (recorder_) recorder_->add(*aborted, now());
+  }
+  state.count_programs(listener_.programs(), now());
+  if (now() - looked_at_ > look_s) look_at_processes(state);
+  if (state.over() && recorder_) {
+    recorder_->close();
+    recorder_.reset();
+  }
+}
+
+bool Live::heard_everybody(const RunState& state) const {
+  const auto heard = static_cast<int>(state.programs().size());
+  return heard > 0 && heard >= listener_.programs();
+}
+
+void Live::look_at_processes(RunState& state) {
+  looked_at_ = now();
+  for (const auto& [name, program] : state.programs()) {
+    if (program.pid > 0 && program.host == host_) state.see_process(name, process_state(program.pid));
+  }
+}
+
+std::string Live::request(const std::string& command) {
+  try {
+    bus::send_control(run_.run, command);
+    return fmt::format("{}: sent", command);
+  } catch (const Failure& failure) {
+    return fmt::format("{}: {}", command, failure.what());
+  }
+}
+
+Process process_state(int pid) {
+  std::ifstream file(fmt::format("/proc/{}/stat", pid));
+  std::string text;
+  if (!std::getline(file, text)) return Process::gone;
+  const std::size_t name_end = text.rfind(") ");  // the name itself may contain anything
+  if (name_end == std::string::npos) return Process::unknown;
+  const char letter = text[name_end + 2];
+  if (letter == 'Z' || letter == 'X') return Process::gone;
+  return letter == 'T' || letter == 't' ? Process::stopped : Process::lives;
+}
+
+}  // namespace fsi::monitor

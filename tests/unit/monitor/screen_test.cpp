@@ -1,0 +1,164 @@
+/// The picture of a run on a terminal.
+
+#include "monitor/screen.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "monitor/plot.hpp"
+#include "tests/unit/monitor/telemetry.hpp"
+
+namespace fsi::monitor {
+namespace {
+
+std::string text_of(const Frame& frame) {
+  std::string text;
+  for (const std::string& line : frame.lines()) text += line + "\n";
+  return text;
+}
+
+bool shows(const Frame& frame, const std::string& words) {
+  return text_of(frame).find(words) != std::string::npos;
+}
+
+RunState coupled() {
+  RunState state(entry("r-1"));
+  auto gas = telemetry("fluid", "fluid", 7, 1);
+  gas.health = {.min_rho = 0.5, .min_p = 0.25, .min_det_F = 0, .first_order_fallbacks = 3, .floors = 0};
+  for (int k = 0; k < 20; ++k) {
+    auto coupler = with_interface("beam", 40);
+    coupler.t = 0.1 * k;
+    coupler.interfaces[0].velocity_jump = 1e-3 * (k + 1);
+    coupler.dt_reason = "fluid: acoustic waves";
+    state.hear(coupler, 0.1 * k);
+    state.hear(gas, 0.1 * k);
+    state.hear(telemetry("solid", "beam", 7, 1), 0.1 * k);
+  }
+  return state;
+}
+
+TEST(Screen, ShowsEverythingOnEightyByTwentyFour) {
+  const RunState state = coupled();
+  for (const bool braille : {true, false}) {
+    View view;
+    view.braille = braille;
+    const Frame frame = screen(state, 2, view, {.columns = 80, .rows = 24});
+    for (const char* words :
+         {"r-1", "running", "limited by fluid: acoustic waves", "coupler", "alive", "p50/p99", "min rho 0.5",
+          "first order 3", "all finite", "v jump", "power", "along beam", "projected", "q quit"}) {
+      EXPECT_TRUE(shows(frame, words)) << words << " is missing in\n" << text_of(frame);
+    }
+    const auto curves = [&](Style style) {
+      int cells = 0;
+      for (int row = 0; row < 24; ++row) {
+        for (int column = 0; column < 80; ++column) cells += frame.at(column, row).style == style ? 1 : 0;
+      }
+      return cells;
+    };
+    EXPECT_GT(curves(Style::gas), 40) << "the predicted gas is drawn";
+    EXPECT_GT(curves(Style::solid), 40);
+    EXPECT_GT(curves(Style::projected), 40);
+  }
+}
+
+TEST(Screen, FitsAnyTerminalWhateverTheRunSays) {
+  RunState state(entry("a run with a very long name " + std::string(200, 'x')));
+  for (int k = 0; k < 40; ++k) {
+    auto one = telemetry(k == 0 ? "coupler" : "solid",
+                         "solid \x1b[31m" + std::to_string(k) + std::string(100, 'y'), 1, 1);
+    one.interfaces.resize(30);
+    one.interfaces[3] = with_interface("\xc3\xa9\x07", 4).interfaces[0];
+    one.interfaces[3].p_projected[1] = std::numeric_limits<double>::infinity();
+    one.dt = std::numeric_limits<double>::quiet_NaN();
+    one.dt_reason = std::string(300, 'z');
+    state.hear(one, 0);
+  }
+  for (const Extent extent : {Extent{80, 24}, Extent{20, 5}, Extent{1, 1}, Extent{300, 90}, Extent{80, 10}}) {
+    for (const bool help : {false, true}) {
+      View view;
+      view.help = help;
+      view.interface = 33;
+      const Frame frame = screen(state, 0, view, extent);
+      EXPECT_LE(std::ssize(frame.lines()), extent.rows);
+      for (int row = 0; row < extent.rows; ++row) {
+        for (int column = 0; column < extent.columns; ++column) {
+          const char32_t character = frame.at(column, row).character;
+          EXPECT_TRUE(character >= 0x20 && character != 0x7f)
+              << "names from outside must not steer the terminal";
+        }
+      }
+    }
+  }
+}
+
+TEST(Screen, SaysWhatIsWrong) {
+  RunState state = coupled();
+  state.see_process("fluid", Process::gone);
+  EXPECT_TRUE(shows(screen(state, 2, {}, {}), "lost"));
+  auto coupler = with_interface("beam", 4);
+  coupler.interfaces[0].p_predicted[0] = std::numeric_limits<double>::quiet_NaN();
+  state.hear(coupler, 3);
+  EXPECT_TRUE(shows(screen(state, 3, {}, {}), "NOT FINITE: p of the gas at beam"));
+  state.hear(wire::Abort{.run = "r", .from = "fluid", .exit_code = 3, .reason = "p < 0"});
+  EXPECT_TRUE(shows(screen(state, 3, {}, {}), "fluid ended the run: p < 0"));
+}
+
+TEST(Screen, AsksBeforeItStopsARun) {
+  View view;
+  view.ask_stop = true;
+  EXPECT_TRUE(shows(screen(coupled(), 2, view, {}), "stop the run after this step?"));
+}
+
+TEST(Screen, ChooserMarksTheSelectedRunEvenInALongList) {
+  std::vector<RunEntry> runs;
+  for (int k = 0; k < 60; ++k) runs.push_back(entry("run-" + std::to_string(k)));
+  EXPECT_TRUE(shows(chooser(runs, 0, {}), "> run-0"));
+  EXPECT_TRUE(shows(chooser(runs, 59, {}), "> run-59"));
+}
+
+TEST(Plot, ARampRisesFromTheLowerLeftToTheUpperRight) {
+  for (const bool braille : {true, false}) {
+    Frame frame({.columns = 20, .rows = 11});
+    draw(frame, frame.all(), {.title = "p", .curves = {{.x = {0, 1}, .y = {5, 7}}}}, braille);
+    EXPECT_NE(frame.at(0, 10).character, U' ');
+    EXPECT_NE(frame.at(19, 1).character, U' ');
+    EXPECT_EQ(frame.at(0, 1).character, U' ');
+    EXPECT_EQ(frame.at(19, 10).character, U' ');
+    EXPECT_TRUE(shows(frame, "5 .. 7"));
+  }
+}
+
+TEST(Plot, LogarithmicScaleMakesAGeometricSequenceALine) {
+  Frame even({.columns = 30, .rows = 9}), curved({.columns = 30, .rows = 9});
+  draw(even, even.all(), {.title = "", .curves = {{.x = {0, 1, 2}, .y = {0, 2, 4}}}}, true);
+  draw(curved, curved.all(),
+       {.title = "", .curves = {{.x = {0, 1, 2}, .y = {1e-4, 1e-2, 1}}}, .logarithmic = true}, true);
+  for (int row = 1; row < 9; ++row) {
+    for (int column = 0; column < 30; ++column) {
+      EXPECT_EQ(even.at(column, row).character, curved.at(column, row).character);
+    }
+  }
+}
+
+TEST(Text, NumbersFitTheirColumnAndKeepTheirSize) {
+  for (const double value : {0.0, 1.0, -1.23456789e-30, 9.87654e12, 123456.789, -0.00012345}) {
+    const std::string text = compact(value, 8);
+    EXPECT_LE(text.size(), 8U);
+    EXPECT_NEAR(std::stod(text), value, 0.06 * std::abs(value));
+  }
+  EXPECT_EQ(compact(std::numeric_limits<double>::quiet_NaN()), "nan");
+}
+
+TEST(Text, DurationsReadLikeTime) {
+  EXPECT_EQ(duration_text(12.3), "12 s");
+  EXPECT_EQ(duration_text(185), "3 min 05 s");
+  EXPECT_EQ(duration_text(7800), "2 h 10 min");
+  EXPECT_EQ(duration_text(std::numeric_limits<double>::infinity()), "-");
+}
+
+}  // namespace
+}  // namespace fsi::monitor
