@@ -6,12 +6,18 @@
 Studies that are not run keep the text they have in docs/results.md. Nothing in that file is typed by hand.
 """
 
+import hashlib
 import json
+import os
 import re
 import shlex
 import shutil
+import signal
+import socket
+import statistics
 import subprocess
 import sys
+import time
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -93,6 +99,69 @@ def sweep(name, case, variants, columns, settings=()):
         summary = json.loads(path.read_text(encoding="utf-8")) if path.is_file() else {}
         lines.append("| " + " | ".join([label, *(shown(value_at(summary, path)) for _, path in columns), str(code)]) + " |")
     return f"last row: `{typed}`\n\n" + "\n".join(lines) + "\n"
+
+
+WATCHERS = [("nobody", None), ("monitor --plain", ["--plain"]), ("monitor --record", ["--plain", "--record"]),
+            ("monitor --plain, frozen", ["--plain"]), ("monitor --plain, killed", ["--plain"]),
+            ("monitor --web, a browser that never reads", ["--web", "0"])]
+
+
+def watch(label, words, directory):
+    """Starts watching the run in `directory` in the way `label` says; returns what must be ended afterwards."""
+    path = str(directory / "recording.h5")
+    words = [word for name in words for word in ([name, path] if name == "--record" else [name])]
+    while not (directory / "interface.csv").is_file():
+        time.sleep(0.01)
+    monitor = subprocess.Popen(["./launch/fsi", "monitor", str(directory), *words], cwd=ROOT, text=True,
+                               stdout=subprocess.PIPE if "--web" in words else subprocess.DEVNULL)
+    if "--web" in words:
+        host, port = re.search(r"//([^:]+):(\d+)", monitor.stdout.readline()).groups()
+        browser = socket.create_connection((host, int(port)))
+        browser.sendall(f"GET /api/events HTTP/1.1\r\nHost: {host}\r\n\r\n".encode())
+        return [browser.close, monitor.kill, monitor.wait, monitor.stdout.close]
+    if "frozen" in label or "killed" in label:
+        time.sleep(1)
+        monitor.send_signal(signal.SIGSTOP if "frozen" in label else signal.SIGKILL)
+    return [monitor.wait] if "record" in label else [monitor.kill, monitor.wait]
+
+
+def content(directory):
+    """Digest of all numbers a run left: tables and fields."""
+    digest = hashlib.sha256()
+    for path in sorted([*directory.glob("*.csv"), *directory.glob("fields/*.h5")]):
+        if path.suffix == ".csv":
+            digest.update(path.read_bytes())
+            continue
+        import h5py
+        with h5py.File(path) as file:
+            file.visititems(lambda name, item: digest.update(name.encode() + item[()].tobytes()) if hasattr(item, "shape") else None)
+    return digest.hexdigest()
+
+
+def watched(name, repetitions=5):
+    """What watching costs: processor time of all programs of the run and wall time, medians; and whether the results differ."""
+    typed = ["run", "elastic_piston", "--set", "grid.factor=16", "--set", "time.dt=5e-4", "--set", "expect={}"]
+    seconds, walls, contents = {}, {}, {}
+    for repetition in range(repetitions):
+        for label, words in WATCHERS:
+            directory = fresh(name)
+            before = os.times()
+            run = subprocess.Popen(["./launch/fsi", *typed, "--no-progress", "--out", str(directory)], cwd=ROOT,
+                                   stdout=subprocess.DEVNULL)
+            ends = watch(label, words, directory) if words else []
+            run.wait()  # only now its processor time counts
+            after = os.times()
+            for end in ends:
+                end()
+            seconds.setdefault(label, []).append(after.children_user + after.children_system - before.children_user - before.children_system)
+            walls.setdefault(label, []).append(json.loads((directory / "summary.json").read_text(encoding="utf-8"))["wall_s"])
+            contents.setdefault(label, set()).add(content(directory))
+    lines = ["| who watches | processor time of the run [s] | least .. most | wall time [s] | results |", "|---|---|---|---|---|"]
+    for label, _ in WATCHERS:
+        same = contents[label] == contents["nobody"] and len(contents[label]) == 1
+        lines.append(f"| {label} | {statistics.median(seconds[label]):.2f} | {min(seconds[label]):.2f} .. {max(seconds[label]):.2f} | "
+                     f"{statistics.median(walls[label]):.2f} | {'the same bits' if same else 'DIFFERENT'} |")
+    return f"`./launch/fsi {shlex.join(typed)}`, {repetitions} times each, medians\n\n" + "\n".join(lines) + "\n"
 
 
 def bench(name):
@@ -277,6 +346,7 @@ def kept_sections():
 def main(words):
     sections = kept_sections()
     studies = [*piston_studies(), *chosen_studies(), *other_studies(), *disk_studies(), *ellipse_studies(),
+               ("What watching costs", lambda: watched("watched")),
                ("Benchmarks", lambda: bench("bench"))]
     head = ("# Results\n\nWhat the commands gave on two cores; `docs/record_results.py` repeats them all and writes this page. "
             "Errors are largest absolute differences over all points and components.\n\n")

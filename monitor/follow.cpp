@@ -25,6 +25,7 @@ using Clock = std::chrono::steady_clock;
 constexpr double listen_s = 0.05;         ///< a key is answered within this time
 constexpr double refresh_s = 0.25;        ///< time between two pictures
 constexpr double plain_refresh_s = 1;     ///< time between two lines
+constexpr double web_refresh_s = 0.2;     ///< time between two states for browsers
 constexpr double message_s = 4;           ///< how long a message stays
 constexpr double patience_at_end_s = 10;  ///< how long the end stays on the screen unless a key is pressed
 
@@ -180,6 +181,24 @@ void follow_plain(Source& source, RunState& state, bool json) {
     fmt::print("{}\n", json ? to_json(state, source.now()) : plain_line(state));
     if (std::fflush(stdout) != 0) return;  // whoever read this is gone
   }
+}
+
+void follow_web(Source& source, RunState& state, const WebOptions& options) {
+  WebServer server(options);
+  server.publish(state, source.now());
+  fmt::print("{}\n", server.url());
+  std::fflush(stdout);
+  auto last = Clock::now();
+  while (caught == 0 && !state.over()) {
+    source.listen(state, listen_s);
+    if (since(last) < web_refresh_s && !state.over()) continue;
+    last = Clock::now();
+    server.publish(state, source.now());
+  }
+  if (caught != 0) return;
+  fmt::print("the run is over ({}); the page stays until Ctrl-C\n", state.status());
+  std::fflush(stdout);
+  while (caught == 0) std::this_thread::sleep_for(std::chrono::duration<double>(listen_s));
 }
 
 std::optional<RunEntry> choose_on_terminal(const std::vector<RunEntry>& runs) {

@@ -6,6 +6,7 @@
 
 #include "monitor/source.hpp"
 #include "monitor/state.hpp"
+#include "monitor/web/server.hpp"
 
 namespace fsi::monitor {
 
@@ -19,6 +20,9 @@ void follow_on_terminal(Source& source, RunState& state);
 
 /// One line per second.
 void follow_plain(Source& source, RunState& state, bool json);
+
+/// In browsers; goes on after the end of the run, so that it can be looked at, until a signal ends it.
+void follow_web(Source& source, RunState& state, const WebOptions& options);
 
 /// The run a person chooses on the terminal; none when they leave.
 std::optional<RunEntry> choose_on_terminal(const std::vector<RunEntry>& runs);

@@ -23,8 +23,9 @@ using namespace fsi;
 using namespace fsi::monitor;
 
 struct Wishes {
-  std::string run, send, record, replay;
+  std::string run, send, record, replay, host = "127.0.0.1";
   bool once = false, json = false, plain = false;
+  int web = -1;       ///< port of the page; -1: none
   double wait_s = 5;  ///< how long `--once` waits for the first word
   double speed = 1;   ///< of a replay
 };
@@ -74,7 +75,12 @@ void show_once(const Wishes& wishes, Live& live, RunState& state) {
 }
 
 void follow(const Wishes& wishes, Source& source, RunState& state) {
-  if (wishes.plain || wishes.json || isatty(STDOUT_FILENO) == 0) {
+  if (wishes.web >= 0) {
+    follow_web(source, state,
+               {.host = wishes.host, .port = wishes.web, .request = [&source](const std::string& command) {
+                  return source.request(command);
+                }});
+  } else if (wishes.plain || wishes.json || isatty(STDOUT_FILENO) == 0) {
     follow_plain(source, state, wishes.json);
   } else {
     follow_on_terminal(source, state);
@@ -107,6 +113,11 @@ void add_options(CLI::App& app, Wishes& wishes) {
   app.add_flag("--json", wishes.json, "print JSON, one object per line");
   app.add_flag("--plain", wishes.plain, "print one line per second instead of using the whole terminal");
   app.add_option("--wait", wishes.wait_s, "longest wait of --once for the first word [s]")
+      ->capture_default_str();
+  app.add_option("--web", wishes.web, "serve a page for browsers at this port; 0 finds a free one")
+      ->check(CLI::Range(0, 65535));
+  app.add_option("--host", wishes.host,
+                 "address of the page; other machines see it where this is not loopback")
       ->capture_default_str();
   app.add_option("--record", wishes.record, "write everything heard to this HDF5 file");
   app.add_option("--replay", wishes.replay, "show a recording instead of a run");

@@ -17,6 +17,11 @@ constexpr double slice_s = 0.02;
 Replay::Replay(const std::string& path, double speed) : recording_(path), speed_(speed) {}
 
 double Replay::now() const {
+  const std::scoped_lock lock(clock_);
+  return place();
+}
+
+double Replay::place() const {
   return held_ ? at_start_
                : at_start_ + speed_ * std::chrono::duration<double>(Clock::now() - start_).count();
 }
@@ -41,7 +46,8 @@ void Replay::listen(RunState& state, double seconds) {
 }
 
 std::string Replay::request(const std::string& command) {
-  at_start_ = now();
+  const std::scoped_lock lock(clock_);
+  at_start_ = place();
   start_ = Clock::now();
   if (command == "pause") held_ = true;
   if (command == "resume") held_ = false;

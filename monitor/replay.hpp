@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <deque>
+#include <mutex>
 #include <string>
 
 #include "monitor/recording.hpp"
@@ -27,12 +28,16 @@ class Replay : public Source {
  private:
   using Clock = std::chrono::steady_clock;
 
+  double place() const;
+
   Recording recording_;
   double speed_;
   std::deque<Heard> ahead_;
-  double at_start_ = 0;  ///< place in the recording at `start_`
+  bool finished_ = false;
+  mutable std::mutex clock_;  ///< requests come from other threads
+  double at_start_ = 0;       ///< place in the recording at `start_`
   Clock::time_point start_ = Clock::now();
-  bool held_ = false, finished_ = false;
+  bool held_ = false;
 };
 
 }  // namespace fsi::monitor

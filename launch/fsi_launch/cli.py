@@ -62,7 +62,7 @@ def _plot(options):
 def _monitor(options):
     """Becomes the monitor program."""
     words = [f"--{name}" for name in ("once", "json", "plain") if getattr(options, name)]
-    for name in ("record", "replay", "speed"):
+    for name in ("record", "replay", "speed", "web", "host"):
         if (value := getattr(options, name)) is not None:
             words += [f"--{name}", str(value)]
     return _become("monitor", *words, *([options.run] if options.run else []))
@@ -131,6 +131,9 @@ def _parser():
     verb.add_argument("--plain", action="store_true", help="a line per second instead of the whole terminal")
     verb.add_argument("--once", action="store_true", help="show the state once and exit")
     verb.add_argument("--json", action="store_true", help="JSON, one object per line")
+    verb.add_argument("--web", metavar="PORT", type=int, help="serve a page for browsers, on this machine only; 0 finds a "
+                      "free port")
+    verb.add_argument("--host", metavar="ADDRESS", help="address of the page (default: 127.0.0.1)")
     verb.add_argument("--record", metavar="FILE", help="write everything that is heard to this HDF5 file")
     verb.add_argument("--replay", metavar="FILE", help="show such a recording instead of a run")
     verb.add_argument("--speed", metavar="X", type=float, help="of the replay: 2 is twice as fast")

@@ -97,13 +97,20 @@ class Watching(EndToEnd):
         self.assertGreater((run.directory / "interface.csv").stat().st_size, before)
         self.assert_nothing_left(run)
 
-    def test_frozen_monitor_does_not_hold_up_the_run(self):
-        run = self.launch("elastic_piston", "--set", "grid.factor=2", "--set", "time.dt=1e-4", "--set", "expect={}")
+    def test_frozen_killed_and_slow_monitors_neither_hold_up_the_run_nor_change_one_bit_of_it(self):
+        case = ["elastic_piston", "--set", "grid.factor=2", "--set", "time.dt=1e-4", "--set", "expect={}"]
+        alone = self.complete(*case, out="alone")
+        run = self.launch(*case)
         run.until_stepping()
-        watcher = self.outside(run, "monitor", str(run.directory), "--plain", wait=False)
-        time.sleep(0.3)
-        os.kill(watcher.pid, signal.SIGSTOP)
+        frozen = self.outside(run, "monitor", str(run.directory), "--plain", wait=False)
+        killed = self.outside(run, "monitor", str(run.directory), "--json", wait=False)
+        self.outside(run, "monitor", str(run.directory), "--json", wait=False)  # nobody reads what it prints
+        time.sleep(0.7)
+        os.kill(frozen.pid, signal.SIGSTOP)
+        killed.kill()
         self.assertEqual(run.wait(), 0, run.stderr)
+        table = "interface.csv"  # how both sides differ, with all digits, at every step
+        self.assertEqual((run.directory / table).read_bytes(), (alone.directory / table).read_bytes())
 
     def test_terminal_shows_the_run_and_stops_it_when_asked_twice(self):
         run = self.launch(*LONG)

@@ -1,0 +1,245 @@
+"use strict";
+// The page: keeps what it has heard, and draws it when there is something new.
+
+const $ = (id) => document.getElementById(id);
+const MOST = 1200; // points of a history; then every second one goes
+const SPAN = 60;   // seconds of the timeline
+const memory = { state: null, history: {}, timeline: {}, first: {}, last: {}, chosen: null, connected: false, stale: true, drawn: "" };
+
+function make(tag, properties, ...children) {
+  const element = Object.assign(document.createElement(tag), properties);
+  element.append(...children);
+  return element;
+}
+
+// ---- what is heard
+
+function remember(name, t, value) {
+  const list = (memory.history[name] ||= []);
+  if (list.length && t <= list[list.length - 1][0]) return;
+  list.push([t, value]);
+  if (list.length <= MOST) return;
+  const size = (entry) => (entry[1] === null ? Infinity : Math.abs(entry[1]));
+  memory.history[name] = list.filter((entry, k) => k % 2 ? size(entry) >= size(list[k - 1]) : k + 1 >= list.length || size(entry) > size(list[k + 1]));
+}
+
+function hear(state) {
+  const now = performance.now() / 1000;
+  if (memory.state && memory.state.run !== state.run) location.reload();
+  memory.state = state;
+  if (state.t > 0) remember("dt", state.t, state.dt);
+  for (const [name, side] of Object.entries(state.interfaces)) {
+    for (const what of ["velocity_jump", "traction_jump", "gap", "power", "p_max"]) remember(`${name}.${what}`, state.t, side[what]);
+    const n = side.s.length;
+    memory.first[name] ||= { x1: side.x.slice(0, n), x2: side.x.slice(n, 2 * n) };
+  }
+  for (const [name, program] of Object.entries(state.participants)) {
+    const before = memory.last[name], line = (memory.timeline[name] ||= []);
+    if (before) {
+      const busy = program.compute_s - before.compute_s, idle = program.wait_s - before.wait_s;
+      if (busy + idle > 0) line.push([now, Math.min(1, Math.max(0, busy / (busy + idle)))]);
+      if (busy + idle > 0) memory.last[name] = program;
+    } else {
+      memory.last[name] = program;
+    }
+    while (line.length && line[0][0] < now - SPAN - 2) line.shift();
+  }
+  memory.stale = true;
+}
+
+async function fetchPast() {
+  const past = await (await fetch("api/history.json")).json();
+  const now = performance.now() / 1000;
+  memory.history = past.history;
+  memory.timeline = Object.fromEntries(Object.entries(past.timeline).map(([name, line]) => [name, line.map(([ago, share]) => [now - ago, share])]));
+  memory.last = {};
+}
+
+function connect() {
+  const source = new EventSource("api/events");
+  source.onopen = async () => {
+    try { await fetchPast(); } catch (error) { return; }
+    memory.connected = true;
+    memory.stale = true;
+  };
+  source.onmessage = (event) => hear(JSON.parse(event.data));
+  source.onerror = () => { // the browser tries again by itself
+    memory.connected = false;
+    memory.stale = true;
+    if (source.readyState === EventSource.CLOSED) setTimeout(connect, 2000);
+  };
+}
+
+// ---- what is shown
+
+const KIND = { running: "good", alive: "good", paused: "warning", aborted: "bad", lost: "bad", failed: "bad", stopped: "bad", silent: "bad" };
+
+function duration(seconds) {
+  if (seconds === null || seconds > 1e7) return "\u2013";
+  if (seconds < 60) return `${Math.round(seconds)} s`;
+  if (seconds < 3600) return `${Math.floor(seconds / 60)} min ${Math.round(seconds % 60)} s`;
+  return `${Math.floor(seconds / 3600)} h ${Math.round((seconds % 3600) / 60)} min`;
+}
+
+function over(state) {
+  return state && (state.status === "ended" || state.status === "aborted");
+}
+
+function showHead(state) {
+  const lost = !memory.connected;
+  const status = state ? state.status : "connecting";
+  $("status").textContent = lost && !over(state) ? (state ? "no connection" : "connecting") : status;
+  $("status").className = `pill ${lost && state && !over(state) ? "bad" : KIND[status] || ""}`;
+  const notices = [];
+  if (state && state.abort) notices.push(`${state.abort.from} ended the run: ${state.abort.reason}`);
+  if (state && state.non_finite.length) notices.push(`not finite: ${state.non_finite.join(", ")}`);
+  if (state && state.status === "ended") notices.push("the run has ended; this is its last state");
+  if (lost && state) notices.push(over(state) ? "the monitor has left" : "connection to the monitor lost; trying again. This is the last state heard");
+  $("notice").hidden = !notices.length;
+  $("notice").textContent = notices.join(" \u00b7 ");
+  $("notice").className = `notice ${state && state.status === "ended" && !state.non_finite.length ? "calm" : ""}`;
+  if (!state) return;
+  document.title = `${Math.floor(100 * state.progress)} % ${state.case} \u00b7 AMP-FSI`;
+  $("case").textContent = state.case;
+  $("run").textContent = state.run;
+  $("bar").style.width = `${100 * state.progress}%`;
+  const facts = [["t", `${short(state.t)} of ${short(state.t_end)}`], ["step", state.step], ["dt", short(state.dt)], ["limited by", state.dt_reason || "\u2013"],
+    ["steps/s", short(state.steps_per_s)], ["left", over(state) ? "\u2013" : duration(state.remaining_s)]];
+  $("facts").replaceChildren(...facts.map(([name, value]) => make("div", {}, make("span", {}, name + " "), make("b", {}, String(value ?? "\u2013")))));
+}
+
+function row(tag, cells) {
+  return make("tr", {}, ...cells.map((cell) => {
+    const element = make(tag, {});
+    element.append(cell instanceof Node ? cell : String(cell));
+    return element;
+  }));
+}
+
+function count(value) {
+  if (value === null) return "\u2013";
+  for (const [size, unit] of [[1e9, "G"], [1e6, "M"], [1e3, "k"]]) if (value >= size) return `${short(Number((value / size).toPrecision(3)))} ${unit}`;
+  return short(Number(value.toPrecision(3)));
+}
+
+function meter(share) {
+  if (share === null) return "\u2013";
+  const fill = make("i", {});
+  fill.style.width = `${100 * share}%`;
+  return make("span", {}, make("span", { className: "meter" }, fill), `${Math.round(100 * share)} / ${100 - Math.round(100 * share)} %`);
+}
+
+function health(program) {
+  const h = program.health;
+  if (program.role === "fluid") return `min \u03c1 ${short(h.min_rho)}, min p ${short(h.min_p)}, first order ${h.first_order_fallbacks}, floors ${h.floors}`;
+  return program.role === "solid" ? `min det F ${short(h.min_det_F)}` : "";
+}
+
+function showTables(state) {
+  const head = row("th", ["", "state", "step", "computing / waiting", "points/s", "steps/s", "messages/s", "bytes/s", "round trip p50 / p99", "health"]);
+  const rows = Object.entries(state.participants).map(([name, p]) => row("td", [name,
+    make("span", { className: KIND[p.standing] || "" }, p.standing), p.step, meter(p.computing_now ?? p.computing_share),
+    p.point_updates_per_s > 0 ? count(p.point_updates_per_s) : "\u2013", short(p.steps_per_s), count(p.bus.messages_per_s), count(p.bus.bytes_per_s),
+    `${short(p.bus.round_trip_p50_us / 1e3)} / ${short(p.bus.round_trip_p99_us / 1e3)} ms`, health(p)]));
+  $("programs").replaceChildren(head, ...rows);
+  const sides = Object.entries(state.interfaces);
+  $("interface-section").hidden = !sides.length;
+  $("interfaces").replaceChildren(row("th", ["", "velocity jump", "traction jump", "gap", "power", "p min", "p max", "v_n min", "v_n max"]),
+    ...sides.map(([name, s]) => row("td", [name, ...["velocity_jump", "traction_jump", "gap", "power", "p_min", "p_max", "v_min", "v_max"].map((k) => short(s[k]))])));
+}
+
+function showTabs(names) {
+  const key = names.join("\n") + memory.chosen;
+  if ($("tabs").dataset.key === key) return;
+  $("tabs").dataset.key = key;
+  $("tabs").replaceChildren(...(names.length > 1 ? names : []).map((name) => make("button", {
+    className: name === memory.chosen ? "on" : "", textContent: name, onclick: () => { memory.chosen = name; memory.stale = true; } })));
+}
+
+function showShapes(state) {
+  const factor = Number($("factor").value);
+  const sides = Object.entries(state.interfaces).filter(([, side]) => side.s.length > 1);
+  const range = spread(sides.flatMap(([, side]) => side.p_projected)) || [0, 1];
+  $("p-low").textContent = sides.length ? short(range[0]) : "";
+  $("p-high").textContent = sides.length ? short(range[1]) : "";
+  drawScale($("scale"));
+  drawShapes($("shape"), sides.map(([name, side]) => {
+    const n = side.s.length, first = memory.first[name], fits = first.x1.length === n;
+    const moved = (from, x) => x.map((value, k) => (fits ? from[k] + factor * (value - from[k]) : value));
+    return { name, p: side.p_projected, first, x1: moved(first.x1, side.x.slice(0, n)), x2: moved(first.x2, side.x.slice(n)) };
+  }), range);
+  $("shape-note").textContent = sides.length ? "dashed: the shape when this page first saw it" : "";
+}
+
+const HISTORIES = [["velocity_jump", "velocity jump", true], ["traction_jump", "traction jump", true], ["gap", "gap", true], ["power", "power", false],
+  ["p_max", "largest pressure", false], ["dt", "dt", false]];
+
+function showHistories() {
+  const wanted = HISTORIES.filter(([what]) => what === "dt" || memory.chosen);
+  if ($("histories").children.length !== wanted.length) $("histories").replaceChildren(...wanted.map(() => make("canvas", {})));
+  $("history-of").textContent = memory.chosen || "";
+  wanted.forEach(([what, title, log], k) => {
+    const list = memory.history[what === "dt" ? what : `${memory.chosen}.${what}`] || [];
+    drawPlot($("histories").children[k], { title: title + (log ? ", log" : ""), x: "t", log, nothing: "zero or nothing yet",
+      value: list.length ? short(list[list.length - 1][1]) : "",
+      curves: [{ x: list.map((e) => e[0]), y: list.map((e) => e[1]), colour: theme.projected }] });
+  });
+}
+
+function showProfiles(side) {
+  const curves = (gas, solid, projected) => [
+    { x: side.s, y: projected, colour: theme.projected, width: 2.2 },
+    { x: side.s, y: gas, colour: theme.gas, dash: [6, 4] }, { x: side.s, y: solid, colour: theme.solid, dash: [2, 4], width: 2 }];
+  const none = { x: "s", curves: [], nothing: "no interface" };
+  drawPlot($("pressure"), side ? { title: "pressure p", x: "s", curves: curves(side.p_predicted, side.p_predicted_solid, side.p_projected) } : { title: "pressure p", ...none });
+  drawPlot($("velocity"), side ? { title: "normal velocity v_n", x: "s", curves: curves(side.v_predicted_gas, side.v_predicted, side.v_projected) } : { title: "normal velocity v_n", ...none });
+}
+
+function show() {
+  requestAnimationFrame(show);
+  const moving = memory.connected && !over(memory.state);
+  const now = performance.now() / 1000;
+  if (!memory.stale) return;
+  memory.stale = false;
+  readTheme();
+  const state = memory.state;
+  showHead(state);
+  if (!state) return;
+  const names = Object.keys(state.interfaces);
+  if (!names.includes(memory.chosen)) memory.chosen = names[0] || null;
+  showTabs(names);
+  showShapes(state);
+  showProfiles(state.interfaces[memory.chosen]);
+  showHistories();
+  const ends = Object.values(memory.timeline).flatMap((line) => line.slice(-1).map((e) => e[0]));
+  drawTimeline($("timeline"), Object.entries(memory.timeline).map(([name, points]) => ({ name, points })), moving || !ends.length ? now : Math.max(...ends), SPAN);
+  showTables(state);
+}
+
+// ---- buttons
+
+function prepareControls() {
+  const token = new URLSearchParams(location.hash.slice(1)).get("token");
+  $("controls").hidden = !token;
+  $("controls").onclick = async (event) => {
+    const command = event.target.dataset.command;
+    if (!command || (command === "stop" && !confirm("Stop the run after this step?"))) return;
+    const answer = await fetch(`api/control?command=${command}`, { method: "POST", headers: { "X-AMP-FSI-Token": token } });
+    if (!answer.ok) alert(await answer.text());
+  };
+}
+
+function prepareTheme() {
+  const dark = window.matchMedia("(prefers-color-scheme: dark)");
+  const set = (name) => { document.documentElement.dataset.theme = name; memory.stale = true; };
+  const wanted = new URLSearchParams(location.search).get("theme");
+  set(wanted || (dark.matches ? "dark" : "light"));
+  dark.onchange = () => set(dark.matches ? "dark" : "light");
+  $("theme").onclick = () => set(document.documentElement.dataset.theme === "dark" ? "light" : "dark");
+}
+
+prepareTheme();
+prepareControls();
+$("factor").onchange = window.onresize = () => { memory.stale = true; };
+connect();
+show();

@@ -1,0 +1,257 @@
+"use strict";
+// Drawing on canvases: no state of the run is kept here.
+
+const theme = {};
+function readTheme() {
+  const style = getComputedStyle(document.documentElement);
+  for (const name of ["card", "ink", "dim", "rule", "grid", "gas", "solid", "projected", "busy", "idle", "bad"]) {
+    theme[name] = style.getPropertyValue("--" + name).trim();
+  }
+}
+
+// A number for people: four digits at most.
+function short(value) {
+  if (value === null || value === undefined || !isFinite(value)) return "\u2013";
+  if (value === 0) return "0";
+  const size = Math.abs(value);
+  if (size >= 1e5 || size < 1e-3) return value.toExponential(2).replace("e+", "e");
+  return String(Number(value.toPrecision(4)));
+}
+
+// A context in CSS pixels on a canvas as sharp as the screen; clears it.
+function open(canvas) {
+  const ratio = window.devicePixelRatio || 1, width = canvas.clientWidth, height = canvas.clientHeight;
+  if (canvas.width !== Math.round(width * ratio) || canvas.height !== Math.round(height * ratio)) {
+    canvas.width = Math.round(width * ratio);
+    canvas.height = Math.round(height * ratio);
+  }
+  const pen = canvas.getContext("2d");
+  pen.setTransform(ratio, 0, 0, ratio, 0, 0);
+  pen.clearRect(0, 0, width, height);
+  pen.font = "12px system-ui, 'DejaVu Sans', sans-serif";
+  pen.lineJoin = "round";
+  return { pen, width, height };
+}
+
+function ticks(low, high, count) {
+  const raw = (high - low) / count, power = Math.pow(10, Math.floor(Math.log10(raw)));
+  const step = [1, 2, 5, 10].map((m) => m * power).find((s) => s >= raw * 0.999);
+  const found = [];
+  for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; ++k) found.push(k * step);
+  return found;
+}
+
+// Labels of an axis: with a common offset where the numbers differ in their last digits only.
+function axis(low, high, count) {
+  const at = ticks(low, high, count), size = Math.max(Math.abs(low), Math.abs(high));
+  if (high - low < 1e-4 * size && at.length > 0) {
+    const offset = at[0];
+    return { offset, marks: at.map((v) => [v, v === offset ? "0" : (v - offset).toExponential(0).replace("e+", "e")]) };
+  }
+  return { offset: null, marks: at.map((v) => [v, Math.abs(v) < 1e-12 * size ? "0" : short(Number(v.toPrecision(6)))]) };
+}
+
+function spread(values) {
+  let low = Infinity, high = -Infinity;
+  for (const value of values) {
+    if (value === null || !isFinite(value)) continue;
+    low = Math.min(low, value);
+    high = Math.max(high, value);
+  }
+  if (low > high) return null;
+  const least = Math.max(2e-6 * Math.max(Math.abs(low), Math.abs(high)), 1e-300);
+  if (high - low < least) { low -= least / 2; high += least / 2; }
+  return [low, high];
+}
+
+// plot: {title, x label, curves: [{x, y, colour, dash, width}], log}. Returns nothing; says so where there is no data.
+function drawPlot(canvas, plot) {
+  const { pen, width, height } = open(canvas);
+  pen.fillStyle = theme.ink;
+  pen.textBaseline = "top";
+  pen.textAlign = "left";
+  pen.font = "600 12px system-ui, 'DejaVu Sans', sans-serif";
+  pen.fillText(plot.title, 2, 1);
+  pen.font = "11px system-ui, 'DejaVu Sans', sans-serif";
+  if (plot.value) {
+    pen.textAlign = "right";
+    pen.fillText(plot.value, width - 4, 1);
+  }
+  const map = (v) => (plot.log ? (v > 0 ? Math.log10(v) : null) : v);
+  const curves = plot.curves.map((c) => ({ ...c, y: c.y.map(map) }));
+  const across = spread(curves.flatMap((c) => c.x)), up = spread(curves.flatMap((c) => c.y));
+  if (!across || !up) {
+    pen.fillStyle = theme.dim;
+    pen.textAlign = "center";
+    pen.fillText(plot.nothing || "nothing yet", width / 2, height / 2);
+    return;
+  }
+  const pad = 0.06 * (up[1] - up[0]);
+  const [low, high] = [up[0] - pad, up[1] + pad];
+  const scale = axis(low, high, Math.max(2, Math.floor(height / 42)));
+  const box = { left: 58, right: width - 8, top: 20, bottom: height - 20 };
+  const place = (x, y) => [box.left + ((x - across[0]) / (across[1] - across[0])) * (box.right - box.left),
+                           box.bottom - ((y - low) / (high - low)) * (box.bottom - box.top)];
+  drawFrame(pen, box, scale, across, place, plot);
+  pen.save();
+  pen.beginPath();
+  pen.rect(box.left, box.top - 1, box.right - box.left + 1, box.bottom - box.top + 2);
+  pen.clip();
+  for (const curve of curves) drawCurve(pen, curve, place);
+  pen.restore();
+}
+
+function drawFrame(pen, box, scale, across, place, plot) {
+  pen.lineWidth = 1;
+  pen.strokeStyle = theme.grid;
+  pen.fillStyle = theme.dim;
+  pen.textBaseline = "middle";
+  pen.textAlign = "right";
+  for (const [value, label] of scale.marks) {
+    const y = Math.round(place(across[0], value)[1]) + 0.5;
+    pen.beginPath();
+    pen.moveTo(box.left, y);
+    pen.lineTo(box.right, y);
+    pen.stroke();
+    pen.fillText(plot.log ? "1e" + label : label, box.left - 6, y);
+  }
+  if (scale.offset !== null) {
+    pen.textAlign = "left";
+    pen.fillText(short(scale.offset) + " +", box.left + 4, box.top + 2);
+  }
+  pen.textBaseline = "top";
+  pen.textAlign = "center";
+  for (const [value, label] of axis(across[0], across[1], Math.max(2, Math.floor((box.right - box.left) / 110))).marks) {
+    const x = Math.round(place(value, 0)[0]) + 0.5;
+    pen.beginPath();
+    pen.moveTo(x, box.top);
+    pen.lineTo(x, box.bottom);
+    pen.stroke();
+    if (x < box.right - 22) pen.fillText(label, x, box.bottom + 5);
+  }
+  pen.textAlign = "right";
+  pen.fillText(plot.x, box.right, box.bottom + 5);
+  pen.strokeStyle = theme.rule;
+  pen.strokeRect(box.left + 0.5, box.top + 0.5, box.right - box.left - 1, box.bottom - box.top);
+}
+
+function drawCurve(pen, curve, place) {
+  pen.strokeStyle = curve.colour;
+  pen.lineWidth = curve.width || 1.6;
+  pen.setLineDash(curve.dash || []);
+  pen.beginPath();
+  let drawing = false;
+  for (let k = 0; k < Math.min(curve.x.length, curve.y.length); ++k) {
+    if (curve.y[k] === null || curve.y[k] === undefined) { drawing = false; continue; }
+    const [x, y] = place(curve.x[k], curve.y[k]);
+    if (drawing) pen.lineTo(x, y); else pen.moveTo(x, y);
+    drawing = true;
+  }
+  pen.stroke();
+  pen.setLineDash([]);
+}
+
+// Perceptually even colours from dark violet over green to yellow.
+const COLOURS = [[68, 1, 84], [72, 40, 120], [62, 74, 137], [49, 104, 142], [38, 130, 142], [31, 158, 137], [53, 183, 121],
+  [110, 206, 88], [181, 222, 43], [253, 231, 37]];
+function colour(part) {
+  const place = Math.min(Math.max(part, 0), 1) * (COLOURS.length - 1), k = Math.min(Math.floor(place), COLOURS.length - 2);
+  const mix = COLOURS[k].map((c, i) => Math.round(c + (place - k) * (COLOURS[k + 1][i] - c)));
+  return `rgb(${mix.join(",")})`;
+}
+
+function drawScale(canvas) {
+  const { pen, width, height } = open(canvas);
+  for (let x = 0; x < width; ++x) {
+    pen.fillStyle = colour(x / width);
+    pen.fillRect(x, 0, 1, height);
+  }
+}
+
+// shapes: [{name, x1, x2, p, first: {x1, x2}, closed}]; drawn with equal scales, the first shape seen behind as a thin line.
+function drawShapes(canvas, shapes, range) {
+  const { pen, width, height } = open(canvas);
+  const across = spread(shapes.flatMap((s) => [...s.x1, ...s.first.x1])), up = spread(shapes.flatMap((s) => [...s.x2, ...s.first.x2]));
+  if (!across || !up) {
+    pen.fillStyle = theme.dim;
+    pen.textAlign = "center";
+    pen.fillText("this run has no interface, or none was heard yet", width / 2, height / 2);
+    return;
+  }
+  const margin = 34;
+  const unit = Math.min((width - 2 * margin) / (across[1] - across[0]), (height - 2 * margin) / (up[1] - up[0]));
+  const middle = [(across[0] + across[1]) / 2, (up[0] + up[1]) / 2];
+  const place = (x, y) => [width / 2 + (x - middle[0]) * unit, height / 2 - (y - middle[1]) * unit];
+  drawRuler(pen, unit, width, height);
+  for (const shape of shapes) drawShape(pen, shape, range, place);
+}
+
+function drawRuler(pen, unit, width, height) {
+  const length = ticks(0, (0.3 * width) / unit, 2)[1];
+  pen.strokeStyle = theme.dim;
+  pen.fillStyle = theme.dim;
+  pen.lineWidth = 1;
+  pen.beginPath();
+  pen.moveTo(10, height - 12);
+  pen.lineTo(10 + length * unit, height - 12);
+  pen.moveTo(10.5, height - 16);
+  pen.lineTo(10.5, height - 8);
+  pen.moveTo(10.5 + length * unit, height - 16);
+  pen.lineTo(10.5 + length * unit, height - 8);
+  pen.stroke();
+  pen.textAlign = "left";
+  pen.textBaseline = "bottom";
+  pen.fillText(short(length), 16, height - 14);
+}
+
+function drawShape(pen, shape, range, place) {
+  pen.strokeStyle = theme.dim;
+  pen.lineWidth = 1;
+  pen.setLineDash([3, 4]);
+  pen.beginPath();
+  shape.first.x1.forEach((x, k) => pen.lineTo(...place(x, shape.first.x2[k])));
+  pen.stroke();
+  pen.setLineDash([]);
+  pen.lineWidth = 5;
+  pen.lineCap = "round";
+  for (let k = 0; k + 1 < shape.x1.length; ++k) {
+    const p = (shape.p[k] + shape.p[k + 1]) / 2;
+    pen.strokeStyle = isFinite(p) && shape.p[k] !== null ? colour((p - range[0]) / (range[1] - range[0])) : theme.bad;
+    pen.beginPath();
+    pen.moveTo(...place(shape.x1[k], shape.x2[k]));
+    pen.lineTo(...place(shape.x1[k + 1], shape.x2[k + 1]));
+    pen.stroke();
+  }
+  const [x, y] = place(shape.x1[0], shape.x2[0]);
+  pen.fillStyle = theme.ink;
+  pen.textAlign = "left";
+  pen.textBaseline = "bottom";
+  pen.fillText(shape.name, x + 9, y - 5);
+}
+
+// rows: [{name, points: [[time, share]]}] over the last `span` seconds before `now`.
+function drawTimeline(canvas, rows, now, span) {
+  canvas.style.height = 26 * Math.max(1, rows.length) + 22 + "px";
+  const { pen, width, height } = open(canvas);
+  const left = 110, right = width - 8;
+  const place = (time) => right - ((now - time) / span) * (right - left);
+  pen.textBaseline = "middle";
+  rows.forEach((row, index) => {
+    const top = 4 + 26 * index, tall = 20;
+    pen.fillStyle = theme.ink;
+    pen.textAlign = "right";
+    pen.fillText(row.name.slice(0, 16), left - 10, top + tall / 2);
+    row.points.forEach(([time, share], k) => {
+      if (k === 0) return;
+      const begin = Math.max(left, place(row.points[k - 1][0])), end = Math.min(right, place(time));
+      if (end <= begin || time - row.points[k - 1][0] > 5) return;
+      pen.fillStyle = theme.idle;
+      pen.fillRect(begin, top, end - begin + 0.5, tall);
+      pen.fillStyle = theme.busy;
+      pen.fillRect(begin, top + (1 - share) * tall, end - begin + 0.5, share * tall);
+    });
+  });
+  pen.fillStyle = theme.dim;
+  pen.textAlign = "center";
+  for (let ago = 0; ago <= span; ago += 10) pen.fillText(ago === 0 ? "now" : `-${ago} s`, Math.min(place(now - ago), right - 12), height - 8);
+}

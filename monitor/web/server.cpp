@@ -1,0 +1,218 @@
+#include "monitor/web/server.hpp"
+
+#include <fmt/format.h>
+#include <httplib.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <mutex>
+#include <random>
+#include <string_view>
+#include <thread>
+#include <utility>
+
+#include "common/core/failure.hpp"
+#include "monitor/json.hpp"
+#include "monitor/web/pages.hpp"
+
+namespace fsi::monitor {
+
+namespace {
+
+/// Browsers that follow the run at the same time; each has a thread.
+constexpr int most_streams = 12;
+constexpr int threads = most_streams + 4;
+/// A stream without news says this often that it lives [s].
+constexpr std::chrono::milliseconds heartbeat{1000};
+constexpr const char* token_header = "X-AMP-FSI-Token";
+
+bool is_loopback(const std::string& host) {
+  return host == "localhost" || host == "::1" || host.starts_with("127.");
+}
+
+/// The name in "name:port" or "[address]:port".
+std::string host_of(const std::string& header) {
+  if (header.starts_with("[")) return header.substr(1, header.find(']') - 1);
+  return header.substr(0, header.find(':'));
+}
+
+/// 128 bits that nobody can guess, in hexadecimal.
+std::string random_token() {
+  std::random_device source;
+  std::string token;
+  for (int k = 0; k < 4; ++k) token += fmt::format("{:08x}", source());
+  return token;
+}
+
+}  // namespace
+
+struct WebServer::Implementation {
+  struct Snapshot {
+    RunState state;
+    double now = 0;
+  };
+
+  explicit Implementation(WebOptions wishes) : options(std::move(wishes)), token(random_token()) {
+    server.new_task_queue = [] { return new httplib::ThreadPool(threads); };  // httplib deletes it
+    server.set_write_timeout(std::chrono::seconds(5));
+    server.set_keep_alive_max_count(100);
+    server.set_default_headers(
+        {{"Content-Security-Policy", "default-src 'self'; img-src data:; frame-ancestors 'none'"},
+         {"X-Content-Type-Options", "nosniff"},
+         {"Referrer-Policy", "no-referrer"},
+         {"Cache-Control", "no-store"}});
+    routes();
+    bind();
+    thread = std::thread([this] { server.listen_after_bind(); });
+  }
+
+  Implementation(const Implementation&) = delete;
+  Implementation& operator=(const Implementation&) = delete;
+  Implementation(Implementation&&) = delete;
+  Implementation& operator=(Implementation&&) = delete;
+  ~Implementation() {
+    stopping = true;
+    changed.notify_all();
+    server.stop();
+    thread.join();
+  }
+
+  void bind() {
+    if (options.port == 0) {
+      options.port = server.bind_to_any_port(options.host);
+    } else if (!server.bind_to_port(options.host, options.port)) {
+      options.port = -1;
+    }
+    if (options.port < 0) {
+      throw UserMistake(fmt::format("--web: the port cannot be used on '{}'; is it taken? 0 finds a free one",
+                                    options.host));
+    }
+  }
+
+  bool controllable() const { return options.request && is_loopback(options.host); }
+
+  void routes() {
+    // Another page in the same browser could reach this server under a name of its own (DNS rebinding).
+    server.set_pre_routing_handler([this](const httplib::Request& request, httplib::Response& response) {
+      if (!is_loopback(options.host) || is_loopback(host_of(request.get_header_value("Host"))))
+        return httplib::Server::HandlerResponse::Unhandled;
+      response.status = 403;
+      response.set_content("this page is for this machine only\n", "text/plain");
+      return httplib::Server::HandlerResponse::Handled;
+    });
+    file("/", page_html, "text/html; charset=utf-8");
+    file("/page.css", page_css, "text/css; charset=utf-8");
+    file("/page.js", page_js, "text/javascript; charset=utf-8");
+    file("/plots.js", plots_js, "text/javascript; charset=utf-8");
+    answer("/api/state.json", "application/json", to_json);
+    answer("/api/history.json", "application/json", history_json);
+    answer("/metrics", "text/plain; version=0.0.4; charset=utf-8", to_prometheus);
+    server.Get("/api/events", [this](const auto&, auto& response) { stream(response); });
+    server.Post("/api/control", [this](const auto& request, auto& response) { control(request, response); });
+  }
+
+  void file(const std::string& path, const char* content, const char* type) {
+    server.Get(path, [content, type](const auto&, auto& response) { response.set_content(content, type); });
+  }
+
+  void answer(const std::string& path, const char* type, std::string (*text)(const RunState&, double)) {
+    server.Get(path, [this, type, text](const auto&, auto& response) {
+      const auto known = snapshot();
+      if (known) {
+        response.set_content(text(known->state, known->now), type);
+      } else {
+        response.status = 503;
+      }
+    });
+  }
+
+  /// One state after the other as server-sent events, until the browser leaves.
+  void stream(httplib::Response& response) {
+    if (++streams > most_streams) {
+      --streams;
+      response.status = 503;
+      response.set_content("too many browsers\n", "text/plain");
+      return;
+    }
+    auto shown = std::make_shared<std::uint64_t>(0);
+    response.set_chunked_content_provider(
+        "text/event-stream",
+        [this, shown](std::size_t, httplib::DataSink& sink) { return send_next(*shown, sink); },
+        [this](bool) { --streams; });
+  }
+
+  bool send_next(std::uint64_t& shown, httplib::DataSink& sink) {
+    std::shared_ptr<const Snapshot> next;
+    {
+      std::unique_lock lock(mutex);
+      changed.wait_for(lock, heartbeat, [&] { return stopping || version != shown; });
+      if (version != shown) next = latest;
+      shown = version;
+    }
+    if (stopping) return false;
+    const std::string text =
+        next ? fmt::format("data: {}\n\n", to_json(next->state, next->now)) : ": alive\n\n";
+    return sink.write(text.data(), text.size());
+  }
+
+  void control(const httplib::Request& request, httplib::Response& response) {
+    constexpr std::array<std::string_view, 4> known = {"pause", "resume", "checkpoint", "stop"};
+    const std::string command = request.get_param_value("command");
+    if (!controllable() || request.get_header_value(token_header) != token) {
+      response.status = 403;
+      response.set_content("requests need the address that the monitor printed\n", "text/plain");
+    } else if (std::ranges::find(known, command) == known.end()) {
+      response.status = 400;
+      response.set_content("no such request\n", "text/plain");
+    } else {
+      response.set_content(options.request(command) + "\n", "text/plain");
+    }
+  }
+
+  std::shared_ptr<const Snapshot> snapshot() {
+    const std::scoped_lock lock(mutex);
+    return latest;
+  }
+
+  void publish(const RunState& state, double now) {
+    auto next = std::make_shared<const Snapshot>(Snapshot{.state = state, .now = now});
+    {
+      const std::scoped_lock lock(mutex);
+      latest = std::move(next);
+      ++version;
+    }
+    changed.notify_all();
+  }
+
+  WebOptions options;
+  std::string token;
+  httplib::Server server;
+  std::mutex mutex;
+  std::condition_variable changed;
+  std::shared_ptr<const Snapshot> latest;
+  std::uint64_t version = 0;
+  std::atomic<int> streams = 0;
+  std::atomic<bool> stopping = false;
+  std::thread thread;
+};
+
+WebServer::WebServer(WebOptions options)
+    : implementation_(std::make_unique<Implementation>(std::move(options))) {}
+WebServer::~WebServer() = default;
+
+std::string WebServer::url() const {
+  const WebOptions& options = implementation_->options;
+  const bool bracketed = options.host.find(':') != std::string::npos;
+  return fmt::format("http://{}{}{}:{}/{}", bracketed ? "[" : "", options.host, bracketed ? "]" : "",
+                     options.port, implementation_->controllable() ? "#token=" + implementation_->token : "");
+}
+
+void WebServer::publish(const RunState& state, double now) {
+  implementation_->publish(state, now);
+}
+
+}  // namespace fsi::monitor

@@ -1,0 +1,166 @@
+#!/usr/bin/python3
+"""`./launch/fsi monitor --web` serves the state of a run; `test_web.py Page` looks at its page in a headless Chromium."""
+
+import http.client
+import json
+import os
+import subprocess
+import sys
+import unittest
+import urllib.error
+import urllib.parse
+import urllib.request
+
+import browser
+from running import BIN, EndToEnd, FSI, until
+from test_lost_programs import LONG
+
+NOT_INSTALLED = 77  # exit code that CTest shows as skipped
+
+
+class WebTest(EndToEnd):
+    """A run and a monitor that serves it."""
+
+    def serve(self, run, *words):
+        """The monitor; its page's address is in `self.url`, without the token that allows requests."""
+        monitor = subprocess.Popen([FSI, "monitor", *words, "--web", "0"], stdin=subprocess.DEVNULL, text=True,
+                                   stdout=subprocess.PIPE,
+                                   env=os.environ | {"FSI_BIN": str(BIN), "XDG_RUNTIME_DIR": str(run.runtime)})
+        self.addCleanup(monitor.stdout.close)
+        self.addCleanup(monitor.wait)
+        self.addCleanup(monitor.kill)
+        self.url, _, fragment = monitor.stdout.readline().strip().partition("#")
+        self.token = fragment.removeprefix("token=")
+        return monitor
+
+    def begin(self, *words):
+        run = self.launch(*(words or LONG))
+        run.until_stepping()
+        return run, self.serve(run, str(run.directory))
+
+    def get(self, path, **headers):
+        with urllib.request.urlopen(urllib.request.Request(self.url + path, headers=headers), timeout=10) as answer:
+            return answer.read().decode()
+
+    def state(self):
+        return json.loads(self.get("api/state.json"))
+
+    def ask(self, command, token):
+        request = urllib.request.Request(f"{self.url}api/control?command={command}", method="POST",
+                                         headers={"X-AMP-FSI-Token": token})
+        try:
+            with urllib.request.urlopen(request, timeout=10) as answer:
+                return answer.status
+        except urllib.error.HTTPError as error:
+            with error:
+                return error.code
+
+
+class Server(WebTest):
+    def test_state_numbers_and_page_are_served_to_this_machine_only(self):
+        run, _ = self.begin()
+        self.assertTrue(self.url.startswith("http://127.0.0.1:"))
+        self.assertTrue(until(lambda: len(self.state()["participants"]) == 3))
+        self.assertEqual(self.state()["status"], "running")
+        self.assertIn("solid", self.state()["interfaces"])
+        self.assertGreater(len(json.loads(self.get("api/history.json"))["history"]["solid.gap"]), 3)
+        self.assertIn(f'amp_fsi_up{{run="{self.state()["run"]}"}} 1', self.get("metrics"))
+        for path in ("", "page.css", "page.js", "plots.js"):
+            content = self.get(path)
+            self.assertGreater(len(content), 1000)
+            self.assertNotIn("https://", content)  # nothing is loaded from elsewhere
+        with self.assertRaises(urllib.error.HTTPError) as refused:
+            self.get("api/state.json", Host="elsewhere.example")
+        self.assertEqual(refused.exception.code, 403)
+        refused.exception.close()
+        self.assertIsNone(run.process.poll())
+
+    def test_events_tell_every_change_and_the_end(self):
+        run, monitor = self.begin()
+        place = urllib.parse.urlsplit(self.url)
+        connection = http.client.HTTPConnection(place.hostname, place.port, timeout=20)
+        self.addCleanup(connection.close)
+        connection.request("GET", "/api/events")
+        answer = connection.getresponse()
+        self.assertEqual(answer.getheader("Content-Type"), "text/event-stream")
+
+        def events():
+            while True:
+                line = answer.readline().decode()
+                if line.startswith("data: "):
+                    yield json.loads(line[6:])
+
+        steps = []
+        for state in events():
+            if "step" in state:
+                steps.append(state["step"])
+            if len(steps) == 5:
+                break
+        self.assertGreater(steps[-1], steps[0])
+        self.assertEqual(self.ask("stop", "a guess"), 403)
+        self.assertEqual(self.ask("format_the_disk", self.token), 400)
+        self.assertEqual(self.ask("stop", self.token), 200)
+        last = next(state for state in events() if state["status"] == "ended")
+        self.assertEqual(run.wait(), 0, run.stderr)
+        self.assertEqual(last["step"], run.summary()["steps"])
+        self.assertEqual(self.state()["status"], "ended")  # it can still be looked at
+        monitor.terminate()
+        self.assertEqual(monitor.wait(timeout=10), 0)
+
+
+class Page(WebTest):
+    def setUp(self):
+        super().setUp()
+        self.browser = browser.Browser(browser.find())
+        self.addCleanup(self.browser.close)
+
+    def shows(self, element, words, seconds=30):
+        found = until(lambda: words in (self.browser.value(f"document.getElementById('{element}').innerText") or ""), seconds)
+        self.assertTrue(found, f"{element} does not show '{words}'")
+
+    def coloured(self, canvas):
+        """How many pixels of a canvas are drawn on."""
+        return self.browser.value(f"(() => {{ const c = document.getElementById('{canvas}'); const d = c.getContext('2d')"
+                                  ".getImageData(0, 0, c.width, c.height).data; let n = 0;"
+                                  " for (let k = 3; k < d.length; k += 4) n += d[k] > 0; return n; })()")
+
+    def test_page_follows_the_run_survives_its_end_and_the_loss_of_the_monitor(self):
+        run, monitor = self.begin()
+        self.browser.show(self.url + "#token=" + self.token)
+        self.shows("status", "running")
+        self.shows("programs", "alive")
+        self.shows("interfaces", "solid")
+        step = int(self.browser.value("memory.state.step"))
+        self.assertTrue(until(lambda: int(self.browser.value("memory.state.step")) > step + 5), "the page stands still")
+        for canvas in ("shape", "pressure", "velocity", "timeline"):
+            self.assertTrue(until(lambda: self.coloured(canvas) > 300), f"nothing is drawn on {canvas}")
+        self.assertEqual(self.browser.problems, [])
+        self.browser.value("document.querySelector('[data-command=pause]').click()")
+        self.shows("status", "paused")
+        self.browser.value("document.querySelector('[data-command=resume]').click()")
+        self.shows("status", "running")
+        self.assertEqual(self.ask("stop", self.token), 200)
+        self.shows("status", "ended")
+        self.shows("notice", "the run has ended")
+        self.assertEqual(run.wait(), 0, run.stderr)
+        self.assertEqual(self.browser.value("memory.state.step"), run.summary()["steps"])
+        self.browser.show(self.url)  # a page opened afterwards shows it too
+        self.shows("status", "ended")
+        self.assertEqual(self.browser.problems, [])
+        monitor.kill()
+        self.shows("notice", "the monitor has left")
+
+    def test_lost_connection_is_shown_while_the_run_goes_on(self):
+        run, monitor = self.begin()
+        self.browser.show(self.url)
+        self.shows("status", "running")
+        monitor.kill()
+        self.shows("status", "no connection")
+        self.assertIsNone(run.process.poll())
+
+
+if __name__ == "__main__":
+    if sys.argv[1:] == ["Page"] and browser.find() is None:
+        print("not tested: the package chromium is not installed, so no page can be looked at")
+        sys.exit(NOT_INSTALLED)
+    unittest.main()
