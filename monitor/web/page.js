@@ -103,8 +103,8 @@ function showHead(state) {
   $("case").textContent = state.case;
   $("run").textContent = state.run;
   $("bar").style.width = `${100 * state.progress}%`;
-  const facts = [["t", `${short(state.t)} of ${short(state.t_end)}`], ["step", state.step], ["dt", short(state.dt)], ["limited by", state.dt_reason || "\u2013"],
-    ["steps/s", short(state.steps_per_s)], ["left", over(state) ? "\u2013" : duration(state.remaining_s)]];
+  const facts = [["t", `${short(state.t)} of ${short(state.t_end)}`], ["step", state.step], ["dt", short(state.dt)], ["steps/s", short(state.steps_per_s)],
+    ["left", over(state) ? "\u2013" : duration(state.remaining_s)], ["limited by", state.dt_reason || "\u2013"]];
   $("facts").replaceChildren(...facts.map(([name, value]) => make("div", {}, make("span", {}, name + " "), make("b", {}, String(value ?? "\u2013")))));
 }
 
@@ -166,7 +166,7 @@ function showShapes(state) {
   drawShapes($("shape"), sides.map(([name, side]) => {
     const n = side.s.length, first = memory.first[name], fits = first.x1.length === n;
     const moved = (from, x) => x.map((value, k) => (fits ? from[k] + factor * (value - from[k]) : value));
-    return { name, p: side.p_projected, first, x1: moved(first.x1, side.x.slice(0, n)), x2: moved(first.x2, side.x.slice(n)) };
+    return { name, p: side.p_projected, closed: side.closed, first, x1: moved(first.x1, side.x.slice(0, n)), x2: moved(first.x2, side.x.slice(n)) };
   }), range);
   $("shape-note").textContent = sides.length ? "dashed: the shape when this page first saw it" : "";
 }
@@ -187,12 +187,16 @@ function showHistories() {
 }
 
 function showProfiles(side) {
-  const curves = (gas, solid, projected) => [
-    { x: side.s, y: projected, colour: theme.projected, width: 2.2 },
-    { x: side.s, y: gas, colour: theme.gas, dash: [6, 4] }, { x: side.s, y: solid, colour: theme.solid, dash: [2, 4], width: 2 }];
+  const minus = $("minus").value === "1";
+  const curves = (gas, solid, projected) => {
+    const shown = (values) => (minus ? values.map((v, k) => (v === null || projected[k] === null ? null : v - projected[k])) : values);
+    return [{ x: side.s, y: shown(projected), colour: theme.projected, width: 2.2 },
+      { x: side.s, y: shown(gas), colour: theme.gas, dash: [6, 4] }, { x: side.s, y: shown(solid), colour: theme.solid, dash: [2, 4], width: 2 }];
+  };
   const none = { x: "s", curves: [], nothing: "no interface" };
-  drawPlot($("pressure"), side ? { title: "pressure p", x: "s", curves: curves(side.p_predicted, side.p_predicted_solid, side.p_projected) } : { title: "pressure p", ...none });
-  drawPlot($("velocity"), side ? { title: "normal velocity v_n", x: "s", curves: curves(side.v_predicted_gas, side.v_predicted, side.v_projected) } : { title: "normal velocity v_n", ...none });
+  const title = (name) => (minus && side ? `${name} minus projected` : name);
+  drawPlot($("pressure"), side ? { title: title("pressure p"), x: "s", curves: curves(side.p_predicted, side.p_predicted_solid, side.p_projected) } : { title: "pressure p", ...none });
+  drawPlot($("velocity"), side ? { title: title("normal velocity v_n"), x: "s", curves: curves(side.v_predicted_gas, side.v_predicted, side.v_projected) } : { title: "normal velocity v_n", ...none });
 }
 
 function show() {
@@ -240,6 +244,6 @@ function prepareTheme() {
 
 prepareTheme();
 prepareControls();
-$("factor").onchange = window.onresize = () => { memory.stale = true; };
+$("factor").onchange = $("minus").onchange = window.onresize = () => { memory.stale = true; };
 connect();
 show();

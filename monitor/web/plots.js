@@ -51,6 +51,18 @@ function axis(low, high, count) {
   return { offset: null, marks: at.map((v) => [v, Math.abs(v) < 1e-12 * size ? "0" : short(Number(v.toPrecision(6)))]) };
 }
 
+// Marks of a logarithmic axis between powers of ten: 1e-3, 2e-3, 5e-3 ... while there is room, else whole powers.
+function logAxis(low, high, count) {
+  const all = [];
+  for (let power = Math.floor(low); power <= high; ++power) {
+    for (const first of [1, 2, 5]) all.push([power + Math.log10(first), `${first}e${power}`]);
+  }
+  const within = all.filter(([place]) => place >= low && place <= high);
+  if (within.length <= 2 * count) return { offset: null, marks: within };
+  const whole = within.filter(([, label]) => label.startsWith("1")), every = Math.ceil(whole.length / (count + 1));
+  return { offset: null, marks: whole.filter((_, k) => k % every === 0) };
+}
+
 function spread(values) {
   let low = Infinity, high = -Infinity;
   for (const value of values) {
@@ -88,7 +100,7 @@ function drawPlot(canvas, plot) {
   }
   const pad = 0.06 * (up[1] - up[0]);
   const [low, high] = [up[0] - pad, up[1] + pad];
-  const scale = axis(low, high, Math.max(2, Math.floor(height / 42)));
+  const scale = (plot.log ? logAxis : axis)(low, high, Math.max(2, Math.floor(height / 42)));
   const box = { left: 58, right: width - 8, top: 20, bottom: height - 20 };
   const place = (x, y) => [box.left + ((x - across[0]) / (across[1] - across[0])) * (box.right - box.left),
                            box.bottom - ((y - low) / (high - low)) * (box.bottom - box.top)];
@@ -113,7 +125,7 @@ function drawFrame(pen, box, scale, across, place, plot) {
     pen.moveTo(box.left, y);
     pen.lineTo(box.right, y);
     pen.stroke();
-    pen.fillText(plot.log ? "1e" + label : label, box.left - 6, y);
+    pen.fillText(label, box.left - 6, y);
   }
   if (scale.offset !== null) {
     pen.textAlign = "left";
@@ -205,6 +217,12 @@ function drawRuler(pen, unit, width, height) {
 }
 
 function drawShape(pen, shape, range, place) {
+  if (shape.closed) {
+    pen.fillStyle = theme.grid;
+    pen.beginPath();
+    shape.x1.forEach((x, k) => pen.lineTo(...place(x, shape.x2[k])));
+    pen.fill();
+  }
   pen.strokeStyle = theme.dim;
   pen.lineWidth = 1;
   pen.setLineDash([3, 4]);
