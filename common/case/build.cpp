@@ -9,6 +9,7 @@
 
 #include "common/case/build_domain.hpp"
 #include "common/case/build_shape.hpp"
+#include "common/case/laws.hpp"
 #include "common/case/reader.hpp"
 
 namespace fsi {
@@ -18,9 +19,10 @@ namespace {
 using config::fail;
 using config::Node;
 
-std::map<std::string, double> parameters_of(const Node& root) {
+/// Named numbers under `key`.
+std::map<std::string, double> numbers_of(const Node& owner, const char* key) {
   std::map<std::string, double> result;
-  if (const Node* node = root.find("parameters")) {
+  if (const Node* node = owner.find(key)) {
     for (const config::Entry& entry : node->entries) result[entry.key] = *entry.value.number;
   }
   return result;
@@ -85,15 +87,30 @@ SolidScheme solid_scheme_of(const Node& node) {
   return result;
 }
 
+bool has_lame_constants(const SolidSpec& solid) {
+  return solid.law != "rigid" && solid.law != external_law;
+}
+
+/// `program` and an external law go together.
+void check_program(const SolidSpec& solid, const Node& node, const std::string& path) {
+  const bool external = solid.law == external_law;
+  if (external == !solid.program.empty()) return;
+  if (external) fail(node.place, path, "law `external` needs `program: NAME`, the program that is the solid");
+  fail(node.find("program")->place, path + ".program", "belongs to `law: external`");
+}
+
 SolidSpec solid_of(const Reader& reader, const config::Entry& entry) {
   const Node& node = entry.value;
   const Owner owner{.node = node, .name = entry.key, .path = "solids." + entry.key, .partner = ""};
   SolidSpec result;
   result.name = entry.key;
   Reader::assign(node, "law", result.law);
+  Reader::assign(node, "program", result.program);
+  result.data = numbers_of(node, "data");
+  check_program(result, node, owner.path);
   Reader::assign(node, "rho", result.rho);
   for (const auto& [key, modulus] : {std::pair{"lambda", &result.lambda}, std::pair{"mu", &result.mu}}) {
-    if (result.law != "rigid" && node.find(key) == nullptr) {
+    if (has_lame_constants(result) && node.find(key) == nullptr) {
       fail(node.place, owner.path, fmt::format("`{}` is missing (Lame constant [pressure])", key));
     }
     Reader::assign(node, key, *modulus);
@@ -193,7 +210,7 @@ Case build_case(const Node& root, const Scope& scope) {
   Case result;
   Reader::assign(root, "name", result.name);
   Reader::assign(root, "title", result.title);
-  result.parameters = parameters_of(root);
+  result.parameters = numbers_of(root, "parameters");
   result.grid_factor = scope.constants.at("j");
   result.time = time_of(*root.find("time"));
   if (const Node* node = root.find("interface")) {

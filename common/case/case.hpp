@@ -126,7 +126,9 @@ struct SolidScheme {
 
 struct SolidSpec {
   std::string name;
-  std::string law;  ///< the executable is solid_solver_<law>
+  std::string law;      ///< the executable is solid_solver_<law>, or `program` where the law is external
+  std::string program;  ///< of an external solid: a name among the programs, or a path
+  std::map<std::string, double> data;  ///< numbers for that program
   double rho = 1, lambda = 1, mu = 1;
   GridSpec grid;
   std::array<BoundarySpec, 4> boundary;

@@ -8,6 +8,7 @@
 #include "common/case/check_meeting.hpp"
 #include "common/case/check_overlap.hpp"
 #include "common/case/grid_points.hpp"
+#include "common/case/laws.hpp"
 #include "common/core/suggest.hpp"
 #include "common/core/types.hpp"
 
@@ -332,7 +333,7 @@ void check_case(const Case& problem, const Node& root) {
     }
     check_grid(solid.grid, at(root, {"solids", solid.name, "grid"}),
                fmt::format("solids.{}.grid", solid.name));
-    if (solid.law == "rigid") continue;  // needs its outline only
+    if (solid.law == "rigid" || solid.law == external_law) continue;  // need their outline only
     check_overlap({.background = solid.grid,
                    .body_fitted = solid.body_fitted,
                    .owner = at(root, {"solids", solid.name}),

@@ -147,12 +147,24 @@ constexpr array solid_initial_keys{
 };
 constexpr Section solid_initial{.title = "Initial state of a solid", .keys = solid_initial_keys};
 
+constexpr Key data_element{.name = "number", .type = Type::number, .meaning = "a number for the program"};
+
 constexpr array solid_keys{
     Key{.name = "law",
         .type = Type::word,
-        .meaning = "constitutive law; its program is solid_solver_<law>",
+        .meaning = "constitutive law; its program is solid_solver_<law>, or `program` where it is `external`",
         .required = true,
         .words = law_names},
+    Key{.name = "program",
+        .type = Type::text,
+        .meaning = "the program of an external solid: a name among the programs of this project, or a path "
+                   "with a / in it, which counts from where fsi is called",
+        .fallback = "that of `law`"},
+    Key{.name = "data",
+        .type = Type::named,
+        .meaning = "numbers for the program of an external solid",
+        .fallback = "none",
+        .element = &data_element},
     Key{.name = "rho",
         .meaning = "density of the reference configuration",
         .unit = "mass/volume",
@@ -161,12 +173,12 @@ constexpr array solid_keys{
     Key{.name = "lambda",
         .meaning = "Lame constant",
         .unit = "pressure",
-        .fallback = "required, but where `law` is `rigid`",
+        .fallback = "required, but where `law` is `rigid` or `external`",
         .range = not_negative},
     Key{.name = "mu",
         .meaning = "Lame constant (shear modulus)",
         .unit = "pressure",
-        .fallback = "required, but where `law` is `rigid`",
+        .fallback = "required, but where `law` is `rigid` or `external`",
         .range = positive},
     Key{.name = "grid",
         .type = Type::section,

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "common/case/laws.hpp"
 #include "common/core/config.hpp"
 #include "common/core/failure.hpp"
 
@@ -68,7 +69,9 @@ std::vector<ParticipantSummary> participants_of(const Case& problem) {
   std::vector<ParticipantSummary> result;
   if (problem.fluid) result.push_back({"fluid", "fluid", "fluid_solver", ""});
   for (const SolidSpec& solid : problem.solids) {
-    result.push_back({solid.name, "solid", "solid_solver_" + solid.law, solid.law});
+    const bool external = solid.law == external_law;
+    result.push_back(
+        {solid.name, "solid", external ? solid.program : "solid_solver_" + solid.law, solid.law});
   }
   if (is_coupled(problem)) result.push_back({"coupler", "coupler", "coupler", ""});
   return result;

@@ -110,7 +110,7 @@ def forbidden(path, quoted, target, generated):
     folder, where = path.parts[0], path.as_posix()
     if folder in PROGRAM_FOLDERS and top(target) in PROGRAM_FOLDERS and top(target) != folder:
         return f"the programs meet only on the bus: {folder} must not include {top(target)}"
-    if folder in ("common", "reference") and top(target) in PROGRAM_FOLDERS:
+    if folder in ("common", "reference", "examples") and top(target) in PROGRAM_FOLDERS:
         if not (target.startswith("solid_solver/laws/") and where.startswith(("reference/", "common/exact/"))):
             return f"{folder} must not know the program {top(target)}"
     if where.startswith("common/grid/") and (target.startswith(("common/bus/", "dds/")) or target in generated):
@@ -129,7 +129,7 @@ def forbidden(path, quoted, target, generated):
 
 def check_includes(root):
     generated = {path.stem + ".h" for path in files(root, (".idl",), ("idl",))}
-    folders = (*PROGRAM_FOLDERS, "common", "reference")
+    folders = (*PROGRAM_FOLDERS, "common", "reference", "examples")
     for path in files(root, CXX, folders):
         for number, quoted, target in includes_of(root, path):
             if reason := forbidden(path, quoted, target, generated):

@@ -145,7 +145,11 @@ const Mistake values[] = {
     {"UnknownLaw", "law: neo_hookean", "law: neohooke",
      "case.yaml:18:10: solids.solid.law: `neohooke` does not exist here; did you mean `neo_hookean`? (one of "
      "linear_elastic, saint_venant_kirchhoff, "
-     "neo_hookean, rigid)"},
+     "neo_hookean, rigid, external)"},
+    {"ExternalSolidWithoutAProgram", "law: neo_hookean", "law: external",
+     "case.yaml:18:5: solids.solid: law `external` needs `program: NAME`, the program that is the solid"},
+    {"ProgramOfALaw", "law: neo_hookean", "law: neo_hookean\n    program: mine",
+     "case.yaml:19:14: solids.solid.program: belongs to `law: external`"},
     {"ModulusLeftOutWithALawOfDeformation", "    mu: 1\n", "",
      "case.yaml:18:5: solids.solid: `mu` is missing (Lame constant [pressure])"},
     {"OutputAfterTheEnd", "times: [0.5]", "times: [0.5, 2]",
