@@ -22,6 +22,7 @@ class Case:
     programs: dict      # {participant: executable}, in the order they start
     reference: str      # kind
     expect: list        # of {quantity, max, min, equals}
+    end: float = 0.0    # time.end
 
     def speaker(self):
         """The participant that reports progress: the coupler, or the lone solver."""
@@ -49,4 +50,5 @@ def resolve(case, overrides, laws):
     answer = json.loads(_ask("resolve", case, overrides, laws))
     return Case(name=answer["name"], text=answer["resolved"],
                 programs={entry["name"]: entry["executable"] for entry in answer["participants"]},
-                reference=answer["reference"]["kind"], expect=answer["expect"])
+                reference=answer["reference"]["kind"], expect=answer["expect"],
+                end=answer["time"]["end"])

@@ -29,8 +29,12 @@ def _add_case(parser):
 
 def _run(options):
     from fsi_launch.run import Request, run
-    return run(Request(case=options.case, overrides=options.overrides, laws=options.laws, out=options.out,
-                       overwrite=options.overwrite, progress=options.progress)).code
+    result = run(Request(case=options.case, overrides=options.overrides, laws=options.laws, out=options.out,
+                         overwrite=options.overwrite, progress=options.progress, frames=options.movie))
+    if options.movie and result.code == DONE:
+        from fsi_launch import plot
+        plot.draw_movie(result.directory)
+    return result.code
 
 
 def _check(options):
@@ -102,6 +106,8 @@ def _parser():
     verb.add_argument("--out", metavar="DIR", help="folder of the results (default: runs/CASE-TIME)")
     verb.add_argument("--overwrite", action="store_true", help="replace the results of a former run in DIR")
     verb.add_argument("--no-progress", dest="progress", action="store_false", help="no progress bar")
+    verb.add_argument("--movie", action="store_true", help="more output times, and an animated file DIR/plots/movie.mp4 of "
+                      "them (.gif without ffmpeg)")
     verb.set_defaults(act=_run)
 
     verb = verbs.add_parser("check", description="Checks a case file and starts nothing.")
@@ -148,6 +154,8 @@ def _parser():
                             "pictures into DIR/plots. Of several runs it draws what can be compared.")
     verb.add_argument("directories", metavar="DIR", nargs="+", help="folder of a run or of fsi converge")
     verb.add_argument("--contours", action="store_true", help="contour lines over the fields")
+    verb.add_argument("--movie", action="store_true", help="also an animated file, one frame per output (.mp4, .gif without "
+                      "ffmpeg)")
     verb.add_argument("--out", metavar="DIR", help="folder of the pictures (default: plots in the first DIR)")
     verb.set_defaults(act=_plot)
 

@@ -15,6 +15,9 @@ from fsi_launch.progress import Progress
 from fsi_launch.supervise import Outcome, Program, Supervisor
 
 
+FRAMES = 60     # of a movie
+
+
 @dataclass
 class Request:
     """What a person asks for."""
@@ -27,6 +30,7 @@ class Request:
     progress: bool = True
     quiet: bool = False
     judge: bool = True      # hold the results against the case's expectations
+    frames: bool = False    # output times for a movie, unless the overrides say some
 
 
 @dataclass
@@ -194,6 +198,8 @@ def _applicable(case, request, say):
 def run(request):
     """Runs a case to its end. Throws UserMistake before anything is started; everything later is in the Result."""
     case = cases.resolve(request.case, request.overrides, request.laws)
+    if request.frames and not any(entry.startswith("output.") for entry in request.overrides):
+        case = cases.resolve(request.case, [*request.overrides, f"output.every={case.end / FRAMES:.17g}"], request.laws)
     for program in case.programs.values():
         paths.program(program)
     directory = _make_directory(request, case.name)

@@ -15,7 +15,7 @@ def _folder(name):
 
 def _one(directory, out, contours):
     """(name, figure) of everything the results of one run hold."""
-    from fsi_launch.plot import beams, convergence, curves, data, disk, fields, grids, scales, streamlines
+    from fsi_launch.plot import beams, convergence, curves, data, disk, fields, grids, scales, schlieren, streamlines
     series, tables, table = data.all_series(directory), data.all_tables(directory), data.convergence(directory)
     if not series and not tables and not table:
         raise UserMistake(f"'{directory}' holds no results: no fluid.h5, solid_*.h5, tables or converge.json")
@@ -23,7 +23,8 @@ def _one(directory, out, contours):
     size = scales.of_run(series)
     return itertools.chain(
         convergence.pictures(table), fields.pictures(series, fields.Look(size, contours)), grids.pictures(series),
-        disk.pictures(series, data.disk_reference(directory)), streamlines.pictures(series), beams.pictures(series),
+        disk.pictures(series, data.disk_reference(directory)), schlieren.pictures(series), streamlines.pictures(series),
+        beams.pictures(series),
         curves.pictures(series, tables, size))
 
 
@@ -33,12 +34,27 @@ def _several(directories, out):
     return compare.pictures(directories, out)
 
 
-def main(options):
-    """Draws everything the results hold and prints the paths of the pictures."""
+def _style():
     try:
         from fsi_launch.plot import style
     except ModuleNotFoundError as error:
         raise UserMistake(f"plot needs Debian's {error.name}: apt-get install python3-h5py python3-matplotlib") from None
+    return style
+
+
+def draw_movie(directory, out=None):
+    """Makes the animated file of a run and prints its path."""
+    _style().use()
+    from fsi_launch.plot import data, movie
+    series = data.all_series(Path(directory))
+    if not series:
+        raise UserMistake(f"'{directory}' holds no fields: no fluid.h5, solid_*.h5")
+    print(movie.make(series, Path(out) if out else Path(directory) / "plots"), flush=True)
+
+
+def main(options):
+    """Draws everything the results hold and prints the paths of the pictures."""
+    style = _style()
     directories = [_folder(name) for name in options.directories]
     out = Path(options.out) if options.out else directories[0] / "plots"
     style.use()
@@ -47,4 +63,6 @@ def main(options):
         path = out / f"{name}.png"
         style.save(figure, path)
         print(path, flush=True)
+    if options.movie:
+        draw_movie(directories[0], out)
     return DONE

@@ -1,7 +1,7 @@
 """What several runs have in common, drawn side by side."""
 
 from fsi_launch.failure import UserMistake
-from fsi_launch.plot import beams, data
+from fsi_launch.plot import beams, data, outlines
 
 
 def _case_of(directory):
@@ -9,8 +9,8 @@ def _case_of(directory):
     return path.read_text(encoding="utf-8") if path.is_file() else ""
 
 
-def _beams(directories, out):
-    runs = [beams.run_of(data.all_series(directory), _case_of(directory)) for directory in directories]
+def _beams(series, cases, out):
+    runs = [beams.run_of(one, case) for one, case in zip(series, cases)]
     runs = [run for run in runs if run.beams]
     if not runs:
         return
@@ -24,7 +24,8 @@ def _beams(directories, out):
 def pictures(directories, out):
     """(name, figure) for each kind of thing at least one of the runs holds."""
     out.mkdir(parents=True, exist_ok=True)
-    parts = [*_beams(directories, out)]
+    series, cases = [data.all_series(one) for one in directories], [_case_of(one) for one in directories]
+    parts = [*_beams(series, cases, out), *outlines.pictures(series, cases, [one.name for one in directories], out)]
     if not parts:
-        raise UserMistake("the runs hold nothing that can be compared: several runs are for beams")
+        raise UserMistake("the runs hold nothing that can be compared: several runs are for beams and for outlines of solids")
     yield from parts

@@ -73,14 +73,20 @@ def _closes(x1, x2):
     if x1.shape[1] < 4:
         return False
     gap = np.hypot(x1[:, -1] - x1[:, 0], x2[:, -1] - x2[:, 0])
-    return bool((gap < 1.5 * np.hypot(np.diff(x1, axis=1), np.diff(x2, axis=1)).max(axis=1)).all())
+    return bool((gap <= 1.5 * np.hypot(np.diff(x1, axis=1), np.diff(x2, axis=1)).max(axis=1)).all())
+
+
+def _is_there_again(x1, x2):
+    """True if the last column is the first one already."""
+    gap = np.hypot(x1[:, -1] - x1[:, 0], x2[:, -1] - x2[:, 0])
+    return bool((gap <= 1e-9 * np.hypot(np.ptp(x1), np.ptp(x2))).all())
 
 
 def _read_grid(name, group):
     arrays = {key: np.asarray(group[key]) for key in group if key != "x"}
     arrays.setdefault("kind", np.full(arrays["x1"].shape, DISCRETISED))  # a program with one grid uses all of it
     closed = _closes(arrays["x1"], arrays["x2"])
-    if closed:
+    if closed and not _is_there_again(arrays["x1"], arrays["x2"]):
         arrays = {key: np.concatenate([values, values[:, :1]], axis=1) for key, values in arrays.items()}
     fields = {key: values for key, values in arrays.items() if key not in NOT_FIELDS}
     return Grid(name, arrays["x1"], arrays["x2"], arrays["kind"].astype(int), fields, closed)

@@ -18,9 +18,17 @@ def corners(shape):
     return np.stack([number[:-1, :-1], number[:-1, 1:], number[1:, 1:], number[1:, :-1]], axis=-1)
 
 
+def _welded(grid):
+    """Corners of every cell; the last column of a grid that closes on itself is the first one."""
+    quads = corners(grid.x1.shape)
+    if grid.closed:
+        quads[:, -1, 1], quads[:, -1, 2] = quads[:, 0, 0], quads[:, 0, 3]
+    return quads
+
+
 def triangles(grid, shown=None):
     """The cells `shown` (all between used points unless told) as two triangles each; None if there are none."""
-    quads = corners(grid.x1.shape)[cells(grid.used()) if shown is None else shown]
+    quads = _welded(grid)[cells(grid.used()) if shown is None else shown]
     if not len(quads):
         return None
     return Triangulation(grid.x1.ravel(), grid.x2.ravel(), np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]]))

@@ -1,0 +1,144 @@
+"""Numerical schlieren of the gas with the speed of the solids (the paper's figure 16): grey is exp(-STRENGTH |grad rho| / scale)."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from matplotlib import pyplot
+from matplotlib.collections import LineCollection, TriMesh
+
+from fsi_launch.plot import mesh, style
+
+STRENGTH = 12.0
+TYPICAL = 99.9     # percentile of |grad rho| that is drawn as exp(-STRENGTH)
+STEEP = 0.02       # density jumps by this part of itself between neighbours: a shock to be shown
+MOST_TIMES = 6
+PANEL = 4.1        # width [inch]
+PANELS_IN_A_ROW = 3
+SPEED_MAP = "plasma"
+
+
+def _slope(values, axis):
+    """Differences along an axis, central where both neighbours are known, one-sided beside unknown ones (NaN)."""
+    values = np.moveaxis(values, axis, 0)
+    ahead = np.full(values.shape, np.nan)
+    ahead[:-1] = np.diff(values, axis=0)
+    behind = np.full(values.shape, np.nan)
+    behind[1:] = ahead[:-1]
+    central = 0.5 * (ahead + behind)
+    result = np.where(np.isnan(central), np.where(np.isnan(ahead), behind, ahead), central)
+    return np.moveaxis(result, 0, axis)
+
+
+def gradient(grid, key):
+    """|grad f| on one component grid, zero where it is not known."""
+    f = np.where(grid.used(), grid.fields[key], np.nan)
+    x1, x2 = (np.where(grid.used(), x, np.nan) for x in (grid.x1, grid.x2))
+    (f_r, x_r, y_r), (f_s, x_s, y_s) = ([_slope(one, axis) for one in (f, x1, x2)] for axis in (1, 0))
+    if grid.closed:  # the first column is there once more at the end: both have neighbours on both sides
+        for slopes, values in ((f_r, f), (x_r, x1), (y_r, x2)):
+            slopes[:, 0] = slopes[:, -1] = 0.5 * (values[:, 1] - values[:, -2])
+    area = x_r * y_s - x_s * y_r
+    size = np.hypot(f_r * y_s - f_s * y_r, f_s * x_r - f_r * x_s) / np.abs(area)
+    return np.nan_to_num(size, nan=0.0, posinf=0.0)
+
+
+def has_shocks(gas):
+    """True where the density of an output changes steeply between neighbours."""
+    for grid in gas.grids:
+        rho = np.where(grid.used(), grid.fields["rho"], np.nan)
+        for axis in (0, 1):
+            jump = np.abs(np.diff(rho, axis=axis))
+            if np.nanmax(jump, initial=0.0) > STEEP * np.nanmean(rho):
+                return True
+    return False
+
+
+@dataclass
+class Scales:
+    """What all pictures of a run share."""
+
+    gradient: float     # of the density, drawn nearly black
+    speed: float        # of the solids; 0 without solids
+
+
+def scales(gas_outputs, solid_outputs):
+    sizes = [gradient(grid, "rho")[grid.used()] for gas in gas_outputs for grid in gas.grids]
+    speeds = [grid.speed()[grid.used()].max() for outputs in solid_outputs for one in outputs for grid in one.grids]
+    return Scales(np.percentile(np.concatenate(sizes), TYPICAL), max(speeds, default=0.0))
+
+
+def _shade(axes, grid, grey):
+    """Grey values of one component grid: a picture of a Cartesian one, triangles of others."""
+    if grid.is_cartesian():
+        shown = np.ma.masked_array(grey, ~grid.used())
+        h1, h2 = grid.x1[0, 1] - grid.x1[0, 0], grid.x2[1, 0] - grid.x2[0, 0]
+        axes.imshow(shown, cmap="gray", vmin=0, vmax=1, origin="lower", interpolation="nearest", aspect="equal",
+                    extent=(grid.x1.min() - h1 / 2, grid.x1.max() + h1 / 2, grid.x2.min() - h2 / 2, grid.x2.max() + h2 / 2))
+    elif triangles := mesh.triangles(grid):
+        drawn = TriMesh(triangles, cmap="gray")
+        drawn.set_array(grey.ravel())
+        drawn.set_clim(0, 1)
+        axes.add_collection(drawn, autolim=False)
+
+
+def _colour(axes, solids, speed):
+    """Speed of the solids; returns what a colour bar needs."""
+    drawn = None
+    for one in solids:
+        for grid in one.grids:
+            if triangles := mesh.triangles(grid):
+                drawn = TriMesh(triangles, cmap=SPEED_MAP)
+                drawn.set_array(np.where(grid.used(), grid.speed(), 0).ravel())
+                drawn.set_clim(0, speed)
+                axes.add_collection(drawn, autolim=False)
+        lines = [line for grid in one.grids for line in mesh.outer_lines(grid)]
+        axes.add_collection(LineCollection(lines, colors="black", linewidths=0.6))
+    return drawn
+
+
+def draw(axes, gas, solids, size):
+    """One output on one pair of axes; returns what a colour bar of the solids' speed needs."""
+    for grid in gas.grids:
+        _shade(axes, grid, np.exp(-STRENGTH * np.minimum(gradient(grid, "rho") / size.gradient, 1)))
+    drawn = _colour(axes, solids, size.speed)
+    background = gas.grids[0]
+    axes.set_xlim(background.x1.min(), background.x1.max())
+    axes.set_ylim(background.x2.min(), background.x2.max())
+    axes.set_aspect("equal")
+    axes.set_title(f"t = {gas.t:.4g}", loc="left")
+    return drawn
+
+
+def _chosen(gas):
+    """Numbers of the outputs to show: some time has passed, and a few of them only."""
+    after = [k for k, output in enumerate(gas.outputs) if output.t > 0]
+    if len(after) <= MOST_TIMES:
+        return after
+    return sorted({after[round(k)] for k in np.linspace(0, len(after) - 1, MOST_TIMES)})
+
+
+def pictures(series):
+    """(name, figure) of a run whose gas has shocks."""
+    gas = next((one for one in series if one.is_gas()), None)
+    solids = [one for one in series if not one.is_gas()]
+    count = min((len(one.outputs) for one in series), default=0)
+    chosen = [k for k in _chosen(gas) if k < count] if gas else []
+    if not chosen or not any(has_shocks(gas.outputs[k]) for k in chosen):
+        return
+    size = scales([gas.outputs[k] for k in chosen], [[one.outputs[k] for k in chosen] for one in solids])
+    columns = min(len(chosen), PANELS_IN_A_ROW)
+    rows = -(-len(chosen) // columns)
+    background = gas.outputs[0].grids[0]
+    height = max(PANEL * np.ptp(background.x2) / np.ptp(background.x1), 1.0)
+    figure, axes = pyplot.subplots(rows, columns, figsize=(PANEL * columns + 0.8, (height + 0.3) * rows), squeeze=False)
+    for one in axes.flat[len(chosen):]:
+        one.set_visible(False)
+    for one, k in zip(axes.flat, chosen):
+        drawn = draw(one, gas.outputs[k], [solid.outputs[k] for solid in solids], size)
+    if drawn is not None:
+        bar = figure.colorbar(drawn, ax=list(axes.flat), shrink=0.7, aspect=28, pad=0.01)
+        bar.outline.set_visible(False)
+        bar.ax.set_title("$|\\bar v|$", fontsize=9)
+    figure.suptitle("numerical schlieren of the gas" + (", speed of the solid" if solids else ""), x=0.01, ha="left",
+                    fontsize=10)
+    yield "schlieren", figure
