@@ -57,6 +57,8 @@ void Live::look_at_processes(RunState& state) {
   for (const auto& [name, program] : state.programs()) {
     if (program.pid > 0 && program.host == host_) state.see_process(name, process_state(program.pid));
   }
+  // A run may end before any of its programs said a word; the launcher is the last to leave.
+  if (run_.pid > 0 && process_state(run_.pid) == Process::gone) state.end();
 }
 
 std::string Live::request(const std::string& command) {

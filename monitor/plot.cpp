@@ -145,7 +145,8 @@ std::string compact(double value, int width) {
     std::string text = fmt::format("{:.{}g}", value, digits);
     if (std::ssize(text) <= width) return text;
   }
-  return std::string(static_cast<std::size_t>(width), '#');
+  std::string too_narrow(static_cast<std::size_t>(width), '#');
+  return too_narrow;
 }
 
 }  // namespace fsi::monitor

@@ -42,9 +42,9 @@ class Monitor : public testing::Test {
   }
   ~Monitor() override { fs::remove_all(registry_); }
 
-  void enter(const std::string& run) const {
+  void enter(const std::string& run, int launcher = getpid()) const {
     std::ofstream(registry_ / "amp-fsi" / (run + ".json"))
-        << nlohmann::json{{"run", run}, {"case", "sod"}, {"dir", "/tmp"}, {"pid", getpid()}};
+        << nlohmann::json{{"run", run}, {"case", "sod"}, {"dir", "/tmp"}, {"pid", launcher}};
   }
 
   fs::path registry_;
@@ -99,6 +99,17 @@ TEST_F(Monitor, WithoutARunOrWithSeveralItSaysWhatToDo) {
   EXPECT_EQ(several.code, 2);
   EXPECT_TRUE(says(several.text, "name one") && says(several.text, "one  (sod in /tmp)")) << several.text;
   EXPECT_EQ(monitor(registry_, "three").code, 2);
+}
+
+TEST_F(Monitor, DoesNotWaitForARunWhoseLauncherIsGone) {
+  Process launcher([](const auto&) { std::this_thread::sleep_for(std::chrono::milliseconds(1500)); });
+  enter(run_, launcher.pid());
+  Output followed;
+  std::thread follower([&] { followed = monitor(registry_, "--plain"); });
+  EXPECT_EQ(launcher.end(10), 0);
+  follower.join();
+  EXPECT_EQ(followed.code, 0);
+  EXPECT_TRUE(says(followed.text, "status=ended")) << followed.text;
 }
 
 TEST_F(Monitor, SilentRunIsALostPeer) {
