@@ -168,9 +168,9 @@ class Painter {
   void interfaces() {
     const auto& sides = state_.interfaces();
     if (sides.empty()) return;
-    const int name = 8 + std::clamp(columns_ - 80, 0, 12);
+    const int name = 13 + std::clamp(columns_ - 80, 0, 12);
     frame_.put(0, row_++,
-               fmt::format("{:<{}} {:>8} {:>8} {:>8} {:>8} {:>17} {:>17}", "at", name, "v jump", "w jump",
+               fmt::format("{:<{}} {:>7} {:>7} {:>7} {:>8} {:>15} {:>17}", "at", name, "v jump", "w jump",
                            "gap", "power", "p min, max", "v_n min, max"),
                Style::dim);
     const std::size_t most = static_cast<std::size_t>(std::max(1, (frame_.extent().rows - row_) / 5));
@@ -179,11 +179,11 @@ class Painter {
     for (std::size_t k = first; k < std::min(sides.size(), first + most); ++k) {
       const Side& side = sides[k];
       frame_.put(0, row_++,
-                 fmt::format("{:<{}} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8}",
+                 fmt::format("{:<{}} {:>7} {:>7} {:>7} {:>8} {:>7} {:>7} {:>8} {:>8}",
                              side.name.substr(0, static_cast<std::size_t>(name)), name,
-                             compact(side.velocity_jump, 8), compact(side.traction_jump, 8),
-                             compact(side.gap, 8), compact(side.power, 8), compact(side.p_min, 8),
-                             compact(side.p_max, 8), compact(side.v_min, 8), compact(side.v_max, 8)),
+                             compact(side.velocity_jump, 7), compact(side.traction_jump, 7),
+                             compact(side.gap, 7), compact(side.power, 8), compact(side.p_min, 7),
+                             compact(side.p_max, 7), compact(side.v_min, 8), compact(side.v_max, 8)),
                  sides.size() > 1 && k == selected ? Style::selected : Style::plain);
     }
   }
