@@ -211,6 +211,8 @@ function show() {
   if (!state) return;
   const names = Object.keys(state.interfaces);
   if (!names.includes(memory.chosen)) memory.chosen = names[0] || null;
+  const alone = !names.length && Object.values(state.participants).some((program) => program.role !== "coupler" && program.step > 0);
+  for (const section of document.querySelectorAll("section.wide")) section.hidden = alone; // a solver without interfaces
   showTabs(names);
   showShapes(state);
   showProfiles(state.interfaces[memory.chosen]);
