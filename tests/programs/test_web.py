@@ -109,10 +109,15 @@ class Server(WebTest):
 
 
 class Page(WebTest):
+    @classmethod
+    def setUpClass(cls):
+        cls.browser = browser.Browser(browser.find())
+        cls.addClassCleanup(cls.browser.close)
+
     def setUp(self):
         super().setUp()
-        self.browser = browser.Browser(browser.find())
-        self.addCleanup(self.browser.close)
+        self.browser.show("about:blank")
+        self.browser.problems.clear()
 
     def shows(self, element, words, seconds=30):
         found = until(lambda: words in (self.browser.value(f"document.getElementById('{element}').innerText") or ""), seconds)
