@@ -30,6 +30,8 @@ target_compile_options(fsi_settings INTERFACE
   $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror>
   -march=${FSI_MARCH} -fno-math-errno -fno-trapping-math -ffp-contract=fast -fopenmp-simd
   $<$<CONFIG:Release>:-O3>)
+# Checkpoints know the build that wrote them.
+target_link_options(fsi_settings INTERFACE -Wl,--build-id=sha1)
 if(FSI_SANITIZE)
   target_compile_options(fsi_settings INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer
     -g1)  # names and lines for the reports; more would double the size of everything

@@ -48,8 +48,8 @@ std::span<const wire::ProjectedInterface> Coupler::step(std::span<const wire::Pr
   } else {
     agree_on_time_step(predicted);
   }
+  checkpoint_asked_ = std::exchange(checkpoint_, false) && !finished_;
   answer();
-  checkpoint_ = false;
   return answers_;
 }
 
@@ -100,7 +100,7 @@ void Coupler::answer() {
     to_fluid.dt_next = next_.plan.dt;
     to_fluid.t_next = next_.plan.t_next;
     to_fluid.write_output = output_ || finished_;
-    to_fluid.write_checkpoint = checkpoint_;
+    to_fluid.write_checkpoint = checkpoint_asked_;
     to_fluid.stop = finished_;
     to_fluid.stop_reason = stop_reason_;
 
@@ -110,6 +110,21 @@ void Coupler::answer() {
     to_solid.substeps_next = substeps_of(to_solid.to);
     interface.fill_robin(to_solid);
     interface.fit(to_fluid, to_solid);
+  }
+}
+
+void Coupler::archive(Archive& archive) {
+  archive.number("begun", begun_);
+  archive.number("step", moment_.step);
+  archive.number("t", moment_.t);
+  archive.number("dt", moment_.dt);
+  archive.number("next_dt", next_.plan.dt);
+  archive.number("next_t", next_.plan.t_next);
+  archive.number("next_output", next_.plan.output);
+  archive.number("next_end", next_.plan.end);
+  archive.inside("agreement", [&] { agreement_.archive(archive); });
+  for (std::size_t k = 0; k < interfaces_.size(); ++k) {
+    archive.inside(fmt::format("interface{}", k), [&] { interfaces_[k].archive(archive); });
   }
 }
 

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "common/core/archive.hpp"
 #include "common/wire/messages.hpp"
 #include "coupler/interface_exchange.hpp"
 #include "coupler/time_step.hpp"
@@ -39,8 +40,12 @@ class Coupler {
 
   /// The run ends with the next exchange.
   void request_stop(const std::string& reason) { stop_reason_ = reason; }
-  /// Everybody writes a checkpoint at the next exchange.
+  /// Everybody writes a checkpoint of the step that follows the next exchange.
   void request_checkpoint() { checkpoint_ = true; }
+  /// The last exchange asked for one: to be written now. Never at the end of the run.
+  bool checkpoint_asked() const { return checkpoint_asked_; }
+  /// Everything the next exchanges depend on.
+  void archive(Archive& archive);
 
   bool finished() const { return finished_; }
   /// Exchanges made so far are 0 .. step_number().
@@ -73,7 +78,8 @@ class Coupler {
   std::vector<wire::ProjectedInterface> answers_;
   Moment moment_;
   AgreedStep next_;
-  bool begun_ = false, finished_ = false, output_ = false, checkpoint_ = false, at_end_ = false;
+  bool begun_ = false, finished_ = false, output_ = false, at_end_ = false;
+  bool checkpoint_ = false, checkpoint_asked_ = false;
   std::string stop_reason_;
 };
 

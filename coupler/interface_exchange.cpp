@@ -292,6 +292,22 @@ void InterfaceExchange::fit(wire::ProjectedInterface& to_fluid, wire::ProjectedI
   if (transfer_) transfer_->give(x_gas_, pair_.coarser->is_gas ? to_fluid : to_solid);
 }
 
+void InterfaceExchange::archive(Archive& archive) {
+  archive.inside("motion", [&] { motion_.archive(archive); });
+  archive.number("levels", known_);
+  for (std::size_t k = 0; k < levels_.size(); ++k) {
+    archive.inside(fmt::format("level{}", k), [&] {
+      archive.number("t", levels_[k].t);
+      archive.values("v_n", levels_[k].v_n);
+      archive.values("w_n", levels_[k].w_n);
+    });
+  }
+  auto modes = modal_ ? modal_->q_dot().size() : 0;
+  archive.number("modes", modes);
+  if (archive.loading() && modes > 0) modal_.emplace(Eigen::VectorXd::Zero(modes));
+  if (modal_) archive.inside("modal", [&] { modal_->archive(archive); });
+}
+
 wire::Telemetry::Interface InterfaceExchange::profile(std::size_t most) const {
   wire::Telemetry::Interface profile;
   profile.name = report_.name;

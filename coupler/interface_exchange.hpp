@@ -55,6 +55,8 @@ class InterfaceExchange {
   /// What is above speaks of the points of the exchange; this gives a side that has others its own.
   void fit(wire::ProjectedInterface& to_fluid, wire::ProjectedInterface& to_solid) const;
 
+  void archive(Archive& archive);
+
   const InterfaceReport& report() const { return report_; }
   /// Predicted and projected values along the interface, at most `most` points.
   wire::Telemetry::Interface profile(std::size_t most) const;

@@ -120,6 +120,14 @@ void InterfaceMotion::take(std::span<const double> v, double dt) {
   dt_ = dt;
 }
 
+void InterfaceMotion::archive(Archive& archive) {
+  archive.values("v", v_);
+  archive.values("a", a_);
+  archive.values("mean", mean_);
+  archive.number("dt", dt_);
+  archive.number("steps", steps_);
+}
+
 void InterfaceMotion::command(std::span<const double> x_solid, double dt, std::span<double> x_next) const {
   for (std::size_t k = 0; k < v_.size(); ++k) x_next[k] = x_solid[k] + dt * (v_[k] + 0.5 * dt * a_[k]);
 }

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/core/archive.hpp"
 #include "common/core/types.hpp"
 
 namespace fsi::coupler {
@@ -72,6 +73,7 @@ class InterfaceMotion {
   /// what the gas and the solid differ by now is gone after the step.
   void command(std::span<const double> x_solid, double dt, std::span<double> x_next) const;
   std::span<const double> a() const { return a_; }
+  void archive(Archive& archive);
 
  private:
   std::vector<double> v_, a_;

@@ -28,4 +28,10 @@ const Eigen::VectorXd& ModalMotion::advance(const Eigen::MatrixXd& M, const Eige
   return now_;
 }
 
+void ModalMotion::archive(Archive& archive) {
+  archive.values("now", {now_.data(), static_cast<std::size_t>(now_.size())});
+  archive.values("before", {before_.data(), static_cast<std::size_t>(before_.size())});
+  archive.number("dt_before", dt_before_);
+}
+
 }  // namespace fsi::coupler

@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 #include <span>
 
+#include "common/core/archive.hpp"
 #include "common/interface/riemann.hpp"
 
 namespace fsi::coupler {
@@ -34,6 +35,7 @@ class ModalMotion {
   const Eigen::VectorXd& advance(const Eigen::MatrixXd& M, const Eigen::VectorXd& f_own,
                                  const ModalLoad& load, double dt);
   const Eigen::VectorXd& q_dot() const { return now_; }
+  void archive(Archive& archive);
 
  private:
   Eigen::VectorXd now_, before_;

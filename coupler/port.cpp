@@ -68,10 +68,17 @@ CoupledRun::CoupledRun(const Setup& setup, io::Part& part)
       part_(part),
       session_(join(setup)),
       coupler_(coupler_of(setup.problem, session_)),
-      table_(setup.run_dir + "/interface.csv", columns_of(setup.problem)),
-      progress_(setup.problem.time.end) {
+      table_(setup.run_dir + "/interface.csv", columns_of(setup.problem), setup.opening()),
+      progress_(setup.problem.time.end),
+      checkpoints_(setup, part, [this](Archive& archive) { this->archive(archive); }),
+      clock_(setup.problem.output) {
   part_.points = coupler_.points();
   part_.interface = io::InterfaceExtremes{};
+}
+
+void CoupledRun::archive(Archive& archive) {
+  coupler_.archive(archive);
+  archive.inside("table", [&] { table_.archive(archive); });
 }
 
 void CoupledRun::run() {
@@ -88,35 +95,62 @@ void CoupledRun::run() {
 }
 
 void CoupledRun::loop() {
-  for (std::uint64_t step = 0; !coupler_.finished(); ++step) {
+  at_ = checkpoints_.begin();
+  clock_.start(at_.step);
+  while (!coupler_.finished()) {
     obey_requests();
-    const auto predicted = session_.gather(step);
-    part_.wait_s += watch_.lap();
-    session_.scatter(coupler_.step(predicted));
-    record();
-    part_.compute_s += watch_.lap();
-    show();
+    exchange();
+    take_time_to_end(patience_.of_step());
     throw_if_interrupted();
   }
 }
 
+/// Whoever sends the state of a step has written its checkpoint of that step.
+void CoupledRun::exchange() {
+  const auto predicted = session_.gather(at_.step);
+  part_.wait_s += watch_.lap();
+  if (checkpoint_ == at_.step) complete_checkpoint();
+  session_.scatter(coupler_.step(predicted));
+  write_results(setup_, part_, [&] { record(); });
+  at_ = {.step = at_.step + 1, .t = coupler_.next().plan.t_next, .dt = coupler_.next().plan.dt};
+  if (coupler_.checkpoint_asked()) {
+    checkpoints_.save(at_);
+    checkpoint_ = at_.step;
+  }
+  part_.compute_s += watch_.lap();
+  show();
+}
+
+void CoupledRun::complete_checkpoint() {
+  checkpoints_.complete(at_);
+  clock_.start(at_.step);
+  checkpoint_.reset();
+  if (!end_.empty())
+    throw Failure(ExitCode::terminated, fmt::format("{}, after a checkpoint of step {}", end_, at_.step));
+  if (!stop_) return;
+  part_.status = "stopped";
+  part_.reason = "stopped on request";
+  coupler_.request_stop(part_.reason);
+}
+
+/// A pause waits here; checkpoints, also those before an end, need an exchange or two.
 void CoupledRun::obey_requests() {
-  bool paused = false;
-  do {
+  bool checkpoint = clock_.due(at_.step + 1);
+  while (true) {
     for (const wire::Control& control : session_.controls()) {
       log_info(fmt::format("request: {}", control.command));
-      if (control.command == "pause") paused = true;
-      if (control.command == "resume") paused = false;
-      if (control.command == "checkpoint") coupler_.request_checkpoint();
-      if (control.command == "stop") {
-        paused = false;
-        part_.status = "stopped";
-        part_.reason = "stopped on request";
-        coupler_.request_stop(part_.reason);
-      }
+      if (control.command == "pause") paused_ = true;
+      if (control.command == "resume") paused_ = false;
+      if (control.command == "checkpoint") checkpoint = true;
+      if (control.command == "stop") stop_ = true;
+      if (control.command == "terminate") end_ = "ended on request (SIGTERM to a solver)";
     }
-    if (paused) session_.idle(0.1);
-  } while (paused);
+    if (asked_to_end()) end_ = "ended on request (SIGTERM)";
+    checkpoint = checkpoint || stop_ || !end_.empty();
+    if (!paused_ || checkpoint || checkpoint_) break;
+    session_.idle(0.1);
+  }
+  if (checkpoint) coupler_.request_checkpoint();
 }
 
 void CoupledRun::record() {

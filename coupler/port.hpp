@@ -3,11 +3,13 @@
 /// telemetry.
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "common/bus/coupler_session.hpp"
 #include "common/io/csv_writer.hpp"
+#include "common/program/checkpoints.hpp"
 #include "common/program/program.hpp"
 #include "coupler/coupler.hpp"
 
@@ -25,8 +27,11 @@ class CoupledRun {
  private:
   void loop();
   void obey_requests();
+  void exchange();
+  void complete_checkpoint();
   void record();
   void show();
+  void archive(Archive& archive);
 
   const Setup& setup_;
   io::Part& part_;
@@ -34,7 +39,15 @@ class CoupledRun {
   Coupler coupler_;
   io::CsvWriter table_;
   ProgressLines progress_;
+  Checkpoints checkpoints_;
+  CheckpointClock clock_;
+  io::Standing at_;                          ///< the exchange to come
+  std::optional<std::uint64_t> checkpoint_;  ///< step of the set being written
+  bool paused_ = false;
+  bool stop_ = false;  ///< after a checkpoint
+  std::string end_;    ///< who asked for the end, after a checkpoint
   Stopwatch watch_;
+  Patience patience_;
 };
 
 }  // namespace fsi::coupler

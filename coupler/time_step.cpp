@@ -44,6 +44,12 @@ std::int32_t substeps_of(const Bid& bid, double dt, double t) {
 TimeStepAgreement::TimeStepAgreement(TimeSchedule::Options options, double start)
     : schedule_(options), growth_(options.growth), dt_max_(options.dt_max), t_(start) {}
 
+void TimeStepAgreement::archive(Archive& archive) {
+  archive.inside("schedule", [&] { schedule_.archive(archive); });
+  archive.number("t", t_);
+  archive.number("allowed", allowed_);
+}
+
 AgreedStep TimeStepAgreement::agree(std::span<const Bid> bids) {
   for (const Bid& bid : bids) {
     if (bid.dt > 0) continue;

@@ -37,6 +37,7 @@ class TimeStepAgreement {
   AgreedStep agree(std::span<const Bid> bids);
   double t() const { return t_; }
   bool output_at_start() const { return schedule_.output_at_start(); }
+  void archive(Archive& archive);
 
  private:
   TimeSchedule schedule_;

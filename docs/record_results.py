@@ -187,6 +187,14 @@ DISK = {
 COLUMNS = ("rho", "v1", "v2", "T", "u_bar", "v_bar", "P_bar")
 
 
+def faults(count):
+    """The campaign of signals at random moments; its table as it prints it."""
+    command = ["./launch/fsi", "faults", "--count", str(count), "--seed", "1"]
+    answer = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+    flaws = [line for line in answer.stderr.splitlines() if line.startswith("trial ")]
+    return f"`{shlex.join(command)}`, exit code {answer.returncode}\n\n```\n" + "\n".join([answer.stdout.rstrip(), *flaws]) + "\n```\n"
+
+
 def disk(delta, projection):
     """Error table of the rotating disk, and its parts of the published errors."""
     name = f"disk-{delta}-{projection}"
@@ -347,6 +355,7 @@ def main(words):
     sections = kept_sections()
     studies = [*piston_studies(), *chosen_studies(), *other_studies(), *disk_studies(), *ellipse_studies(),
                ("What watching costs", lambda: watched("watched")),
+               ("Signals to every program at random moments", lambda: faults(200)),
                ("Benchmarks", lambda: bench("bench"))]
     head = ("# Results\n\nWhat the commands gave on two cores; `docs/record_results.py` repeats them all and writes this page. "
             "Errors are largest absolute differences over all points and components.\n\n")

@@ -158,6 +158,7 @@ void Component::measure_initial_motion(double t, double delta) {
 }
 
 void Component::move(double t_new, double dt, std::span<const grid::SideCommand> commands) {
+  moved_ = true;
   grid_.move(t_new, commands);
   const int order = prescribed_ ? 3 : last_dt_ > 0 ? 2 : 1;
   for (const Side side : all_sides) {
@@ -192,6 +193,7 @@ void Component::advance(double t, double dt) {
       sweep({.q = state_.view(), .q_new = next_.view(), .grid = step_grid(), .runs = runs_, .dt = dt},
             scheme_, {workspace_, row_rates_});
   std::swap(state_, next_);
+  advanced_ = true;
   counters_.first_order += counts.first_order;
   counters_.floors += counts.floors;
   counters_.steps += 1;
@@ -251,21 +253,26 @@ FastestPoint Component::fastest_point() const {
   return fastest;
 }
 
-std::vector<CheckpointArray> Component::checkpoint_arrays() {
-  std::vector<CheckpointArray> arrays{
-      {"state", state_.values()},         {"rates", row_rates_},
-      {"last_dt", {&last_dt_, 1}},        {"dt_before", {&dt_before_, 1}},
-      {"p_floor", {&scheme_.p_floor, 1}}, {"first_order", {&counters_.first_order, 1}},
-      {"floors", {&counters_.floors, 1}}, {"steps", {&counters_.steps, 1}}};
+void Component::archive(Archive& archive) {
+  archive.inside("grid", [&] { grid_.archive(archive); });
+  archive.values("state", state_.values());
+  // Points that are not advanced keep what they had two steps ago: where iterations begin that interpolate.
+  archive.values("next", next_.values());
+  archive.values("rates", row_rates_);
+  archive.number("last_dt", last_dt_);
+  archive.number("dt_before", dt_before_);
+  archive.number("prescribed", prescribed_);
+  archive.number("p_floor", scheme_.p_floor);
+  archive.number("first_order", counters_.first_order);
+  archive.number("floors", counters_.floors);
+  archive.number("steps", counters_.steps);
   for (const Side side : all_sides) {
     WallMotion& wall = walls_[static_cast<std::size_t>(side)];
-    arrays.push_back({fmt::format("normal_{}", name_of(side)), wall.normal});
-    arrays.push_back({fmt::format("velocity_{}", name_of(side)), wall.velocity});
-    arrays.push_back({fmt::format("acceleration_{}", name_of(side)), wall.acceleration});
-    arrays.push_back({fmt::format("mid_velocity_{}", name_of(side)), wall.mid_velocity});
-    arrays.push_back({fmt::format("bend_{}", name_of(side)), wall.bend});
+    archive.inside(name_of(side), [&] { wall.archive(archive); });
   }
-  return arrays;
+  if (!forcing_) return;
+  archive.values("source", source_.values());
+  archive.number("has_source", has_source_);
 }
 
 }  // namespace fsi::fluid

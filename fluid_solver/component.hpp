@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "common/core/archive.hpp"
 #include "common/core/field.hpp"
 #include "common/core/types.hpp"
 #include "common/grid/intervals.hpp"
@@ -29,12 +30,6 @@ struct InterfaceValues {
   std::span<const double> v;    ///< velocity of the wall points, 2 n
   std::span<const double> a;    ///< acceleration of the wall points, 2 n
   int grid = 0;                 ///< component grid it belongs to
-};
-
-/// A named piece of state, to be written to a checkpoint or overwritten from one.
-struct CheckpointArray {
-  std::string name;
-  std::span<double> values;
 };
 
 /// Largest of a rate over the grid, and where.
@@ -84,7 +79,13 @@ class Component {
   void advance(double t, double dt);
   /// Largest |Lambda| of (44), real part weighted as in (45).
   FastestPoint fastest_point() const;
-  std::vector<CheckpointArray> checkpoint_arrays();
+  /// Boundary conditions hold: the step is complete.
+  void complete() { moved_ = advanced_ = false; }
+  /// Positions and state when the last step was complete, also after one that broke.
+  ConstFieldView last_x() const { return moved_ ? grid_.x_old() : grid_.x(); }
+  ConstFieldView last_state() const { return advanced_ ? next_.view() : state_.view(); }
+  /// Everything the next steps depend on.
+  void archive(Archive& archive);
 
  private:
   grid::MovingGrid grid_;
@@ -101,6 +102,7 @@ class Component {
   double last_dt_ = 0;             ///< of the last motion
   double dt_before_ = 0;           ///< of the motion before
   bool prescribed_ = false;        ///< the grid's motion is known beforehand
+  bool moved_ = false, advanced_ = false;  ///< in the step going on
   Counters counters_;
   std::optional<Forcing> forcing_;
   Field source_;             ///< of the forcing, at the time and on the grid of the state

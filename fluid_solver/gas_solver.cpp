@@ -186,6 +186,7 @@ void GasSolver::apply_fluid_bcs(double t, std::span<const InterfaceValues> inter
   each([](Component& component, const BoundaryTask& task) { set_boundary_points(component, task); });
   if (composite_) composite_->interpolate(gather_fields());
   each([](Component& component, const BoundaryTask& task) { set_ghosts(component, task); });
+  for (Component& component : components_) component.complete();
 }
 
 std::size_t GasSolver::points() const {
@@ -194,15 +195,17 @@ std::size_t GasSolver::points() const {
   return points;
 }
 
-std::vector<CheckpointArray> GasSolver::checkpoint_arrays() {
-  std::vector<CheckpointArray> arrays;
-  for (Component& component : components_) {
-    for (CheckpointArray& array : component.checkpoint_arrays()) {
-      arrays.push_back({fmt::format("{}.{}", component.grid().name(), array.name), array.values});
-    }
+/// How the grids overlap depends on where they are only.
+void GasSolver::archive(Archive& archive) {
+  for (std::size_t k = 0; k < components_.size(); ++k) {
+    archive.inside(fmt::format("grid{}", k), [&] { components_[k].archive(archive); });
   }
-  arrays.push_back({"t", {&t_, 1}});
-  return arrays;
+  archive.number("t", t_);
+  if (!archive.loading() || !composite_) return;
+  std::vector<ConstFieldView> x;
+  for (int k = 1; k < grids(); ++k) x.push_back(grid(k).x());
+  composite_->connect(x, t_);
+  use_points();
 }
 
 }  // namespace fsi::fluid

@@ -105,6 +105,9 @@ class GasSolver {
   /// Conserved state: planes rho, rho v1, rho v2, rho E; ghosts included.
   Field conserved() const;
   const grid::MovingGrid& grid(int grid = 0) const { return component(grid).grid(); }
+  /// Positions and state when the last step was complete, also after one that broke.
+  ConstFieldView last_x(int grid = 0) const { return component(grid).last_x(); }
+  ConstFieldView last_state(int grid = 0) const { return component(grid).last_state(); }
   int grids() const { return static_cast<int>(components_.size()); }
   /// Points of a grid that have a value.
   const grid::RowSets& valid(int grid = 0) const { return component(grid).valid(); }
@@ -117,7 +120,8 @@ class GasSolver {
 
   /// Everything besides the grid that a restart needs, under fixed names, to be written or overwritten in
   /// place.
-  std::vector<CheckpointArray> checkpoint_arrays();
+  /// Everything the next steps depend on.
+  void archive(Archive& archive);
 
  private:
   GasOptions options_;

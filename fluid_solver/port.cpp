@@ -154,7 +154,7 @@ FluidParticipant::FluidParticipant(const Setup& setup)
     for (const char* quantity : {"rho", "v1", "v2", "p"})
       columns.push_back(fmt::format("{}.{}", probe.name, quantity));
   }
-  if (!probes_.empty()) probe_table_.emplace(setup.run_dir + "/probes_fluid.csv", columns);
+  if (!probes_.empty()) probe_table_.emplace(setup.run_dir + "/parts/probes_fluid.csv", columns, setup.opening());
 }
 
 wire::Hello FluidParticipant::hello() const {
@@ -240,17 +240,31 @@ void FluidParticipant::advance(double t, double dt, int /*substeps*/, ProjectedS
   solver_.advance_fluid(t_next, dt);
 }
 
-void FluidParticipant::write_fields(double t, std::uint64_t step) {
+std::vector<io::GridOutput> FluidParticipant::last_fields() const {
   std::vector<io::GridOutput> grids;
   for (int k = 0; k < solver_.grids(); ++k) {
-    const ConstFieldView q = solver_.state(k);
+    const ConstFieldView q = solver_.last_state(k);
     grids.push_back({.grid = solver_.grid(k).name(),
-                     .x = solver_.grid(k).x(),
+                     .x = solver_.last_x(k),
                      .u = {},
                      .fields = {{"rho", q, 0}, {"v1", q, 1}, {"v2", q, 2}, {"p", q, 3}},
                      .kinds = kinds_of(solver_.composite(), k)});
   }
-  fields_.write(t, step, grids);
+  return grids;
+}
+
+void FluidParticipant::write_fields(double t, std::uint64_t step) {
+  fields_.write(t, step, last_fields());
+}
+
+void FluidParticipant::write_last_state(double t, std::uint64_t step) {
+  fields_.write_apart("last_state", t, step, last_fields());
+}
+
+void FluidParticipant::archive(Archive& archive) {
+  solver_.archive(archive);
+  archive.inside("fields", [&] { fields_.archive(archive); });
+  if (probe_table_) archive.inside("probes", [&] { probe_table_->archive(archive); });
 }
 
 void FluidParticipant::write_tables(double t, double /*dt*/, ProjectedStates /*projected*/) {

@@ -26,6 +26,8 @@ class FluidParticipant final : public Participant {
   void advance(double t, double dt, int substeps, ProjectedStates projected) override;
   void write_fields(double t, std::uint64_t step) override;
   void write_tables(double t, double dt, ProjectedStates projected) override;
+  void write_last_state(double t, std::uint64_t step) override;
+  void archive(Archive& archive) override;
   wire::Health health() const override;
   void report(double t, io::Part& part) const override;
 
@@ -41,6 +43,7 @@ class FluidParticipant final : public Participant {
   struct ChosenValues {
     std::vector<double> v, p;
   };
+  std::vector<io::GridOutput> last_fields() const;
   ChosenValues chosen_at(const InterfaceSide& interface) const;
 
   const Setup& setup_;

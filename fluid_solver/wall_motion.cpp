@@ -9,6 +9,14 @@ WallMotion wall_at_rest(std::size_t points) {
   return {.normal = zero, .velocity = zero, .acceleration = zero, .mid_velocity = zero, .bend = zero};
 }
 
+void WallMotion::archive(Archive& archive) {
+  archive.values("normal", normal);
+  archive.values("velocity", velocity);
+  archive.values("acceleration", acceleration);
+  archive.values("mid_velocity", mid_velocity);
+  archive.values("bend", bend);
+}
+
 void advance_motion(WallMotion& wall, ConstFieldView x, ConstFieldView x_before, const SidePoints& side,
                     const StepHistory& history) {
   const auto [dt, before, earlier, order] = history;

@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "common/core/archive.hpp"
 #include "fluid_solver/side_points.hpp"
 
 namespace fsi::fluid {
@@ -15,6 +16,8 @@ struct WallMotion {
   std::vector<double> acceleration;  ///< at the newest level
   std::vector<double> mid_velocity;  ///< first divided difference over the last step
   std::vector<double> bend;          ///< second divided difference over the last two steps
+
+  void archive(Archive& archive);
 };
 
 /// Lengths of the last steps, the newest first; 0 where a level coincides with the next (a start with known

@@ -99,20 +99,18 @@ class SolidParticipant final : public Participant {
     }
   }
 
-  void write_fields(double t, std::uint64_t step) override {
-    static constexpr const char* names[] = {"u1", "u2", "v1", "v2", "P11", "P12", "P21", "P22"};
-    std::vector<io::GridOutput> grids;
-    for (int g = 0; g < solver_.grids(); ++g) {
-      const ConstFieldView q = std::as_const(solver_).state(g);
-      std::vector<io::NamedPlane> planes;
-      for (int k = 0; k < 8; ++k) planes.push_back({names[k], q, k});
-      grids.push_back({.grid = solver_.grid(g).name(),
-                       .x = solver_.reference(g),
-                       .u = q,
-                       .fields = std::move(planes),
-                       .kinds = kinds_of(solver_.composite(), g)});
-    }
-    fields_.write(t, step, grids);
+  void write_fields(double t, std::uint64_t step) override { fields_.write(t, step, fields()); }
+
+  /// The state as it is: the solid keeps what it had before the step that broke.
+  void write_last_state(double /*t*/, std::uint64_t step) override {
+    fields_.write_apart("last_state", solver_.t(), step, fields());
+  }
+
+  void archive(Archive& archive) override {
+    solver_.archive(archive);
+    archive.inside("fields", [&] { fields_.archive(archive); });
+    if (forces_) archive.inside("forces", [&] { forces_->archive(archive); });
+    if (probe_table_) archive.inside("probes", [&] { probe_table_->archive(archive); });
   }
 
   void write_tables(double t, double /*dt*/, ProjectedStates /*projected*/) override {
@@ -165,6 +163,22 @@ class SolidParticipant final : public Participant {
     }
   }
 
+  std::vector<io::GridOutput> fields() const {
+    static constexpr const char* names[] = {"u1", "u2", "v1", "v2", "P11", "P12", "P21", "P22"};
+    std::vector<io::GridOutput> grids;
+    for (int g = 0; g < solver_.grids(); ++g) {
+      const ConstFieldView q = solver_.state(g);
+      std::vector<io::NamedPlane> planes;
+      for (int k = 0; k < 8; ++k) planes.push_back({names[k], q, k});
+      grids.push_back({.grid = solver_.grid(g).name(),
+                       .x = solver_.reference(g),
+                       .u = q,
+                       .fields = std::move(planes),
+                       .kinds = kinds_of(solver_.composite(), g)});
+    }
+    return grids;
+  }
+
   grid::Curve curve() const { return curve_along(solver_.grid(grid_), *side_); }
 
   /// From where the reference configuration has the interface to where its given path has it.
@@ -197,7 +211,8 @@ class SolidParticipant final : public Participant {
           std::vector<std::string>{"t [time]", "force1 [force/depth]", "force2 [force/depth]",
                                    "moment [force*length/depth]", "power [power/depth]", "centre1 [length]",
                                    "centre2 [length]", "velocity1 [length/time]", "velocity2 [length/time]",
-                                   "angle [rad]"});
+                                   "angle [rad]"},
+          setup_.opening());
     }
     std::vector<std::string> columns{"t [time]"};
     for (const ProbeSpec& probe : setup_.problem.output.probes) {
@@ -207,7 +222,8 @@ class SolidParticipant final : public Participant {
         columns.push_back(fmt::format("{}.{}", probe.name, quantity));
       }
     }
-    if (!probes_.empty()) probe_table_.emplace(setup_.run_dir + "/probes_" + spec_.name + ".csv", columns);
+    if (!probes_.empty())
+      probe_table_.emplace(setup_.run_dir + "/parts/probes_" + spec_.name + ".csv", columns, setup_.opening());
   }
 
   const Setup& setup_;

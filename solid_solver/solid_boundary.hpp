@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "common/core/archive.hpp"
 #include "common/core/failure.hpp"
 #include "solid_solver/ghost_lines.hpp"
 #include "solid_solver/interface.hpp"
@@ -51,6 +52,9 @@ class SolidBoundary {
   void refresh_ghosts(FieldView q, double t) const;
   /// Conditions are applied next to interpolated points: these must have their values before.
   bool reads_interpolated_points() const;
+
+  /// Tractions and their rates, and what motion that is given changed.
+  void archive(Archive& archive);
 
   /// From now on given values that are zero, and projected ones, are differences to this solution.
   void choose(const ChosenSolution* solution) { chosen_ = solution; }

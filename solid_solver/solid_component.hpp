@@ -59,6 +59,8 @@ class SolidComponent {
   /// F at a point by central differences of u inside, one-sided ones of second order at the sides (no ghost
   /// points).
   Tensor2 deformation_gradient(int i, int j) const;
+  /// Everything the next steps depend on.
+  void archive(Archive& archive);
   /// The point that broke: "point (14, 3): det F = -0.02". Empty when all are well.
   std::string trouble(double dt) const;
 
@@ -288,6 +290,19 @@ Tensor2 SolidComponent<L>::deformation_gradient(int i, int j) const {
   Tensor2 F = {1.0, 0.0, 0.0, 1.0};
   F = plus_dyad(F, {difference(plane::u1, 0), difference(plane::u2, 0)}, m.r1);
   return plus_dyad(F, {difference(plane::u1, 1), difference(plane::u2, 1)}, m.r2);
+}
+
+template <Law L>
+void SolidComponent<L>::archive(Archive& archive) {
+  archive.values("state", q_.values());
+  archive.values("next", next_.values());
+  archive.number("rate_squared", measured_.rate_squared);
+  archive.number("min_det_F", measured_.min_det_F);
+  archive.number("min_phi_s", measured_.min_phi_s);
+  archive.inside("boundary", [&] { boundary_.archive(archive); });
+  if (!chosen_) return;
+  archive.values("source", source_.values());
+  archive.number("has_source", has_source_);
 }
 
 template <Law L>

@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "common/core/archive.hpp"
 #include "common/core/field.hpp"
 #include "common/grid/composite_grid.hpp"
 #include "common/grid/moving_grid.hpp"
@@ -158,7 +159,6 @@ class SolidSolver {
   const grid::CompositeGrid* composite() const { return composite_ ? &*composite_ : nullptr; }
   /// Planes u1, u2, v1, v2, P11, P12, P21, P22 (namespace plane of state.hpp), ghosts included.
   ConstFieldView state(int grid = 0) const { return component(grid).q(); }
-  /// The same, for a restart.
   FieldView state(int grid = 0) { return components_[static_cast<std::size_t>(grid)].q(); }
   /// Reference positions of the points.
   ConstFieldView reference(int grid = 0) const { return component(grid).grid().x(); }
@@ -168,6 +168,14 @@ class SolidSolver {
     std::size_t sum = 0;
     for (const SolidComponent<L>& component : components_) sum += component.points().count();
     return sum;
+  }
+  /// Everything the next steps depend on.
+  void archive(Archive& archive) {
+    for (std::size_t k = 0; k < components_.size(); ++k) {
+      archive.inside(fmt::format("grid{}", k), [&] { components_[k].archive(archive); });
+    }
+    archive.number("t", t_);
+    archive.number("steps", steps_);
   }
   std::uint64_t steps() const { return steps_; }
   double t() const { return t_; }

@@ -13,6 +13,24 @@ namespace fsi::bus {
 
 namespace {
 
+constexpr int between_state_and_user_time = 10;
+
+/// Of a process' first thread. Nothing where the system does not tell.
+std::optional<Pulse> pulse_of(int pid) {
+  std::ifstream stat(fmt::format("/proc/{0}/task/{0}/stat", pid)),
+      status(fmt::format("/proc/{0}/task/{0}/status", pid));
+  std::string line, state, word;
+  if (!std::getline(stat, line) || line.rfind(')') == std::string::npos) return {};
+  std::istringstream fields(line.substr(line.rfind(')') + 1));
+  fields >> state;
+  for (int k = 0; k < between_state_and_user_time; ++k) fields >> word;
+  std::uint64_t user = 0, system = 0, waited = 0;
+  fields >> user >> system;
+  while (status >> word && word != "voluntary_ctxt_switches:") continue;
+  if (!fields || !(status >> waited)) return {};
+  return Pulse{.computed = user + system, .waited = waited, .sleeping = state == "S"};
+}
+
 /// Start time of a living process in clock ticks since boot: with the pid it identifies the process for good.
 /// 0 when there is none or only a zombie is left.
 std::uint64_t start_time(int pid) {
@@ -56,6 +74,7 @@ void Peer::check(int matched, int alive, double timeout_s) {
     throw PeerLost(fmt::format("{} (pid {}) has left the run without saying why", label_, pid_));
   if (alive > 0) {
     silent_since_.reset();
+    check_pulse(timeout_s);
     return;
   }
   const auto now = std::chrono::steady_clock::now();
@@ -63,6 +82,26 @@ void Peer::check(int matched, int alive, double timeout_s) {
   if (std::chrono::duration<double>(now - *silent_since_).count() > timeout_s) {
     throw PeerLost(fmt::format("{} (pid {}) has been silent for {} s (time.peer_timeout); is it stopped?",
                                label_, pid_, timeout_s));
+  }
+}
+
+void Peer::check_pulse(double timeout_s) {
+  if (born_ == 0) return;
+  const std::optional<Pulse> now = pulse_of(pid_);
+  const bool asleep =
+      now && now->sleeping && now->computed == pulse_.computed && now->waited == pulse_.waited;
+  if (now) pulse_ = *now;
+  if (!asleep) {
+    asleep_since_.reset();
+    return;
+  }
+  const auto time = std::chrono::steady_clock::now();
+  if (!asleep_since_) asleep_since_ = time;
+  if (std::chrono::duration<double>(time - *asleep_since_).count() > timeout_s) {
+    throw PeerLost(
+        fmt::format("{} (pid {}) hangs: it lives, but for {} s (time.peer_timeout) it has neither "
+                    "computed nor answered",
+                    label_, pid_, timeout_s));
   }
 }
 

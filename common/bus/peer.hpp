@@ -11,15 +11,24 @@ namespace fsi::bus {
 /// Name of this machine.
 std::string host_name();
 
+/// How much a program's first thread has computed and how often it has waited.
+struct Pulse {
+  std::uint64_t computed = 0;  ///< clock ticks
+  std::uint64_t waited = 0;
+  bool sleeping = false;  ///< neither computing nor stopped nor waiting for a disk
+};
+
 /// Watches one program. A dead process counts at once; an expired liveliness lease only starts a clock,
-/// because a busy machine or a Ctrl-Z recovers from it.
+/// because a busy machine or a Ctrl-Z recovers from it. A program that lives but sleeps without end (a
+/// deadlock) is lost too: ours wake up ten times a second whatever they wait for.
 class Peer {
  public:
   /// `label` names it in messages: solid 'beam'.
   Peer(std::string label, const std::string& host, int pid);
 
   /// `matched` and `alive` are the writers of this program that can be heard, and those whose lease holds.
-  /// @throws PeerLost it died, left, or has been silent for longer than `timeout_s`
+  /// For a program that owes an answer.
+  /// @throws PeerLost it died, left, or has been silent or asleep for longer than `timeout_s`
   void check(int matched, int alive, double timeout_s);
   /// Only whether its process lives, for a program whose writers are not known yet.
   void check_process() const;
@@ -29,7 +38,10 @@ class Peer {
   std::string label_;
   int pid_;
   std::uint64_t born_ = 0;  ///< start time of the process; 0: not visible from here, only liveliness tells
-  std::optional<std::chrono::steady_clock::time_point> silent_since_;
+  std::optional<std::chrono::steady_clock::time_point> silent_since_, asleep_since_;
+  Pulse pulse_;
+
+  void check_pulse(double timeout_s);
 };
 
 }  // namespace fsi::bus

@@ -52,6 +52,7 @@ struct SolverSession::Implementation {
       : self(std::move(hello)),
         link(std::move(options), self.role, self.name),
         hello_writer(link.participant(), hello_topic, Delivery::lasting),
+        control_writer(link.participant(), control_topic, Delivery::lasting),
         welcome_reader(link.participant(), welcome_topic, Delivery::lasting) {
     self.run = link.options().run;
     self.host = host_name();
@@ -195,6 +196,7 @@ struct SolverSession::Implementation {
   wire::Hello self;
   Link link;
   Writer<amp_fsi_Hello> hello_writer;
+  Writer<amp_fsi_Control> control_writer;
   Reader<amp_fsi_Welcome> welcome_reader;
   std::deque<Channel> channels;
   std::unique_ptr<Peer> coupler;  ///< null until its welcome came
@@ -216,6 +218,11 @@ void SolverSession::publish(const wire::PredictedInterface& predicted) {
 
 const wire::ProjectedInterface& SolverSession::receive(const std::string& interface, std::uint64_t step) {
   return implementation_->receive(interface, step);
+}
+
+void SolverSession::request(const std::string& command) {
+  const wire::Control control{.run = implementation_->self.run, .command = command};
+  implementation_->control_writer.write(borrow(control));
 }
 
 bool SolverSession::telemetry_due() const {

@@ -164,6 +164,9 @@ void add_multiples(const Node& every, double end, std::vector<double>& times) {
 OutputSpec output_of(const Node* node, double end) {
   OutputSpec result;
   if (node == nullptr) return {.times = {end}, .probes = {}};
+  Reader::assign(*node, "checkpoint_every", result.checkpoint_every);
+  Reader::assign(*node, "checkpoint_seconds", result.checkpoint_seconds);
+  if (const Node* word = node->find("on_failure")) result.go_on = word->text == "go_on";
   const Node* times = node->find("times");
   const Node* every = node->find("every");
   if (times != nullptr) {

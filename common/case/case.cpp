@@ -8,6 +8,7 @@
 #include "common/case/build.hpp"
 #include "common/case/build_shape.hpp"
 #include "common/case/check.hpp"
+#include "common/case/restart.hpp"
 #include "common/case/schema.hpp"
 #include "common/case/scope.hpp"
 #include "common/case/validate.hpp"
@@ -157,6 +158,7 @@ Case load_case(const std::string& path, const std::vector<std::string>& override
   result.path = file;
   result.resolved = config::emit(root);
   result.digest = digest_of(result.resolved);
+  result.restart_digest = digest_of(config::emit(fixed_part(root)));
   return result;
 }
 

@@ -162,6 +162,9 @@ struct ProbeSpec {
 struct OutputSpec {
   std::vector<double> times;
   std::vector<ProbeSpec> probes;
+  int checkpoint_every = 0;         ///< steps; 0: never
+  double checkpoint_seconds = 600;  ///< of wall time
+  bool go_on = false;               ///< where results cannot be written, without them
 };
 
 /// Where an exact or a fine solution comes from.
@@ -182,8 +185,9 @@ struct Expectation {
 
 struct Case {
   std::string name, title, path;
-  std::string digest;    ///< of the resolved text: all programs of a run must agree
-  std::string resolved;  ///< the case with parameters and overrides filled in, as YAML
+  std::string digest;          ///< of the resolved text: all programs of a run must agree
+  std::string restart_digest;  ///< of the part that a restart must not change
+  std::string resolved;        ///< the case with parameters and overrides filled in, as YAML
   std::map<std::string, double> parameters;
   double grid_factor = 1;  ///< j of h = 1 / (10 j)
   TimeSpec time;

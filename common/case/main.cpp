@@ -8,6 +8,7 @@
 
 #include "common/case/case.hpp"
 #include "common/case/document.hpp"
+#include "common/case/restart.hpp"
 #include "common/case/summary.hpp"
 #include "common/core/failure.hpp"
 
@@ -16,7 +17,7 @@ namespace {
 struct Options {
   std::string name, out;
   std::vector<std::string> overrides, laws;
-  std::string folder;
+  std::string folder, former;
   bool as_json = false;
 
   std::vector<std::string> folders() const {
@@ -36,6 +37,7 @@ void check(const Options& options) {
 
 void resolve(const Options& options) {
   const fsi::Case problem = load(options);
+  if (!options.former.empty()) fsi::check_restart(problem.resolved, options.former);
   if (options.out.empty()) {
     fmt::print("{}\n", fsi::summary_as_json(problem));
     return;
@@ -77,6 +79,9 @@ int run(int argc, char** argv) {
   add_case_options(*check_command, options);
   add_case_options(*resolve_command, options);
   resolve_command->add_option("--out", options.out, "write the resolved YAML to this file");
+  resolve_command->add_option(
+      "--restart", options.former,
+      "case of a former run: exit 2 where a restart of that run would be another one");
   list_command->add_option("--configs", options.folder, "folder of the cases");
   try {
     app.parse(argc, argv);

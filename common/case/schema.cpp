@@ -198,6 +198,7 @@ constexpr array probe_keys{
 constexpr Section probe_section{.title = "A probe", .keys = probe_keys};
 constexpr Key probe_element{
     .name = "probe", .type = Type::section, .meaning = "a probe", .section = &probe_section};
+constexpr array<string_view, 2> on_failure_words{"end", "go_on"};
 constexpr array output_keys{
     Key{.name = "times",
         .type = Type::numbers,
@@ -215,6 +216,22 @@ constexpr array output_keys{
         .meaning = "values at points, every step",
         .fallback = "[]",
         .element = &probe_element},
+    Key{.name = "checkpoint_every",
+        .type = Type::integer,
+        .meaning = "a checkpoint after each so many steps",
+        .unit = "steps",
+        .fallback = "never",
+        .range = {.low = 1, .high = 1e9}},
+    Key{.name = "checkpoint_seconds",
+        .meaning = "a checkpoint when so much wall time has gone since the last",
+        .unit = "s",
+        .fallback = "600",
+        .range = positive},
+    Key{.name = "on_failure",
+        .type = Type::word,
+        .meaning = "when results cannot be written: end the run (exit 5), or go on without them",
+        .fallback = "end",
+        .words = on_failure_words},
 };
 constexpr Section output_section{.title = "Output", .keys = output_keys};
 

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "common/core/archive.hpp"
+
 namespace fsi {
 
 struct PlannedStep {
@@ -30,6 +32,7 @@ class TimeSchedule {
   /// wanted time is divided evenly, so that no sliver of a step is left over.
   /// @throws NumbersBroke when the bid is not a positive number or vanishes against the length of the run
   PlannedStep plan(double t, double bid, const std::string& reason);
+  void archive(Archive& archive) { archive.number("previous", previous_); }
 
  private:
   Options options_;

@@ -184,6 +184,15 @@ void MovingGrid::check(double t) const {
   }
 }
 
+void MovingGrid::archive(Archive& archive) {
+  if (!moves()) return;
+  archive.values("x_mapped", x_mapped_.values());
+  archive.values("x", x_.values());
+  archive.values("x_old", x_old_.values());
+  archive.values("curve", description_.curve);
+  archive.number("moves", move_count_);
+}
+
 int MovingGrid::side_size(Side side) const {
   return direction_of(side) == 0 ? layout().n2 : layout().n1;
 }

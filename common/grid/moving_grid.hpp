@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "common/core/archive.hpp"
 #include "common/core/field.hpp"
 #include "common/core/types.hpp"
 #include "common/grid/cartesian_grid.hpp"
@@ -70,6 +71,9 @@ class MovingGrid {
   /// Points of a side, n_d * n component-major.
   std::vector<double> side_points(Side side) const;
   int side_size(Side side) const;
+
+  /// Where the grid is and was; nothing of a grid at rest.
+  void archive(Archive& archive);
 
  private:
   GridDescription description_;

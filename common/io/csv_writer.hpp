@@ -1,6 +1,7 @@
 #pragma once
 /// Tables that grow by one line per step: interface.csv, probes.csv, forces_<solid>.csv.
 
+#include <cstdint>
 #include <cstdio>
 #include <initializer_list>
 #include <memory>
@@ -8,14 +9,22 @@
 #include <string>
 #include <vector>
 
+#include "common/core/archive.hpp"
+
 namespace fsi::io {
+
+/// Whether an output begins or goes on where a checkpoint left it.
+enum class Opening { fresh, continued };
 
 /// Numbers only, with as many digits as they need to read back exactly. Lines reach the file in batches: a
 /// kill loses at most the last `batch` of them, and never leaves half a line before a whole one.
 class CsvWriter {
  public:
-  /// Starts the file with one header line; name the unit in the column, "t [time]". @throws OutputFailed
-  CsvWriter(std::string path, const std::vector<std::string>& columns, int batch = 16);
+  /// Starts the file with one header line; name the unit in the column, "t [time]". A table that is continued
+  /// must have the same header, and gets its length by `archive`.
+  /// @throws OutputFailed
+  CsvWriter(std::string path, const std::vector<std::string>& columns, Opening opening = Opening::fresh,
+            int batch = 16);
   CsvWriter(CsvWriter&&) noexcept = default;
   CsvWriter& operator=(CsvWriter&&) noexcept = default;
   CsvWriter(const CsvWriter&) = delete;
@@ -27,8 +36,12 @@ class CsvWriter {
   void row(std::initializer_list<double> values) {
     row(std::span<const double>(values.begin(), values.size()));
   }
-  /// Hands all lines to the operating system. @throws OutputFailed
+  /// Hands all lines to the operating system; after a failure the file ends with the last whole batch.
+  /// @throws OutputFailed
   void flush();
+  /// Brings all lines to the disk and notes the length of the file; on loading, cuts off what came after.
+  /// @throws OutputFailed
+  void archive(Archive& archive);
 
  private:
   struct Close {
@@ -37,8 +50,11 @@ class CsvWriter {
   std::string path_;
   std::unique_ptr<std::FILE, Close> file_;
   std::string pending_;
+  std::uint64_t size_ = 0;  ///< of the file [byte]
   std::size_t columns_ = 0;
   int batch_ = 16, waiting_ = 0;
+
+  void cut(std::uint64_t size);
 };
 
 }  // namespace fsi::io

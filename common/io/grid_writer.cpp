@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <filesystem>
 #include <limits>
 
+#include "common/core/failure.hpp"
 #include "common/io/atomic_file.hpp"
 #include "common/io/hdf5.hpp"
 
@@ -57,6 +59,15 @@ void write_grid(Hdf5 group, const GridOutput& grid) {
   group.write("kind", kinds, shape);
 }
 
+void write_file(const std::string& path, double t, std::uint64_t step, std::span<const GridOutput> grids) {
+  Hdf5 file = Hdf5::create(aside(path));
+  file.write_attribute("t", t);
+  file.write_attribute("step", step);
+  for (const auto& grid : grids) write_grid(file.make_group(grid.grid), grid);
+  file.close();
+  rename_into_place(path);
+}
+
 }  // namespace
 
 std::string output_name(std::size_t index) {
@@ -68,27 +79,47 @@ GridWriter::GridWriter(std::string run_dir, std::string name)
   make_directory(run_dir_ + "/fields");
 }
 
+std::string GridWriter::path_of(std::size_t output) const {
+  return fmt::format("{}/fields/{}_{}.h5", run_dir_, name_, output_name(output));
+}
+
 void GridWriter::write(double t, std::uint64_t step, std::span<const GridOutput> grids) {
-  const std::string path = fmt::format("{}/fields/{}_{}.h5", run_dir_, name_, output_name(entries_.size()));
-  Hdf5 file = Hdf5::create(aside(path));
-  file.write_attribute("t", t);
-  file.write_attribute("step", step);
-  for (const auto& grid : grids) write_grid(file.make_group(grid.grid), grid);
-  file.close();
-  rename_into_place(path);
-  entries_.push_back({t, step});
+  write_file(path_of(outputs_), t, step, grids);
+  ++outputs_;
   write_master();
+}
+
+void GridWriter::write_apart(const std::string& folder, double t, std::uint64_t step,
+                             std::span<const GridOutput> grids) const {
+  make_directory(fmt::format("{}/{}", run_dir_, folder));
+  write_file(fmt::format("{}/{}/{}.h5", run_dir_, folder, name_), t, step, grids);
 }
 
 void GridWriter::write_master() const {
   const std::string path = fmt::format("{}/{}.h5", run_dir_, name_);
   Hdf5 file = Hdf5::create(aside(path));
-  file.write_attribute("outputs", static_cast<std::uint64_t>(entries_.size()));
-  for (std::size_t k = 0; k < entries_.size(); ++k) {
+  file.write_attribute("outputs", static_cast<std::uint64_t>(outputs_));
+  for (std::size_t k = 0; k < outputs_; ++k) {
     file.link(output_name(k), fmt::format("fields/{}_{}.h5", name_, output_name(k)), "/");
   }
   file.close();
   rename_into_place(path);
+}
+
+void GridWriter::archive(Archive& archive) {
+  archive.number("outputs", outputs_);
+  if (!archive.loading()) return;
+  for (std::size_t k = 0; k < outputs_; ++k) {
+    if (!std::filesystem::exists(path_of(k)))
+      throw OutputFailed(
+          fmt::format("'{}' is missing: a restart continues the series it belongs to", path_of(k)));
+  }
+  for (std::size_t k = outputs_; std::filesystem::remove(path_of(k)); ++k) continue;
+  if (outputs_ > 0) {
+    write_master();
+  } else {
+    std::filesystem::remove(fmt::format("{}/{}.h5", run_dir_, name_));
+  }
 }
 
 }  // namespace fsi::io

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "common/core/archive.hpp"
 #include "common/core/field.hpp"
 
 namespace fsi::io {
@@ -42,15 +43,17 @@ class GridWriter {
   /// Adds one output time. Groups are counted "000000", "000001", ... in the order they are written.
   /// @throws OutputFailed; the outputs before remain
   void write(double t, std::uint64_t step, std::span<const GridOutput> grids);
+  /// Writes the fields as DIR/<folder>/<name>.h5, apart from the series. @throws OutputFailed
+  void write_apart(const std::string& folder, double t, std::uint64_t step,
+                   std::span<const GridOutput> grids) const;
+  /// Notes the outputs so far; on loading, removes what came after. @throws OutputFailed
+  void archive(Archive& archive);
 
  private:
-  struct Entry {
-    double t = 0;
-    std::uint64_t step = 0;
-  };
   std::string run_dir_, name_;
-  std::vector<Entry> entries_;
+  std::size_t outputs_ = 0;
 
+  std::string path_of(std::size_t output) const;
   void write_master() const;
 };
 

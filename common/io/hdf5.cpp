@@ -152,8 +152,10 @@ void Hdf5::write(const std::string& name, std::span<const double> values,
   }
   const std::vector<hsize_t> extent(shape.begin(), shape.end());
   const Handle space(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), H5Sclose);
+  const Handle timeless(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);  // same values, same file
+  H5Pset_obj_track_times(timeless.get(), false);
   const Handle dataset(
-      H5Dcreate2(id_, name.c_str(), H5T_IEEE_F64LE, space.get(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+      H5Dcreate2(id_, name.c_str(), H5T_IEEE_F64LE, space.get(), H5P_DEFAULT, timeless.get(), H5P_DEFAULT),
       H5Dclose);
   require(dataset &&
               H5Dwrite(dataset.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0,

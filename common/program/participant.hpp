@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "common/core/archive.hpp"
 #include "common/io/part.hpp"
 #include "common/program/program.hpp"
 #include "common/wire/messages.hpp"
@@ -43,6 +44,10 @@ class Participant {
   virtual void write_fields(double t, std::uint64_t step) = 0;
   /// Lines of the tables, once a step.
   virtual void write_tables(double t, double dt, ProjectedStates projected) = 0;
+  /// Fields at the last time t at which boundary conditions held, apart from the series: the numbers broke.
+  virtual void write_last_state(double t, std::uint64_t step) = 0;
+  /// Saves or loads all that the next steps depend on, tables and series of fields included.
+  virtual void archive(Archive& archive) = 0;
   virtual wire::Health health() const = 0;
   /// Errors, counters and budgets at the end of the run.
   virtual void report(double t, io::Part& part) const = 0;

@@ -8,6 +8,7 @@
 #include <atomic>
 #include <csignal>
 #include <cstdio>
+#include <ctime>
 
 #include "common/core/log.hpp"
 #include "common/io/atomic_file.hpp"
@@ -17,10 +18,22 @@ namespace fsi {
 namespace {
 
 std::atomic<int> caught_signal{0};
+std::atomic<double> caught_at{0}, time_to_end{0};  ///< [s]
+
+double now() {
+  timespec time{};
+  clock_gettime(CLOCK_MONOTONIC, &time);  // may be called by a signal handler
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+void remember(int signal) {
+  if (caught_signal == 0) caught_at = now();
+  if (caught_signal != SIGINT) caught_signal = signal;
+}
 
 void catch_signals() {
   struct sigaction action {};
-  action.sa_handler = [](int signal) { caught_signal = signal; };
+  action.sa_handler = remember;
   sigemptyset(&action.sa_mask);
   sigaction(SIGTERM, &action, nullptr);
   sigaction(SIGINT, &action, nullptr);
@@ -62,7 +75,29 @@ ExitCode leave_part(const Setup& setup, io::Part& part, ExitCode code) {
 void throw_if_interrupted() {
   const int signal = caught_signal;
   if (signal == SIGINT) throw Failure(ExitCode::interrupted, "interrupted (SIGINT)");
-  if (signal != 0) throw Failure(ExitCode::terminated, "ended on request (SIGTERM)");
+  if (signal != 0 && now() - caught_at >= time_to_end)
+    throw Failure(ExitCode::terminated, "ended on request (SIGTERM)");
+}
+
+void take_time_to_end(double seconds) {
+  time_to_end = seconds;
+}
+
+bool asked_to_end() {
+  return caught_signal == SIGTERM;
+}
+
+void write_results(const Setup& setup, io::Part& part, const std::function<void()>& write) {
+  try {
+    write();
+  } catch (const OutputFailed& failure) {
+    if (!setup.problem.output.go_on) throw;
+    double& lost = part.counters["lost_outputs"];
+    constexpr double often = 10;
+    if (lost < often)
+      log_warning(fmt::format("{}; the run goes on without (output.on_failure)", failure.what()));
+    ++lost;
+  }
 }
 
 void count_step(io::Part& part, double t, double dt) {
@@ -97,6 +132,7 @@ int run_program(int argc, char** argv, const std::string& default_name, const st
   app.add_option("--case", case_path, "case file (YAML)")->required();
   app.add_option("--run-dir", setup.run_dir, "folder of the results")->required();
   app.add_option("--run", setup.run, "identity of the run on the bus");
+  app.add_option("--restart", setup.restart, "folder of the checkpoint to go on from");
   app.add_option("--name", setup.name, "name of this participant in the case");
   try {
     app.parse(argc, argv);

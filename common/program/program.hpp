@@ -2,12 +2,14 @@
 /// The shell every program of a run lives in: command line, signals, log, exit code and the report it leaves
 /// behind.
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <functional>
 #include <string>
 
 #include "common/case/case.hpp"
+#include "common/io/csv_writer.hpp"
 #include "common/io/part.hpp"
 
 namespace fsi {
@@ -16,8 +18,11 @@ namespace fsi {
 struct Setup {
   Case problem;
   std::string run_dir;
-  std::string run;   ///< identity of the run on the bus
-  std::string name;  ///< participant's name: "fluid", "coupler" or the solid's name
+  std::string run;           ///< identity of the run on the bus
+  std::string name;          ///< participant's name: "fluid", "coupler" or the solid's name
+  std::string restart = {};  ///< folder of the checkpoint the run goes on from; empty: it begins
+
+  io::Opening opening() const { return restart.empty() ? io::Opening::fresh : io::Opening::continued; }
 };
 
 /// Counts one finished macro step of size dt that ended at time `t`.
@@ -28,8 +33,17 @@ void count_step(io::Part& part, double t, double dt);
 int run_program(int argc, char** argv, const std::string& default_name, const std::string& role,
                 const std::function<void(const Setup&, io::Part&)>& body);
 
-/// Ends the program (exit 143 or 130) when a signal asks for it.
+/// Writes results. Where that fails and the case says to go on without them, the loss is told and counted.
+/// @throws OutputFailed
+void write_results(const Setup& setup, io::Part& part, const std::function<void()>& write);
+
+/// Ends the program when a signal asks for it: SIGINT at once (exit 130), SIGTERM (exit 143) once it has had
+/// the time that `take_time_to_end` said.
 void throw_if_interrupted();
+/// From now on SIGTERM leaves so many seconds to end in good order.
+void take_time_to_end(double seconds);
+/// SIGTERM has come.
+bool asked_to_end();
 
 /// Wall-clock time split into computing and waiting.
 class Stopwatch {
@@ -40,6 +54,16 @@ class Stopwatch {
 
  private:
   std::chrono::steady_clock::time_point last_;
+};
+
+/// How long a program waits for an end in good order: a few seconds, more where steps take long.
+class Patience {
+ public:
+  /// Seconds, from the duration of the step since the last call.
+  double of_step() { return std::min(30.0, 4 + 3 * watch_.lap()); }
+
+ private:
+  Stopwatch watch_;
 };
 
 /// Prints `progress step=.. t=.. dt=.. limit=.. t_end=..` lines for the launcher, at most ten a second.

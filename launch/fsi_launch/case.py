@@ -29,8 +29,8 @@ class Case:
         return list(self.programs)[-1]
 
 
-def _ask(verb, case, overrides, laws):
-    command = [paths.program("fsi_case"), verb, case]
+def _ask(verb, case, overrides, laws, *options):
+    command = [paths.program("fsi_case"), verb, case, *options]
     command += [f"--set={override}" for override in overrides] + [f"--solid={law}" for law in laws]
     answer = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
     if answer.returncode == 2:
@@ -45,9 +45,10 @@ def check(case, overrides, laws):
     return _ask("check", case, overrides, laws).strip()
 
 
-def resolve(case, overrides, laws):
-    """The checked Case. Throws UserMistake with file:line:column."""
-    answer = json.loads(_ask("resolve", case, overrides, laws))
+def resolve(case, overrides, laws, former=None):
+    """The checked Case. `former`: the case of a run that it must be able to go on with. Throws UserMistake with
+    file:line:column."""
+    answer = json.loads(_ask("resolve", case, overrides, laws, *([f"--restart={former}"] if former else [])))
     return Case(name=answer["name"], text=answer["resolved"],
                 programs={entry["name"]: entry["executable"] for entry in answer["participants"]},
                 reference=answer["reference"]["kind"], expect=answer["expect"],

@@ -8,7 +8,7 @@ import sys
 from fsi_launch import paths
 from fsi_launch.failure import DONE, Failure, INTERRUPTED, OUTPUT_FAILED, TERMINATED, UserMistake
 
-REQUESTS = ("pause", "resume", "stop")
+REQUESTS = ("pause", "resume", "checkpoint", "stop")
 USAGE = (paths.ROOT / "launch" / "usage.txt").read_text(encoding="utf-8")
 
 
@@ -19,8 +19,8 @@ class _Parser(argparse.ArgumentParser):
         raise UserMistake(f"{self.prog.split()[-1]}: {message}; --help says more")
 
 
-def _add_case(parser):
-    parser.add_argument("case", metavar="CASE", help="a case file, or a name in configs/")
+def _add_case(parser, **options):
+    parser.add_argument("case", metavar="CASE", help="a case file, or a name in configs/", **options)
     parser.add_argument("--set", dest="overrides", metavar="KEY=VALUE", action="append", default=[],
                         help="override an entry of the case, e.g. --set time.end=0.4 (repeatable)")
     parser.add_argument("--solid", dest="laws", metavar="NAME=LAW", action="append", default=[],
@@ -30,7 +30,8 @@ def _add_case(parser):
 def _run(options):
     from fsi_launch.run import Request, run
     result = run(Request(case=options.case, overrides=options.overrides, laws=options.laws, out=options.out,
-                         overwrite=options.overwrite, progress=options.progress, frames=options.movie))
+                         overwrite=options.overwrite, restart=options.restart, progress=options.progress,
+                         frames=options.movie))
     if options.movie and result.code == DONE:
         from fsi_launch import plot
         plot.draw_movie(result.directory)
@@ -56,6 +57,11 @@ def _test(options):
 def _bench(options):
     from fsi_launch import bench
     return bench.main(options)
+
+
+def _faults(options):
+    from fsi_launch import faults
+    return faults.main(options)
 
 
 def _plot(options):
@@ -102,8 +108,11 @@ def _parser():
 
     verb = verbs.add_parser("run", description="Runs a case: checks it, starts its programs, shows the progress, "
                             "and writes the results and summary.json to DIR.")
-    _add_case(verb)
+    _add_case(verb, nargs="?")
     verb.add_argument("--out", metavar="DIR", help="folder of the results (default: runs/CASE-TIME)")
+    verb.add_argument("--restart", metavar="DIR", help="go on with the run in DIR from its last checkpoint; the numbers "
+                      "are those of a run that was never interrupted. CASE may be left out; only time.end, output and "
+                      "expect may be changed")
     verb.add_argument("--overwrite", action="store_true", help="replace the results of a former run in DIR")
     verb.add_argument("--no-progress", dest="progress", action="store_false", help="no progress bar")
     verb.add_argument("--movie", action="store_true", help="more output times, and an animated file DIR/plots/movie.mp4 of "
@@ -145,8 +154,9 @@ def _parser():
     verb.add_argument("--speed", metavar="X", type=float, help="of the replay: 2 is twice as fast")
     verb.set_defaults(act=_monitor)
 
-    verb = verbs.add_parser("ctl", usage="fsi ctl [RUN] pause|resume|stop", description="Asks a run to pause, to go on "
-                            "or to stop in good order (status \"stopped\"). RUN as for monitor.")
+    verb = verbs.add_parser("ctl", usage="fsi ctl [RUN] pause|resume|checkpoint|stop", description="Asks a run to pause, "
+                            "to go on, to write a checkpoint, or to write one and stop in good order (status "
+                            "\"stopped\"). RUN as for monitor.")
     verb.add_argument("words", metavar="[RUN] REQUEST", nargs="+", help=", ".join(REQUESTS))
     verb.set_defaults(act=_ctl)
 
@@ -158,6 +168,15 @@ def _parser():
                       "ffmpeg)")
     verb.add_argument("--out", metavar="DIR", help="folder of the pictures (default: plots in the first DIR)")
     verb.set_defaults(act=_plot)
+
+    verb = verbs.add_parser("faults", description="Sends signals to the programs of a run at random moments, many "
+                            "times, and checks how it ends, what is left, and that its restart gives the same bits. "
+                            "Exit 1 where anything was wrong.")
+    verb.add_argument("--count", type=int, metavar="N", default=200, help="trials (default: 200)")
+    verb.add_argument("--seed", type=int, metavar="S", default=1, help="of targets and moments (default: 1)")
+    verb.add_argument("--jobs", type=int, metavar="N", default=2, help="trials at the same time (default: 2)")
+    verb.add_argument("--out", metavar="FILE", help="JSON with one entry per trial")
+    verb.set_defaults(act=_faults)
 
     verb = verbs.add_parser("bench", description="Runs all benchmarks; prints one table and writes JSON.")
     verb.add_argument("--quick", action="store_true", help="a short look: fewer repetitions")

@@ -13,9 +13,10 @@ def _read(path):
 
 
 def merge(directory, programs):
-    """Joins DIR/probes_<participant>.csv into DIR/probes.csv and removes them. A line that one program did not
-    reach, because it was killed, has empty entries there."""
-    parts = [path for path in (Path(directory) / f"probes_{name}.csv" for name in programs) if path.is_file()]
+    """Joins DIR/parts/probes_<participant>.csv into DIR/probes.csv; they stay, for a restart. A line that one
+    program did not reach, because it was killed, has empty entries there."""
+    folder = Path(directory) / "parts"
+    parts = [path for path in (folder / f"probes_{name}.csv" for name in programs) if path.is_file()]
     tables = [_read(path) for path in parts if path.stat().st_size > 0]
     if not tables:
         return
@@ -28,5 +29,3 @@ def merge(directory, programs):
             table.writerow([time, *(value for heading, rows in tables
                                     for value in rows.get(time, [""] * len(heading)))])
     os.replace(aside, Path(directory) / "probes.csv")
-    for path in parts:
-        path.unlink()

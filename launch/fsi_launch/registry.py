@@ -30,6 +30,19 @@ class Entry:
         self.path.unlink(missing_ok=True)
 
 
+def running_in(directory):
+    """Process of the launcher whose run lives in `directory`, or None."""
+    _forget_dead_runs(folder())
+    for path in folder().glob("*.json"):
+        try:
+            entry = json.loads(path.read_text(encoding="utf-8"))
+            if Path(entry["dir"]) == Path(directory).resolve():
+                return int(entry["pid"])
+        except (OSError, ValueError, KeyError):
+            continue
+    return None
+
+
 def _forget_dead_runs(entries):
     """Removes what launchers left behind that were killed with SIGKILL."""
     for path in entries.glob("*.json"):

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from fsi_launch import case as cases
-from fsi_launch import paths, probes, registry, summary
+from fsi_launch import paths, probes, registry, restart, summary
 from fsi_launch.failure import (DONE, EXPECTATION_MISSED, Failure, INTERRUPTED, OUTPUT_FAILED,
                                 PEER_LOST, TERMINATED, UserMistake)
 from fsi_launch.progress import Progress
@@ -27,6 +27,7 @@ class Request:
     laws: list = field(default_factory=list)
     out: str = None
     overwrite: bool = False
+    restart: str = None     # folder of the run to go on with
     progress: bool = True
     quiet: bool = False
     judge: bool = True      # hold the results against the case's expectations
@@ -83,8 +84,10 @@ def _make_directory(request, name):
 # --- the programs
 
 
-def _programs(case, directory, run):
+def _programs(case, directory, run, checkpoint):
     common = ["--case", str(directory / "case.yaml"), "--run-dir", str(directory), "--run", run]
+    if checkpoint:
+        common += ["--restart", str(checkpoint.path)]
     return [Program(name, [paths.program(program), *common, "--name", name], listen=name == case.speaker())
             for name, program in case.programs.items()]
 
@@ -176,10 +179,10 @@ def _write_xdmf(directory):
 # --- the whole
 
 
-def _supervise(case, directory, run, progress):
+def _supervise(case, directory, programs, progress):
     """Runs the reference program, then the programs of the run."""
     outcome = Outcome()
-    for programs in (_reference(case, directory), _programs(case, directory, run)):
+    for programs in (_reference(case, directory), programs):
         supervisor = Supervisor(directory / "log", progress.hear, progress.tick)
         outcome = supervisor.run(programs)
         if outcome.signal or root_cause(outcome.endings):
@@ -195,26 +198,52 @@ def _applicable(case, request, say):
     return [entry for entry in case.expect if not entry["quantity"].startswith("errors.")]
 
 
-def run(request):
-    """Runs a case to its end. Throws UserMistake before anything is started; everything later is in the Result."""
-    case = cases.resolve(request.case, request.overrides, request.laws)
+def _resolved(request, path, former=None):
+    """The checked Case, all of whose programs are there."""
+    case = cases.resolve(path, request.overrides, request.laws, former)
     if request.frames and not any(entry.startswith("output.") for entry in request.overrides):
-        case = cases.resolve(request.case, [*request.overrides, f"output.every={case.end / FRAMES:.17g}"], request.laws)
+        overrides = [*request.overrides, f"output.every={case.end / FRAMES:.17g}"]
+        case = cases.resolve(path, overrides, request.laws, former)
     for program in case.programs.values():
         paths.program(program)
-    directory = _make_directory(request, case.name)
+    return case
+
+
+def _begin(request, say):
+    """(Case, folder, checkpoint or None) of a run; the folder is ready."""
+    if request.restart is None:
+        if request.case is None:
+            raise UserMistake("run: name a case, or a run with --restart DIR")
+        case = _resolved(request, request.case)
+        directory, checkpoint = _make_directory(request, case.name), None
+    else:
+        if request.out or request.overwrite:
+            raise UserMistake("--restart goes on in the folder of the run; leave --out and --overwrite away")
+        directory = Path(request.restart)
+        checkpoint = restart.choose(directory, say)
+        former = str(directory / "case.yaml")
+        case = _resolved(request, request.case or former, former)
+        restart.prepare(directory)
     (directory / "case.yaml").write_text(case.text, encoding="utf-8")
-    identity = f"{case.name}-{time.strftime('%H%M%S')}-{time.time_ns() % 10**9:09d}"
+    return case, directory, checkpoint
+
+
+def run(request):
+    """Runs a case to its end. Throws UserMistake before anything is started; everything later is in the Result."""
     say = (lambda text: None) if request.quiet else (lambda text: print(text, file=sys.stderr))
+    case, directory, checkpoint = _begin(request, say)
+    identity = f"{case.name}-{time.strftime('%H%M%S')}-{time.time_ns() % 10**9:09d}"
     say(f"{case.name}: {', '.join(case.programs.values())}")
 
     start = time.monotonic()
     progress = Progress(request.progress and not request.quiet)
     with registry.Entry(identity, directory.resolve(), case.name):
-        outcome = _supervise(case, directory, identity, progress)
+        outcome = _supervise(case, directory, _programs(case, directory, identity, checkpoint), progress)
     progress.close()
     code, status, reason = _judge(outcome, case, directory)
     result = summary.merge(directory, case, status, reason, time.monotonic() - start)
+    if checkpoint:
+        result["restart"] = {"step": checkpoint.step, "t": checkpoint.t}
     try:
         probes.merge(directory, case.programs)
         _write_xdmf(directory)
@@ -234,4 +263,5 @@ def _report(result, directory, missed, quiet):
         print(summary.describe(result, directory), flush=True)
     for line in missed + ([result["reason"]] if result["status"] == "failed" else []):
         print(f"fsi: {line}", file=sys.stderr)
-
+    if result["status"] != "completed" and (found := restart.latest(directory)):
+        print(f"fsi: ./launch/fsi run --restart {directory} goes on from step {found.step}", file=sys.stderr)

@@ -16,7 +16,8 @@ from dataclasses import dataclass, field
 
 GRACE = 4.0         # [s] from a program's failure to SIGTERM for the others: they should have ended by then
 KILL_AFTER = 1.0    # [s] from that SIGTERM to SIGKILL
-STOP_GRACE = 5.0    # [s] from Ctrl-C or SIGTERM to SIGKILL: a checkpoint may be written
+STOP_GRACE = 40.0   # [s] from Ctrl-C or SIGTERM to SIGKILL: a checkpoint is written, which may take a long step
+AFTER_STOP = 1.0    # [s] from the first end after that to SIGTERM for the others
 LAST_GRACE = 60.0   # [s] from the first program's good end to SIGTERM for the others: results may be written
 PIPE_SIZE = 1 << 20
 PR_SET_PDEATHSIG = 1
@@ -143,7 +144,7 @@ class Supervisor:
         os.close(self._pidfds.pop(name))
         ending = Ending(name, process.wait(), time.monotonic(), name in self._signalled)
         self._outcome.endings.append(ending)
-        grace = LAST_GRACE if ending.code == 0 else GRACE
+        grace = AFTER_STOP if self._outcome.signal else LAST_GRACE if ending.code == 0 else GRACE
         self._end_by(ending.when + grace, ending.when + grace + KILL_AFTER)
 
     def _end_by(self, terminate_at, kill_at):

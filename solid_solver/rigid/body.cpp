@@ -76,6 +76,26 @@ void RigidBody::take_acceleration() {
   old_mean_ = mean;
 }
 
+void RigidBody::archive(Archive& archive) {
+  const auto vector = [&](const char* name, Eigen::VectorXd& v) {
+    archive.values(name, {v.data(), static_cast<std::size_t>(v.size())});
+  };
+  const auto pose = [&](const char* name, Pose& at) {
+    archive.inside(name, [&] {
+      archive.values("centre", {at.centre.data(), 2});
+      archive.number("angle", at.angle);
+    });
+  };
+  pose("pose", pose_);
+  pose("old_pose", old_pose_);
+  vector("s", s_);
+  vector("old_s", old_s_);
+  vector("acceleration", acceleration_);
+  vector("old_mean", old_mean_);
+  archive.number("dt", dt_);
+  archive.number("old_dt", old_dt_);
+}
+
 Eigen::MatrixXd RigidBody::mass_matrix() const {
   const Vec3 masses(dynamics_.mass, dynamics_.mass, dynamics_.moment_of_inertia);
   return dynamics_.modes.transpose() * masses.asDiagonal() * dynamics_.modes;

@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "common/core/archive.hpp"
 #include "common/core/types.hpp"
 #include "common/grid/interface_geometry.hpp"
 #include "solid_solver/rigid/inertia.hpp"
@@ -64,6 +65,8 @@ class RigidBody {
   Eigen::MatrixXd mode_vectors() const;
   /// B^T load.
   Eigen::VectorXd modal_load(const Vec3& load) const { return dynamics_.modes.transpose() * load; }
+
+  void archive(Archive& archive);
 
   /// Where a point of the reference body is now, and how fast.
   Vec2 position(const Vec2& x_bar) const;

@@ -21,6 +21,17 @@ GasLoad load_of_gas(std::span<const double> x, std::span<const double> n, std::s
   return load;
 }
 
+void GasLoad::archive(Archive& archive) {
+  archive.values("force", {force.data(), 2});
+  archive.number("moment", moment);
+  archive.number("power", power);
+}
+
+void Impulse::archive(Archive& archive) {
+  archive.inside("sum", [&] { sum_.archive(archive); });
+  archive.inside("last", [&] { last_.archive(archive); });
+}
+
 void Impulse::add(const GasLoad& load, double dt) {
   sum_.force += 0.5 * dt * (last_.force + load.force);
   sum_.moment += 0.5 * dt * (last_.moment + load.moment);

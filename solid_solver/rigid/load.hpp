@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "common/core/archive.hpp"
 #include "common/core/types.hpp"
 #include "solid_solver/rigid/body.hpp"
 
@@ -12,6 +13,8 @@ struct GasLoad {
   Vec2 force = Vec2::Zero();
   double moment = 0;  ///< about the origin
   double power = 0;
+
+  void archive(Archive& archive);
 };
 
 /// Sum over the points `x` of an outline (2 n) of the normal traction w_n along n, each on the half of its
@@ -23,6 +26,7 @@ GasLoad load_of_gas(std::span<const double> x, std::span<const double> n, std::s
 class Impulse {
  public:
   void add(const GasLoad& load, double dt);
+  void archive(Archive& archive);
   const GasLoad& sum() const { return sum_; }  ///< impulse, angular impulse, work
 
  private:

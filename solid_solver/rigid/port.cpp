@@ -86,7 +86,7 @@ void RigidParticipant::advance(double t, double dt, int /*substeps*/, ProjectedS
   body_.advance(dt);
 }
 
-void RigidParticipant::write_fields(double t, std::uint64_t step) {
+io::GridOutput RigidParticipant::fields() {
   const int n = reference_.layout().n1;
   for (int j = 0; j < 2; ++j) {
     for (int i = 0; i < n; ++i) {
@@ -102,9 +102,30 @@ void RigidParticipant::write_fields(double t, std::uint64_t step) {
   for (std::size_t k = 0; k < quantities.size(); ++k) {
     planes.push_back({quantities[k], state_.view(), static_cast<int>(k)});
   }
-  const io::GridOutput grids[] = {
-      {.grid = "body", .x = reference_.view(), .u = state_.view(), .fields = std::move(planes)}};
+  return {.grid = "body", .x = reference_.view(), .u = state_.view(), .fields = std::move(planes)};
+}
+
+void RigidParticipant::write_fields(double t, std::uint64_t step) {
+  const io::GridOutput grids[] = {fields()};
   fields_.write(t, step, grids);
+}
+
+/// The body as it is: predicted where the others broke.
+void RigidParticipant::write_last_state(double t, std::uint64_t step) {
+  const io::GridOutput grids[] = {fields()};
+  fields_.write_apart("last_state", t, step, grids);
+}
+
+void RigidParticipant::archive(Archive& archive) {
+  body_.archive(archive);
+  archive.values("own", {own_.data(), 3});
+  archive.values("old_own", {old_own_.data(), 3});
+  archive.inside("load", [&] { load_.archive(archive); });
+  archive.inside("impulse", [&] { impulse_.archive(archive); });
+  archive.number("dt", dt_);
+  archive.inside("fields", [&] { fields_.archive(archive); });
+  archive.inside("forces", [&] { forces_->archive(archive); });
+  if (probe_table_) archive.inside("probes", [&] { probe_table_->archive(archive); });
 }
 
 void RigidParticipant::write_tables(double t, double /*dt*/, ProjectedStates /*projected*/) {
@@ -161,14 +182,16 @@ void RigidParticipant::open_tables() {
                   std::vector<std::string>{"t [time]", "force1 [force/depth]", "force2 [force/depth]",
                                            "moment [force*length/depth]", "power [power/depth]",
                                            "centre1 [length]", "centre2 [length]", "velocity1 [length/time]",
-                                           "velocity2 [length/time]", "angle [rad]"});
+                                           "velocity2 [length/time]", "angle [rad]"},
+                  setup_.opening());
   std::vector<std::string> columns{"t [time]"};
   for (const ProbeSpec& probe : setup_.problem.output.probes) {
     if (probe.in != spec_.name) continue;
     probes_.emplace_back(probe.x, probe.y);
     for (const char* quantity : quantities) columns.push_back(fmt::format("{}.{}", probe.name, quantity));
   }
-  if (!probes_.empty()) probe_table_.emplace(setup_.run_dir + "/probes_" + spec_.name + ".csv", columns);
+  if (!probes_.empty())
+    probe_table_.emplace(setup_.run_dir + "/parts/probes_" + spec_.name + ".csv", columns, setup_.opening());
 }
 
 void RigidParticipant::place_grid() {

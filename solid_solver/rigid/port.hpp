@@ -25,6 +25,8 @@ class RigidParticipant final : public Participant {
   void advance(double t, double dt, int substeps, ProjectedStates projected) override;
   void write_fields(double t, std::uint64_t step) override;
   void write_tables(double t, double dt, ProjectedStates projected) override;
+  void write_last_state(double t, std::uint64_t step) override;
+  void archive(Archive& archive) override;
   wire::Health health() const override;
   void report(double t, io::Part& part) const override;
 
@@ -49,6 +51,7 @@ class RigidParticipant final : public Participant {
   Totals initial_;
 
   Totals totals() const;
+  io::GridOutput fields();
   Vec3 own_load(double t) const;
   void open_tables();
   void place_grid();

@@ -40,13 +40,13 @@ def programs_of(directory):
 
 
 class Launched:
-    """A running `./launch/fsi run`; its results go to `directory`."""
+    """A running `./launch/fsi run`; its results go to `directory`, or where the arguments say if `out` is None."""
 
     def __init__(self, folder, *arguments, out="run"):
-        self.directory = folder / out
+        self.directory = folder / (out or "")
         self.runtime = folder / "runtime"
         self.runtime.mkdir(exist_ok=True)
-        command = [str(FSI), "run", *arguments, "--out", str(self.directory)]
+        command = [str(FSI), "run", *arguments, *(["--out", str(self.directory)] if out else [])]
         environment = os.environ | {"FSI_BIN": str(BIN), "XDG_RUNTIME_DIR": str(self.runtime)}
         self.process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                                         stderr=subprocess.PIPE, text=True, env=environment, cwd=folder)

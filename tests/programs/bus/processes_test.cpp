@@ -124,6 +124,27 @@ TEST(Stopping, LongStopIsASilentPeer) {
   }
 }
 
+/// Its other threads live on and renew the lease: only what its first thread does tells.
+TEST(Hanging, SolverThatSleepsWithoutEndIsNamed) {
+  BusOptions impatient = options(own_run());
+  impatient.peer_timeout_s = 1;
+  Process fluid([=](const auto& say) { solve(impatient, gas(), endless, 3, say); });
+  Process beam([=](const auto&) {
+    SolverSession session(impatient, solid());
+    session.publish(predicted(0, 3));
+    session.receive("beam", 0);
+    while (true) pause();
+  });
+  Process coupler([=](const auto& say) { couple(impatient, endless, 3, say); });
+  EXPECT_EQ(fluid.hear(), "begun");
+  EXPECT_EQ(coupler.hear(), "begun");
+  for (Process* process : {&fluid, &coupler}) {
+    EXPECT_EQ(process->end(10), 4);
+    const std::string reason = process->hear();
+    EXPECT_TRUE(says(reason, "solid 'beam'") && says(reason, "hangs")) << reason;
+  }
+}
+
 TEST(Watching, FrozenMonitorDoesNotHoldUpTheRun) {
   const std::string run_id = own_run();
   Process monitor([=](const auto& say) {

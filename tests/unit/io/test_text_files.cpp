@@ -56,7 +56,7 @@ TEST_F(Csv, NumbersReadBackExactly) {
 }
 
 TEST_F(Csv, AKillLosesAtMostOneBatchAndNeverLeavesHalfALine) {
-  CsvWriter csv(dir + "/interface.csv", {"step", "gap"}, 4);
+  CsvWriter csv(dir + "/interface.csv", {"step", "gap"}, Opening::fresh, 4);
   for (int k = 0; k < 11; ++k) {
     csv.row({static_cast<double>(k), 0.5});
     const std::string on_disk = content(dir + "/interface.csv");  // what a kill now would leave

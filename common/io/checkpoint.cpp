@@ -1,0 +1,156 @@
+#include "common/io/checkpoint.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <system_error>
+
+#include "common/core/failure.hpp"
+#include "common/io/atomic_file.hpp"
+#include "common/io/checksum.hpp"
+#include "common/io/hdf5.hpp"
+
+namespace fsi::io {
+
+namespace {
+
+namespace files = std::filesystem;
+
+constexpr const char* manifest_name = "manifest.json";
+
+std::string file_of(const std::string& folder, const std::string& participant) {
+  return fmt::format("{}/{}.h5", folder, participant);
+}
+
+nlohmann::json manifest_of(const std::string& folder) {
+  const std::string path = fmt::format("{}/{}", folder, manifest_name);
+  std::ifstream file(path);
+  nlohmann::json manifest = nlohmann::json::parse(file, nullptr, false);
+  if (!file || !manifest.is_object() || !manifest.contains("files"))
+    throw OutputFailed(fmt::format("'{}' cannot be read: the checkpoint is not complete", path));
+  return manifest;
+}
+
+/// @throws OutputFailed where the file is not what the manifest says
+void check_file(const std::string& folder, const std::string& participant) {
+  const std::string path = file_of(folder, participant);
+  const nlohmann::json manifest = manifest_of(folder);
+  const auto entry = manifest["files"].find(participant);
+  if (entry == manifest["files"].end())
+    throw UserMistake(
+        fmt::format("'{}' is a checkpoint without '{}': it is of another case", folder, participant));
+  const Checksum found = checksum_of(path);
+  const Checksum written{.bytes = entry->value("bytes", std::uint64_t{0}),
+                         .crc32 = entry->value("crc32", std::uint32_t{0})};
+  if (found == written) return;
+  throw OutputFailed(
+      fmt::format("'{}' is damaged: {} bytes with checksum {:08x}, written were {} with {:08x}", path,
+                  found.bytes, found.crc32, written.bytes, written.crc32));
+}
+
+void check_origin(const Hdf5& file, const std::string& path, const CheckpointOrigin& reader) {
+  const auto check = [&](const char* attribute, const std::string& mine, const char* what) {
+    const std::string its = file.text_attribute(attribute);
+    if (its == mine) return;
+    throw UserMistake(
+        fmt::format("'{}' was written {} ({}, now {}): a restart would not give the same numbers", path, what,
+                    its, mine));
+  };
+  check("participant", reader.participant, "by another participant");
+  check("case", reader.case_digest, "for another case");
+  check("build", reader.build, "by another build of this program");
+  check("processor", reader.processor, "on another kind of processor");
+}
+
+/// Folders of sets, the latest first.
+std::vector<files::path> sets_of(const std::string& run_dir) {
+  std::vector<files::path> sets;
+  std::error_code error;
+  for (const auto& entry : files::directory_iterator(run_dir + "/checkpoints", error)) {
+    if (entry.is_directory()) sets.push_back(entry.path());
+  }
+  std::ranges::sort(sets, std::greater<>());
+  return sets;
+}
+
+/// Keeps the newest set and the last complete one before it.
+void remove_others(const std::string& run_dir, const std::string& newest) {
+  int kept = 0;
+  const std::string name = files::path(newest).filename().string();
+  for (const files::path& set : sets_of(run_dir)) {
+    const bool later = set.filename().string() > name;
+    if (!later && kept < 2 && files::exists(set / manifest_name)) {
+      ++kept;
+      continue;
+    }
+    std::error_code error;  // what cannot be removed does no harm
+    files::remove(set / manifest_name, error);
+    files::remove_all(set, error);
+  }
+}
+
+}  // namespace
+
+std::string checkpoint_folder(const std::string& run_dir, std::uint64_t step) {
+  return fmt::format("{}/checkpoints/{:08}", run_dir, step);
+}
+
+void write_checkpoint(const std::string& run_dir, const CheckpointOrigin& origin, const Standing& at,
+                      const Archive& state) {
+  const std::string folder = checkpoint_folder(run_dir, at.step);
+  make_directory(folder);
+  const std::string path = file_of(folder, origin.participant);
+  Hdf5 file = Hdf5::create(aside(path));
+  file.write_attribute("participant", origin.participant);
+  file.write_attribute("case", origin.case_digest);
+  file.write_attribute("build", origin.build);
+  file.write_attribute("processor", origin.processor);
+  file.write_attribute("step", at.step);
+  file.write_attribute("t", at.t);
+  file.write_attribute("dt", at.dt);
+  for (const auto& [name, values] : state.entries()) file.write(name, values);
+  file.close();
+  rename_into_place(path);
+}
+
+LoadedCheckpoint read_checkpoint(const std::string& folder, const CheckpointOrigin& reader) {
+  check_file(folder, reader.participant);
+  const std::string path = file_of(folder, reader.participant);
+  const Hdf5 file = Hdf5::open(path);
+  check_origin(file, path, reader);
+  const Standing at{.step = static_cast<std::uint64_t>(file.number_attribute("step")),
+                    .t = file.number_attribute("t"),
+                    .dt = file.number_attribute("dt")};
+  Archive::Entries entries;
+  for (const std::string& name : file.names()) entries[name] = file.read(name).values;
+  return {.at = at, .state = Archive(std::move(entries))};
+}
+
+void complete_checkpoint(const std::string& run_dir, const Standing& at,
+                         std::span<const std::string> participants, const std::string& case_digest) {
+  const std::string folder = checkpoint_folder(run_dir, at.step);
+  nlohmann::ordered_json entries = nlohmann::ordered_json::object();
+  std::vector<std::string> missing;
+  for (const std::string& participant : participants) {
+    if (!files::exists(file_of(folder, participant))) {
+      missing.push_back(participant);
+      continue;
+    }
+    const Checksum sum = checksum_of(file_of(folder, participant));
+    entries[participant] = {{"bytes", sum.bytes}, {"crc32", sum.crc32}};
+  }
+  if (!missing.empty()) {
+    throw OutputFailed(fmt::format("the checkpoint of step {} is not complete: nothing from {}", at.step,
+                                   fmt::join(missing, ", ")));
+  }
+  const nlohmann::ordered_json manifest = {
+      {"step", at.step}, {"t", at.t}, {"case", case_digest}, {"files", entries}};
+  write_atomically(fmt::format("{}/{}", folder, manifest_name), manifest.dump(2) + "\n");
+  remove_others(run_dir, folder);
+}
+
+}  // namespace fsi::io

@@ -1,0 +1,139 @@
+/// One solver in a coupled run.
+
+#include <cstdint>
+#include <vector>
+
+#include "common/bus/solver_session.hpp"
+#include "common/program/checkpoints.hpp"
+#include "common/program/driver.hpp"
+
+namespace fsi {
+
+namespace {
+
+class CoupledRun {
+ public:
+  CoupledRun(const Setup& setup, io::Part& part, Participant& solver)
+      : setup_(setup),
+        part_(part),
+        solver_(solver),
+        hello_(solver.hello()),
+        checkpoints_(setup, part, [&solver](Archive& archive) { solver.archive(archive); }),
+        at_(checkpoints_.begin()),
+        session_(options(), hello_),
+        predicted_(hello_.interfaces.size()),
+        projected_(hello_.interfaces.size()) {}
+
+  void run() {
+    try {
+      with_last_state(part_, solver_, last_, [this] { loop(); });
+      session_.leave();
+    } catch (const Failure& failure) {
+      session_.abort(failure.code(), failure.what());
+      throw;
+    } catch (const std::exception& error) {
+      session_.abort(ExitCode::expectation_missed, error.what());
+      throw;
+    }
+  }
+
+ private:
+  bus::BusOptions options() {
+    bus::BusOptions options = bus_options(setup_);
+    options.throw_if_interrupted = [this] { obey_signals(); };
+    return options;
+  }
+
+  /// SIGTERM: the coupler ends the run, after a checkpoint; who waits for that too long ends by itself.
+  void obey_signals() {
+    if (asked_to_end() && running_ && !told_) {
+      told_ = true;
+      session_.request("terminate");
+    }
+    throw_if_interrupted();
+  }
+
+  void loop() {
+    running_ = true;
+    last_ = {.t = at_.t, .step = at_.step};
+    while (exchange()) {
+      const wire::ProjectedInterface& answer = *projected_.front();
+      solver_.advance(at_.t, answer.dt_next, answer.substeps_next, projected_);
+      at_ = {.step = at_.step + 1, .t = answer.t_next, .dt = answer.dt_next};
+      count_step(part_, at_.t, at_.dt);
+      part_.substeps += static_cast<std::uint64_t>(answer.substeps_next);
+      part_.compute_s += watch_.lap();
+      if (answer.write_checkpoint) checkpoints_.save(at_);
+      if (session_.telemetry_due())
+        session_.publish(telemetry_of(setup_, part_, solver_, at_.dt, bid_.reason));
+      take_time_to_end(patience_.of_step());
+      obey_signals();
+    }
+  }
+
+  /// From the predicted to the projected state; false at the end of the run.
+  bool exchange() {
+    publish_predicted();
+    receive_projected();
+    solver_.apply_bcs(at_.t, projected_);
+    last_ = {.t = at_.t, .step = at_.step};
+    const wire::ProjectedInterface& answer = *projected_.front();
+    write_results(setup_, part_, [&] { solver_.write_tables(at_.t, at_.dt, projected_); });
+    if (answer.write_output) write_results(setup_, part_, [&] { solver_.write_fields(at_.t, at_.step); });
+    if (!answer.stop) return true;
+    if (!answer.stop_reason.empty()) part_.status = "stopped";
+    part_.reason = answer.stop_reason;
+    wire::Telemetry last = telemetry_of(setup_, part_, solver_, at_.dt, bid_.reason);
+    last.state = "done";
+    session_.publish(last);
+    return false;
+  }
+
+  void publish_predicted() {
+    bid_ = solver_.compute_time_step();
+    for (std::size_t k = 0; k < predicted_.size(); ++k) {
+      wire::PredictedInterface& message = predicted_[k];
+      solver_.fill(k, message);
+      message.interface = hello_.interfaces[k].name;
+      message.step = at_.step;
+      message.t = at_.t;
+      message.dt_bid = bid_.dt;
+      message.dt_reason = bid_.reason;
+      message.health = solver_.health();
+      message.compute_s = part_.compute_s;
+      message.wait_s = part_.wait_s;
+      session_.publish(message);
+    }
+    part_.compute_s += watch_.lap();
+  }
+
+  void receive_projected() {
+    for (std::size_t k = 0; k < projected_.size(); ++k) {
+      projected_[k] = &session_.receive(hello_.interfaces[k].name, at_.step);
+    }
+    part_.wait_s += watch_.lap();
+  }
+
+  const Setup& setup_;
+  io::Part& part_;
+  Participant& solver_;
+  wire::Hello hello_;  ///< of the initial state, also after a restart
+  Checkpoints checkpoints_;
+  io::Standing at_;
+  LastState last_;
+  bool running_ = false, told_ = false;
+  bus::SolverSession session_;
+  std::vector<wire::PredictedInterface> predicted_;
+  std::vector<const wire::ProjectedInterface*> projected_;
+  TimeStepBid bid_;
+  Stopwatch watch_;
+  Patience patience_;
+};
+
+}  // namespace
+
+void run_coupled(const Setup& setup, io::Part& part, Participant& solver) {
+  CoupledRun(setup, part, solver).run();
+}
+
+}  // namespace fsi

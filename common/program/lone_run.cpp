@@ -1,0 +1,133 @@
+/// A solver without interfaces.
+
+#include <fmt/format.h>
+
+#include "common/bus/solo_session.hpp"
+#include "common/core/time_schedule.hpp"
+#include "common/program/checkpoints.hpp"
+#include "common/program/driver.hpp"
+
+namespace fsi {
+
+namespace {
+
+class LoneRun {
+ public:
+  LoneRun(const Setup& setup, io::Part& part, Participant& solver)
+      : setup_(setup),
+        part_(part),
+        solver_(solver),
+        session_(bus_options(setup), part.role, part.participant),
+        schedule_({.end = setup.problem.time.end,
+                   .output_times = setup.problem.output.times,
+                   .growth = setup.problem.time.growth,
+                   .dt_max = setup.problem.time.dt.value_or(0)}),
+        progress_(setup.problem.time.end),
+        checkpoints_(setup, part, [this](Archive& archive) { this->archive(archive); }),
+        clock_(setup.problem.output) {}
+
+  void run() {
+    try {
+      with_last_state(part_, solver_, last_, [this] { loop(); });
+    } catch (const Failure& failure) {
+      session_.abort(failure.code(), failure.what());
+      throw;
+    }
+  }
+
+ private:
+  void archive(Archive& archive) {
+    solver_.archive(archive);
+    archive.inside("schedule", [&] { schedule_.archive(archive); });
+  }
+
+  void loop() {
+    at_ = checkpoints_.begin();
+    clock_.start(at_.step);
+    if (setup_.restart.empty()) {
+      solver_.apply_bcs(0, {});
+      write(schedule_.output_at_start());
+    }
+    while (!end_ && go_on()) {
+      advance();
+      last_ = {.t = at_.t, .step = at_.step};
+      take_time_to_end(patience_.of_step());
+    }
+  }
+
+  void advance() {
+    const TimeStepBid bid = solver_.compute_time_step();
+    const PlannedStep step = schedule_.plan(at_.t, bid.dt, bid.reason);
+    solver_.advance(at_.t, step.dt, 1, {});
+    at_ = {.step = at_.step + 1, .t = step.t_next, .dt = step.dt};
+    solver_.apply_bcs(at_.t, {});
+    count_step(part_, at_.t, at_.dt);
+    ++part_.substeps;
+    write(step.output);
+    part_.compute_s += watch_.lap();
+    progress_.show(part_.steps, at_.t, at_.dt, part_.participant);
+    if (session_.telemetry_due() || step.end)
+      session_.publish(telemetry_of(setup_, part_, solver_, at_.dt, bid.reason));
+    end_ = step.end;
+  }
+
+  void write(bool fields) {
+    write_results(setup_, part_, [&] { solver_.write_tables(at_.t, at_.dt, {}); });
+    if (fields) write_results(setup_, part_, [&] { solver_.write_fields(at_.t, at_.step); });
+    fields_written_ = fields;
+  }
+
+  /// Obeys requests from outside; false when the run shall stop.
+  bool go_on() {
+    bool stop = false;
+    if (clock_.due(at_.step)) save();
+    do {
+      for (const wire::Control& control : session_.controls()) {
+        if (control.command == "pause") paused_ = true;
+        if (control.command == "resume") paused_ = false;
+        if (control.command == "checkpoint") save();
+        if (control.command == "stop") stop = true;
+      }
+      if (stop || asked_to_end()) break;
+      if (paused_) session_.idle(0.1);
+    } while (paused_);
+    throw_if_interrupted();
+    if (!stop && !asked_to_end()) return true;
+    save();
+    if (asked_to_end())
+      throw Failure(ExitCode::terminated,
+                    fmt::format("ended on request (SIGTERM), after a checkpoint of step {}", at_.step));
+    if (!fields_written_) write_results(setup_, part_, [&] { solver_.write_fields(at_.t, at_.step); });
+    part_.status = "stopped";
+    part_.reason = "stopped on request";
+    return false;
+  }
+
+  void save() {
+    checkpoints_.save(at_);
+    checkpoints_.complete(at_);
+    clock_.start(at_.step);
+  }
+
+  const Setup& setup_;
+  io::Part& part_;
+  Participant& solver_;
+  bus::SoloSession session_;
+  TimeSchedule schedule_;
+  ProgressLines progress_;
+  Checkpoints checkpoints_;
+  CheckpointClock clock_;
+  io::Standing at_;
+  LastState last_;
+  Stopwatch watch_;
+  Patience patience_;
+  bool end_ = false, fields_written_ = true, paused_ = false;
+};
+
+}  // namespace
+
+void run_alone(const Setup& setup, io::Part& part, Participant& solver) {
+  LoneRun(setup, part, solver).run();
+}
+
+}  // namespace fsi

@@ -1,0 +1,83 @@
+"""Checkpoints of a run: which one a restart goes on from."""
+
+import json
+import zlib
+from dataclasses import dataclass
+from pathlib import Path
+
+from fsi_launch import registry
+from fsi_launch.failure import Failure, OUTPUT_FAILED, UserMistake
+
+CHUNK = 1 << 20
+
+
+@dataclass
+class Set:
+    """The checkpoints that all programs wrote of one step."""
+
+    path: Path
+    step: int
+    t: float
+
+
+def _crc32(path):
+    checksum = 0
+    with open(path, "rb") as file:
+        while data := file.read(CHUNK):
+            checksum = zlib.crc32(data, checksum)
+    return checksum
+
+
+def _opened(path):
+    """The Set in a folder. Throws ValueError that says what is wrong with it."""
+    try:
+        manifest = json.loads((path / "manifest.json").read_text(encoding="utf-8"))
+        found = Set(path, int(manifest["step"]), float(manifest["t"]))
+        files = {path / f"{name}.h5": entry for name, entry in manifest["files"].items()}
+    except OSError:
+        raise ValueError("is not complete") from None
+    except (ValueError, KeyError, TypeError, AttributeError):
+        raise ValueError("is damaged: its manifest.json cannot be read") from None
+    for file, entry in files.items():
+        try:
+            if file.stat().st_size != entry["bytes"] or _crc32(file) != entry["crc32"]:
+                raise ValueError(f"is damaged: {file.name} is not what was written")
+        except OSError as error:
+            raise ValueError(f"is damaged: {file.name}: {error.strerror}") from None
+    return found
+
+
+def _folders(directory):
+    """Folders of sets, the latest first."""
+    return sorted((path for path in (directory / "checkpoints").glob("[0-9]*") if path.is_dir()), reverse=True)
+
+
+def latest(directory, say=lambda text: None):
+    """The latest Set that is whole, or None; `say` hears about those that are not."""
+    for path in _folders(directory):
+        try:
+            return _opened(path)
+        except ValueError as flaw:
+            say(f"the checkpoint of step {int(path.name)} {flaw}")
+    return None
+
+
+def choose(directory, say):
+    """The Set that a restart of the run in `directory` goes on from."""
+    if not (directory / "case.yaml").is_file():
+        raise UserMistake(f"--restart {directory} holds no run; name the folder of a run")
+    if run := registry.running_in(directory):
+        raise UserMistake(f"--restart {directory}: the run is still going on (launcher {run})")
+    if not _folders(directory):
+        raise UserMistake(f"--restart {directory} has no checkpoint; begin anew, with --set output.checkpoint_every=N")
+    if (found := latest(directory, say)) is None:
+        raise Failure(OUTPUT_FAILED, f"none of the checkpoints of {directory} can be used; begin anew")
+    say(f"goes on from the checkpoint of step {found.step}, t = {found.t:.6g}")
+    return found
+
+
+def prepare(directory):
+    """Removes what a former end left: reports, and the last state before numbers broke."""
+    for pattern in ("parts/*.json", "last_state/*", "summary.json"):
+        for path in directory.glob(pattern):
+            path.unlink()

@@ -1,0 +1,165 @@
+#!/usr/bin/python3
+"""A run goes on from its checkpoint as if it had never ended: all its files are the same to the bit."""
+
+import json
+import os
+import shutil
+import signal
+import unittest
+
+from running import EndToEnd, until
+
+CASES = {  # with the number of steps between checkpoints
+    "elastic_piston": (10, "--set", "grid.factor=2", "--set", "output.every=0.1",
+                       "--set", "output.probes=[{name: a, in: fluid, x: 0.5, y: 0.05}, {name: b, in: solid, x: 0, y: 0}]"),
+    "rotating_disk": (10, "--set", "grid.factor=1", "--set", "time.end=0.2", "--set", "reference.points=400"),
+    "shock_ellipse": (30, "--set", "grid.factor=2", "--set", "time.end=1.2", "--set", "output.times=[0, 0.4, 0.8, 1.2]"),
+    "rigid_piston": (10, "--set", "time.end=0.4"),
+    "manufactured_piston": (5, "--set", "grid.factor=1"),
+    "sod_tube": (10, "--set", "grid.factor=2"),
+}
+NO_NUMBERS = {"case.yaml", "summary.json"}  # text of the case, times
+
+
+def results(directory):
+    """{path: content} of all that does not depend on the time of day."""
+    files = {}
+    for path in sorted(directory.rglob("*")):
+        name = path.relative_to(directory).as_posix()
+        if path.is_file() and name not in NO_NUMBERS and not name.startswith(("log/", "checkpoints/", "parts/")):
+            files[name] = path.read_bytes()
+    return files
+
+
+def numbers(summary):
+    """What a summary says besides times of the clock."""
+    summary = {key: value for key, value in summary.items() if key not in ("wall_s", "restart")}
+    for part in summary["participants"].values():
+        for key in ("compute_s", "wait_s", "point_updates_per_s"):
+            part.pop(key, None)
+    return summary
+
+
+class Restart(EndToEnd):
+    def case(self, name, *more):
+        every, *options = CASES[name]
+        return (name, *options, "--set", f"output.checkpoint_every={every}", "--set", "expect={}", *more)
+
+    def again(self, whole, folder="again"):
+        """A copy of a finished run, which goes on from its last checkpoint."""
+        shutil.copytree(whole.directory, self.folder / folder)
+        run = self.launch("--restart", str(self.folder / folder), out=None)
+        run.directory = self.folder / folder
+        return run
+
+    def assert_same(self, one, other):
+        self.assertEqual(numbers(one.summary()), numbers(other.summary()))
+        mine, its = results(one.directory), results(other.directory)
+        self.assertEqual(mine.keys(), its.keys())
+        self.assertEqual([name for name in mine if mine[name] != its[name]], [])
+
+    def assert_goes_on(self, name, *more):
+        whole = self.complete(*self.case(name, *more))
+        kept = sorted(path.name for path in (whole.directory / "checkpoints").iterdir())
+        self.assertEqual(len(kept), 2)
+        run = self.again(whole)
+        self.assertEqual(run.wait(), 0, run.stderr)
+        self.assertIn(f"goes on from the checkpoint of step {int(kept[-1])}", run.stderr)
+        self.assert_same(whole, run)
+        return whole
+
+    def test_piston(self):
+        self.assert_goes_on("elastic_piston", "--solid", "solid=neo_hookean")
+
+    def test_substeps(self):
+        self.assert_goes_on("elastic_piston", "--set", "time.multirate=true", "--set", "parameters.density_ratio=1e-3")
+
+    def test_disk(self):
+        self.assert_goes_on("rotating_disk")
+
+    def test_ellipse_whose_grid_moves_over_the_background(self):
+        self.assert_goes_on("shock_ellipse")
+
+    def test_rigid_ellipse(self):
+        self.assert_goes_on("shock_ellipse", "--solid", "ellipse=rigid")
+
+    def test_rigid_piston(self):
+        self.assert_goes_on("rigid_piston")
+
+    def test_sources_of_a_chosen_solution(self):
+        self.assert_goes_on("manufactured_piston")
+
+    def test_gas_alone(self):
+        self.assert_goes_on("sod_tube")
+
+
+class AfterAnEnd(Restart):
+    """The same, where the run did end: by a signal, a request or a kill."""
+
+    LONG = ("--set", "time.dt=2e-4")
+
+    def setUp(self):
+        super().setUp()
+        self.whole = None
+
+    def begin(self, *more, out="run"):
+        run = self.launch(*self.case("elastic_piston", *self.LONG, *more), out=out)
+        self.assertTrue(until(lambda: list(run.directory.glob("checkpoints/*/manifest.json"))))
+        return run
+
+    def restart(self, run, *more):
+        again = self.launch("--restart", str(run.directory), *more, out=None)
+        again.directory = run.directory
+        return again
+
+    def assert_restarts(self, run):
+        self.assertIn(f"--restart {run.directory}", run.stderr)
+        again = self.restart(run)
+        self.assertEqual(again.wait(), 0, again.stderr)
+        whole = self.complete(*self.case("elastic_piston", *self.LONG), out="whole")
+        self.assert_same(whole, again)
+
+    def test_killed_program(self):
+        run = self.begin()
+        os.kill(run.programs()["fluid_solver"], signal.SIGKILL)
+        self.assertEqual(run.wait(), 4, run.stderr)
+        self.assert_restarts(run)
+
+    def test_sigterm_writes_a_checkpoint(self):
+        run = self.begin("--set", "output.checkpoint_every=100000", "--set", "output.checkpoint_seconds=0.5")
+        run.process.send_signal(signal.SIGTERM)
+        self.assertEqual(run.wait(), 143, run.stderr)
+        newest = json.loads(sorted(run.directory.glob("checkpoints/*/manifest.json"))[-1].read_text())
+        self.assertEqual(newest["step"], run.summary()["steps"])
+        self.assert_restarts(run)
+
+    def test_damaged_checkpoint_is_not_used(self):
+        run = self.begin()
+        self.assertTrue(until(lambda: len(list(run.directory.glob("checkpoints/*/manifest.json"))) >= 2))
+        run.process.kill()
+        run.wait()
+        self.assertTrue(until(lambda: not run.programs()))
+        newest = sorted(run.directory.glob("checkpoints/*/manifest.json"))[-1].parent
+        with open(newest / "fluid.h5", "r+b") as file:
+            file.seek(5000)
+            file.write(b"damage")
+        again = self.restart(run)
+        self.assertEqual(again.wait(), 0, again.stderr)
+        self.assertIn(f"the checkpoint of step {int(newest.name)} is damaged: fluid.h5", again.stderr)
+        self.assertNotIn(f"goes on from the checkpoint of step {int(newest.name)}", again.stderr)
+
+    def test_another_case_is_refused_with_what_differs(self):
+        run = self.begin()
+        run.process.send_signal(signal.SIGINT)
+        self.assertEqual(run.wait(), 130, run.stderr)
+        again = self.restart(run, "--set", "time.cfl=0.5", "--set", "time.end=0.9")
+        self.assertEqual(again.wait(), 2)
+        self.assertIn("time.cfl: 0.5, was 0.9", again.stderr)
+        self.assertNotIn("time.end", again.stderr.split(";")[0])
+        longer = self.restart(run, "--set", "time.end=0.9")
+        self.assertEqual(longer.wait(), 0, longer.stderr)
+        self.assertEqual(longer.summary()["t"], 0.9)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,166 @@
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "common/core/failure.hpp"
+#include "common/io/checkpoint.hpp"
+#include "common/io/checksum.hpp"
+#include "common/io/csv_writer.hpp"
+#include "tests/unit/io/scratch.hpp"
+
+namespace fsi::io {
+namespace {
+
+const CheckpointOrigin gas{
+    .participant = "fluid", .case_digest = "c0ffee", .build = "b1", .processor = "avx2 fma"};
+const std::vector<std::string> everybody{"fluid"};
+
+/// A state with numbers that only exact copies keep.
+struct State {
+  std::vector<double> field{1.0 / 3, -0.0, std::numeric_limits<double>::denorm_min(),
+                            std::numeric_limits<double>::infinity()};
+  std::vector<double> none, history{1, 2};
+  std::uint64_t steps = 0;
+  bool begun = false;
+
+  void archive(Archive& archive) {
+    archive.inside("grid", [&] { archive.values("field", field); });
+    archive.values("none", none);
+    archive.list("history", history);
+    archive.number("steps", steps);
+    archive.number("begun", begun);
+  }
+};
+
+class Checkpoint : public InScratch {
+ protected:
+  std::string write(std::uint64_t step, const std::vector<std::string>& participants = everybody) const {
+    State state{.steps = step, .begun = true};
+    Archive archive;
+    state.archive(archive);
+    const Standing at{.step = step, .t = 0.1, .dt = 0.01};
+    write_checkpoint(dir, gas, at, archive);
+    complete_checkpoint(dir, at, participants, gas.case_digest);
+    return checkpoint_folder(dir, step);
+  }
+
+  static std::string refusal(const std::string& folder, const CheckpointOrigin& reader) {
+    try {
+      read_checkpoint(folder, reader);
+      return "";
+    } catch (const UserMistake& mistake) {
+      return mistake.what();
+    }
+  }
+};
+
+TEST_F(Checkpoint, GivesBackTheStateToTheBit) {
+  LoadedCheckpoint loaded = read_checkpoint(write(400), gas);
+  EXPECT_EQ(loaded.at.step, 400U);
+  EXPECT_EQ(loaded.at.t, 0.1);
+  EXPECT_EQ(loaded.at.dt, 0.01);
+  State state{.field = {0, 0, 0, 0}, .history = {}};
+  state.archive(loaded.state);
+  loaded.state.check_all_loaded();
+  const State saved;
+  for (std::size_t k = 0; k < saved.field.size(); ++k)
+    EXPECT_EQ(std::bit_cast<std::uint64_t>(state.field[k]), std::bit_cast<std::uint64_t>(saved.field[k]));
+  EXPECT_EQ(state.history, saved.history);
+  EXPECT_EQ(state.steps, 400U);
+  EXPECT_TRUE(state.begun);
+}
+
+TEST_F(Checkpoint, IsRefusedByAnotherCaseBuildOrProcessorWhichIsNamed) {
+  const std::string folder = write(1);
+  EXPECT_EQ(refusal(folder, gas), "");
+  CheckpointOrigin other = gas;
+  other.case_digest = "decaf";
+  EXPECT_NE(refusal(folder, other).find("another case (c0ffee, now decaf)"), std::string::npos);
+  other = gas;
+  other.build = "b2";
+  EXPECT_NE(refusal(folder, other).find("another build of this program (b1, now b2)"), std::string::npos);
+  other = gas;
+  other.processor = "avx512f";
+  EXPECT_NE(refusal(folder, other).find("another kind of processor"), std::string::npos);
+}
+
+TEST_F(Checkpoint, OneWrongByteOrAMissingEndIsNoticed) {
+  const std::string folder = write(1), path = folder + "/fluid.h5";
+  const std::string whole = content(path);
+  std::string damaged = whole;
+  damaged[whole.size() / 2] = static_cast<char>(damaged[whole.size() / 2] ^ 1);
+  for (const std::string& text : {damaged, whole.substr(0, whole.size() - 1), std::string()}) {
+    std::ofstream(path, std::ios::binary) << text;
+    EXPECT_THROW(read_checkpoint(folder, gas), OutputFailed);
+  }
+  std::ofstream(path, std::ios::binary) << whole;
+  EXPECT_NO_THROW(read_checkpoint(folder, gas));
+}
+
+TEST_F(Checkpoint, IsNotUsedBeforeEverybodyHasWritten) {
+  EXPECT_THROW(write(1, {"fluid", "beam"}), OutputFailed);
+  EXPECT_THROW(read_checkpoint(checkpoint_folder(dir, 1), gas), OutputFailed);
+}
+
+TEST_F(Checkpoint, TheLastTwoCompleteSetsAreKept) {
+  for (const std::uint64_t step : {10U, 20U}) write(step);
+  EXPECT_THROW(write(25, {"fluid", "beam"}), OutputFailed);
+  write(30);
+  const auto kept = [&](std::uint64_t step) { return std::filesystem::exists(checkpoint_folder(dir, step)); };
+  EXPECT_FALSE(kept(10));
+  EXPECT_TRUE(kept(20));
+  EXPECT_FALSE(kept(25));
+  EXPECT_TRUE(kept(30));
+  write(15);  // the run went on from an older one: what was later is of another past
+  EXPECT_TRUE(kept(15));
+  EXPECT_FALSE(kept(20));
+}
+
+TEST_F(Checkpoint, ArchiveOfAnotherProgramIsRefused) {
+  State state;
+  Archive saved;
+  state.archive(saved);
+  Archive larger(saved.entries());
+  state.field.resize(5);
+  EXPECT_THROW(state.archive(larger), UserMistake);
+  Archive unread(saved.entries());
+  EXPECT_THROW(unread.check_all_loaded(), UserMistake);
+  Archive empty(Archive::Entries{});
+  EXPECT_THROW(state.archive(empty), UserMistake);
+}
+
+TEST_F(Checkpoint, ChecksumIsThatOfItsStandard) {
+  std::ofstream(dir + "/digits") << "123456789";
+  EXPECT_EQ(checksum_of(dir + "/digits"), (Checksum{.bytes = 9, .crc32 = 0xCBF43926U}));
+}
+
+TEST_F(Checkpoint, TableGoesOnWhereItWas) {
+  const std::vector<std::string> columns{"t", "x"};
+  Archive saved;
+  {
+    CsvWriter csv(dir + "/a.csv", columns);
+    csv.row({1, 10});
+    csv.archive(saved);
+    csv.row({2, 20});
+  }
+  {
+    CsvWriter csv(dir + "/a.csv", columns, Opening::continued);
+    Archive loaded(saved.entries());
+    csv.archive(loaded);
+    csv.row({2, 30});
+  }
+  EXPECT_EQ(content(dir + "/a.csv"), "t,x\n1,10\n2,30\n");
+  EXPECT_THROW(CsvWriter(dir + "/a.csv", {"t", "y"}, Opening::continued), OutputFailed);
+  EXPECT_THROW(CsvWriter(dir + "/b.csv", columns, Opening::continued), OutputFailed);
+  std::ofstream(dir + "/a.csv") << "t,x\n";
+  CsvWriter shortened(dir + "/a.csv", columns, Opening::continued);
+  Archive loaded(saved.entries());
+  EXPECT_THROW(shortened.archive(loaded), OutputFailed);
+}
+
+}  // namespace
+}  // namespace fsi::io
