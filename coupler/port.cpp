@@ -3,12 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string_view>
 
 #include "common/core/log.hpp"
 
 namespace fsi::coupler {
 
 namespace {
+
+/// A solver's word, before its name, when it was asked to end.
+constexpr std::string_view terminate = "terminate ";
 
 bus::CouplerSession join(const Setup& setup) {
   const Case& problem = setup.problem;
@@ -143,7 +147,8 @@ void CoupledRun::obey_requests() {
       if (control.command == "resume") paused_ = false;
       if (control.command == "checkpoint") checkpoint = true;
       if (control.command == "stop") stop_ = true;
-      if (control.command == "terminate") end_ = "ended on request (SIGTERM to a solver)";
+      if (control.command.starts_with(terminate))
+        end_ = fmt::format("ended on request (SIGTERM to {})", control.command.substr(terminate.size()));
     }
     if (asked_to_end()) end_ = "ended on request (SIGTERM)";
     checkpoint = checkpoint || stop_ || !end_.empty();

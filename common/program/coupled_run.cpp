@@ -48,7 +48,7 @@ class CoupledRun {
   void obey_signals() {
     if (asked_to_end() && running_ && !told_) {
       told_ = true;
-      session_.request("terminate");
+      session_.request("terminate " + setup_.name);
     }
     throw_if_interrupted();
   }

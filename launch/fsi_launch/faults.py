@@ -127,6 +127,10 @@ def _unreadable(directory):
             yield f"{path.name} has half a line"
 
 
+def _reason(directory):
+    return json.loads((directory / "summary.json").read_text(encoding="utf-8"))["reason"]
+
+
 def _shared_memory():
     return {entry.name for entry in Path("/dev/shm").iterdir()}
 
@@ -164,8 +168,8 @@ def _check_end(run, trial, before):
         trial.flaws.append(f"left in the registry: {entries}")
     if left := _shared_memory() - before:
         trial.flaws.append(f"left in /dev/shm: {left}")
-    if code == 4 and trial.target not in run.words:
-        trial.flaws.append(f"the reason does not name {trial.target}: {run.words.strip()[-300:]}")
+    if code == 4 and trial.target not in (reason := _reason(run.folder)):
+        trial.flaws.append(f"the reason does not name {trial.target}: {reason}")
     trial.flaws += _unreadable(run.folder)
 
 
