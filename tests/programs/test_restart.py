@@ -96,7 +96,7 @@ class Restart(EndToEnd):
 class AfterAnEnd(Restart):
     """The same, where the run did end: by a signal, a request or a kill."""
 
-    LONG = ("--set", "time.dt=2e-4")
+    LONG = ("--set", "time.dt=5e-4", "--set", "output.checkpoint_every=100")
 
     def setUp(self):
         super().setUp()

@@ -23,7 +23,7 @@ const std::vector<std::string> everybody{"fluid"};
 struct State {
   std::vector<double> field{1.0 / 3, -0.0, std::numeric_limits<double>::denorm_min(),
                             std::numeric_limits<double>::infinity()};
-  std::vector<double> none, history{1, 2};
+  std::vector<double> none = {}, history{1, 2};
   std::uint64_t steps = 0;
   bool begun = false;
 
