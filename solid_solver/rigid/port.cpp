@@ -117,7 +117,7 @@ void RigidParticipant::write_last_state(double t, std::uint64_t step) {
 }
 
 void RigidParticipant::archive(Archive& archive) {
-  body_.archive(archive);
+  archive.inside("body", [&] { body_.archive(archive); });
   archive.values("own", {own_.data(), 3});
   archive.values("old_own", {old_own_.data(), 3});
   archive.inside("load", [&] { load_.archive(archive); });
