@@ -126,11 +126,13 @@ void CoupledRun::exchange() {
 }
 
 void CoupledRun::complete_checkpoint() {
-  checkpoints_.complete(at_);
+  const bool complete = checkpoints_.complete(at_);
   clock_.start(at_.step);
   checkpoint_.reset();
-  if (!end_.empty())
-    throw Failure(ExitCode::terminated, fmt::format("{}, after a checkpoint of step {}", end_, at_.step));
+  if (!end_.empty()) {
+    if (complete) end_ += fmt::format(", after a checkpoint of step {}", at_.step);
+    throw Failure(ExitCode::terminated, end_);
+  }
   if (!stop_) return;
   part_.status = "stopped";
   part_.reason = "stopped on request";

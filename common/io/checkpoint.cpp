@@ -1,7 +1,6 @@
 #include "common/io/checkpoint.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -130,8 +129,9 @@ LoadedCheckpoint read_checkpoint(const std::string& folder, const CheckpointOrig
   return {.at = at, .state = Archive(std::move(entries))};
 }
 
-void complete_checkpoint(const std::string& run_dir, const Standing& at,
-                         std::span<const std::string> participants, const std::string& case_digest) {
+std::vector<std::string> complete_checkpoint(const std::string& run_dir, const Standing& at,
+                                             std::span<const std::string> participants,
+                                             const std::string& case_digest) {
   const std::string folder = checkpoint_folder(run_dir, at.step);
   nlohmann::ordered_json entries = nlohmann::ordered_json::object();
   std::vector<std::string> missing;
@@ -144,13 +144,15 @@ void complete_checkpoint(const std::string& run_dir, const Standing& at,
     entries[participant] = {{"bytes", sum.bytes}, {"crc32", sum.crc32}};
   }
   if (!missing.empty()) {
-    throw OutputFailed(fmt::format("the checkpoint of step {} is not complete: nothing from {}", at.step,
-                                   fmt::join(missing, ", ")));
+    std::error_code error;  // what cannot be removed does no harm
+    files::remove_all(folder, error);
+    return missing;
   }
   const nlohmann::ordered_json manifest = {
       {"step", at.step}, {"t", at.t}, {"case", case_digest}, {"files", entries}};
   write_atomically(fmt::format("{}/{}", folder, manifest_name), manifest.dump(2) + "\n");
   remove_others(run_dir, folder);
+  return {};
 }
 
 }  // namespace fsi::io

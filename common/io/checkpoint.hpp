@@ -47,8 +47,9 @@ struct LoadedCheckpoint {
 LoadedCheckpoint read_checkpoint(const std::string& folder, const CheckpointOrigin& reader);
 
 /// Makes a set complete once all its files are there, and removes all sets but this one and the one before.
-/// @throws OutputFailed naming the programs that left no file
-void complete_checkpoint(const std::string& run_dir, const Standing& at,
-                         std::span<const std::string> participants, const std::string& case_digest);
+/// @returns the participants that left no file: the set is removed @throws OutputFailed
+std::vector<std::string> complete_checkpoint(const std::string& run_dir, const Standing& at,
+                                             std::span<const std::string> participants,
+                                             const std::string& case_digest);
 
 }  // namespace fsi::io

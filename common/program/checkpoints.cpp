@@ -1,6 +1,7 @@
 #include "common/program/checkpoints.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <string>
 #include <utility>
@@ -63,13 +64,22 @@ void Checkpoints::save(const io::Standing& at) {
   });
 }
 
-void Checkpoints::complete(const io::Standing& at) {
+bool Checkpoints::complete(const io::Standing& at) {
+  bool complete = false;
   write_results(setup_, part_, [&] {
     std::vector<std::string> names;
     for (const ParticipantSummary& one : participants_of(setup_.problem)) names.push_back(one.name);
-    io::complete_checkpoint(setup_.run_dir, at, names, setup_.problem.restart_digest);
-    log_info(fmt::format("checkpoint of step {}, t = {:.6g}", at.step, at.t));
+    const std::vector<std::string> missing =
+        io::complete_checkpoint(setup_.run_dir, at, names, setup_.problem.restart_digest);
+    complete = missing.empty();
+    if (complete) {
+      log_info(fmt::format("checkpoint of step {}, t = {:.6g}", at.step, at.t));
+    } else {
+      log_warning(
+          fmt::format("no checkpoint of step {}: {} wrote nothing", at.step, fmt::join(missing, ", ")));
+    }
   });
+  return complete;
 }
 
 bool CheckpointClock::due(std::uint64_t step) const {

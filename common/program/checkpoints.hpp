@@ -22,7 +22,8 @@ class Checkpoints {
   /// Writes this program's file. @throws OutputFailed, unless the case says to go on without
   void save(const io::Standing& at);
   /// Makes the set complete: every program has written its file. The same exceptions.
-  void complete(const io::Standing& at);
+  /// @returns false where one did not: there is no checkpoint
+  bool complete(const io::Standing& at);
 
  private:
   const Setup& setup_;

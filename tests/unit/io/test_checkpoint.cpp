@@ -38,15 +38,17 @@ struct State {
 
 class Checkpoint : public InScratch {
  protected:
-  std::string write(std::uint64_t step, const std::vector<std::string>& participants = everybody) const {
+  std::string write(std::uint64_t step, const std::vector<std::string>& participants = everybody) {
     State state{.steps = step, .begun = true};
     Archive archive;
     state.archive(archive);
     const Standing at{.step = step, .t = 0.1, .dt = 0.01};
     write_checkpoint(dir, gas, at, archive);
-    complete_checkpoint(dir, at, participants, gas.case_digest);
+    missing = complete_checkpoint(dir, at, participants, gas.case_digest);
     return checkpoint_folder(dir, step);
   }
+
+  std::vector<std::string> missing;
 
   static std::string refusal(const std::string& folder, const CheckpointOrigin& reader) {
     try {
@@ -102,13 +104,14 @@ TEST_F(Checkpoint, OneWrongByteOrAMissingEndIsNoticed) {
 }
 
 TEST_F(Checkpoint, IsNotUsedBeforeEverybodyHasWritten) {
-  EXPECT_THROW(write(1, {"fluid", "beam"}), OutputFailed);
+  write(1, {"fluid", "beam"});
+  EXPECT_EQ(missing, std::vector<std::string>{"beam"});
   EXPECT_THROW(read_checkpoint(checkpoint_folder(dir, 1), gas), OutputFailed);
 }
 
 TEST_F(Checkpoint, TheLastTwoCompleteSetsAreKept) {
   for (const std::uint64_t step : {10U, 20U}) write(step);
-  EXPECT_THROW(write(25, {"fluid", "beam"}), OutputFailed);
+  write(25, {"fluid", "beam"});
   write(30);
   const auto kept = [&](std::uint64_t step) { return std::filesystem::exists(checkpoint_folder(dir, step)); };
   EXPECT_FALSE(kept(10));
