@@ -22,6 +22,9 @@ namespace {
 using namespace fsi;
 using namespace fsi::monitor;
 
+/// `--once` listens for so much longer than it must, so that rates are known [s].
+constexpr double time_for_rates_s = 0.4;
+
 struct Wishes {
   std::string run, send, record, replay, host = "127.0.0.1";
   bool once = false, json = false, plain = false;
@@ -71,6 +74,8 @@ void show_once(const Wishes& wishes, Live& live, RunState& state) {
   if (state.programs().empty() && !state.abort()) {
     throw PeerLost(fmt::format("run '{}' said nothing for {} s", state.run().run, wishes.wait_s));
   }
+  const double heard = live.now();
+  while (!interrupted() && !state.over() && live.now() - heard < time_for_rates_s) live.listen(state, 0.1);
   print(wishes, state, live.now());
 }
 

@@ -57,6 +57,7 @@ void Recorder::add(const wire::Abort& abort, double now) {
 
 void Recorder::flush() {
   if (block_.empty()) return;
+  failed_ = true;  // unless the end of this function is reached
   io::Hdf5 file = io::Hdf5::create(io::aside(block_path(blocks_)));
   write_block(file, block_);
   file.close();
@@ -64,6 +65,7 @@ void Recorder::flush() {
   ++blocks_;
   block_.clear();
   write_whole(true);
+  failed_ = false;
 }
 
 /// The file itself: links to the blocks while it grows, the blocks themselves at the end.
@@ -88,7 +90,7 @@ void Recorder::write_whole(bool linked) const {
 }
 
 void Recorder::close() {
-  if (std::exchange(closed_, true)) return;
+  if (std::exchange(closed_, true) || failed_) return;
   flush();
   write_whole(false);
   std::error_code none;

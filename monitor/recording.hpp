@@ -33,7 +33,8 @@ class Recorder {
 
   void add(const wire::Telemetry& telemetry, double now);
   void add(const wire::Abort& abort, double now);
-  /// Makes one file of it. @throws OutputFailed
+  /// Makes one file of it, unless writing failed before: then what could be written stays as it is. @throws
+  /// OutputFailed
   void close();
 
  private:
@@ -46,7 +47,7 @@ class Recorder {
   double start_, last_flush_;
   std::vector<Heard> block_;
   std::size_t blocks_ = 0;
-  bool closed_ = false;
+  bool closed_ = false, failed_ = false;
 };
 
 /// Reads a recording, one block after the other.

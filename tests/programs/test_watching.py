@@ -83,6 +83,8 @@ class Watching(EndToEnd):
         run.until_stepping()
         state = json.loads(self.outside(run, "monitor", str(run.directory), "--once", "--json"))
         self.assertIn("elastic_piston", json.dumps(state))
+        self.assertGreater(state["steps_per_s"], 0)
+        self.assertGreater(state["participants"]["fluid"]["bus"]["messages_per_s"], state["steps_per_s"])
 
     def test_pause_resume_and_stop(self):
         run = self.launch(*LONG)
