@@ -160,13 +160,14 @@ void catch_signals() {
 
 void follow_on_terminal(Source& source, RunState& state) {
   Extent extent;
+  View view;
   {
     Terminal terminal;
     if (!terminal.usable()) return follow_plain(source, state, false);
     follow(terminal, source, state);
     extent = {.columns = terminal.extent().columns, .rows = 24};
+    view.braille = terminal.braille();
   }
-  View view;
   view.message = " ";
   for (const std::string& line : screen(state, source.now(), view, extent).lines()) fmt::print("{}\n", line);
   if (const auto& abort = state.abort()) fmt::print("{} ended the run: {}\n", abort->from, abort->reason);
