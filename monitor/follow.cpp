@@ -168,7 +168,7 @@ void follow_on_terminal(Source& source, RunState& state) {
     extent = {.columns = terminal.extent().columns, .rows = 24};
     view.braille = terminal.braille();
   }
-  view.message = " ";
+  view.message.assign(1, ' ');  // no keys any more
   for (const std::string& line : screen(state, source.now(), view, extent).lines()) fmt::print("{}\n", line);
   if (const auto& abort = state.abort()) fmt::print("{} ended the run: {}\n", abort->from, abort->reason);
 }
