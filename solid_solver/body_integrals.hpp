@@ -1,9 +1,12 @@
 #pragma once
 /// Integrals over the body and its sides, and errors against a known solution.
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
+#include "common/core/failure.hpp"
 #include "solid_solver/interface.hpp"
 #include "solid_solver/solid_component.hpp"
 
@@ -139,6 +142,7 @@ struct InterfaceMoment {
 /// Fills `state` for the points of a side; of a body with a chosen solution, the differences to it. Uses no
 /// ghost points, so that it may be called on a predicted state; a point that also lies on a side whose motion
 /// is given has that motion, not the predicted one.
+/// @throws NumbersBroke where the stress is not finite
 template <Law L>
 void gather_interface(const SolidComponent<L>& component, const L& law, const InterfaceMoment& moment,
                       Side side, SolidInterface& state) {
@@ -164,6 +168,12 @@ void gather_interface(const SolidComponent<L>& component, const L& law, const In
     const double eta = component.boundary().follows(side) ? area_ratio(F, n0) : 1.0;
     const SymmetricTensor2 Z = impedance_matrix(law.K(F), n0, rho, eta);
     const Vec2 w = eta * traction_of(s.P, n0);
+    if (!w.allFinite()) {
+      throw NumbersBroke(
+          fmt::format("t = {:.6g}, grid \"{}\", interface point {} at ({:.4g}, {:.4g}): the stress is not a "
+                      "number any more, det F = {:.3g}",
+                      moment.t, component.grid().name(), k, x(0, p.i, p.j), x(1, p.i, p.j), determinant(F)));
+    }
     for (std::size_t c = 0; c < 2; ++c) {
       const auto axis = static_cast<int>(c);
       state.x[c * n + k] = x(axis, p.i, p.j) + s.u[axis];

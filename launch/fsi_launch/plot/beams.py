@@ -17,9 +17,10 @@ FINEST, COARSER = "-", ("--", ":", "-.")
 
 @dataclass
 class Beam:
-    """Centrelines of one solid: {t: positions (STATIONS, 2)}, the first station at the wall."""
+    """Centrelines of one solid: {t: positions (stations, 2)}; stations by their distance from the wall at rest."""
 
     name: str
+    stations: np.ndarray
     lines: dict
 
 
@@ -42,16 +43,14 @@ def _axis(grid):
     """Reference ends of the centreline of the body a fitted grid belongs to, or None where it is no beam."""
     outline = np.column_stack([grid.fields["x1_bar"][0], grid.fields["x2_bar"][0]])
     foot = 0.5 * (outline[0] + outline[-1])
-    away = np.hypot(*(outline - foot).T)
-    width = np.hypot(*(outline[0] - outline[-1]))
-    if away.max() < SLENDER * width:
+    across = outline[-1] - outline[0]
+    width = np.hypot(*across)
+    along = np.array([-across[1], across[0]]) / width
+    heights = (outline - foot) @ along
+    heights = heights if heights.max() > -heights.min() else -heights
+    if heights.max() < SLENDER * width:
         return None
-    along = outline[away.argmax()] - foot
-    along = along / np.hypot(*along)
-    across = np.array([-along[1], along[0]])
-    if abs((outline[-1] - outline[0]) @ across) < 0.5 * width:
-        return None
-    return foot, foot + (outline - foot).dot(along).max() * along
+    return foot, foot + heights.max() * np.sign((outline[heights.argmax()] - foot) @ along) * along
 
 
 def _displacement(grids, x, y):
@@ -77,11 +76,10 @@ def _beam(one):
         return None
     s = np.linspace(0, 1 - 1e-9, STATIONS)[:, None]
     reference = (1 - s) * ends[0] + s * ends[1]
-    lines = {}
-    for output in one.outputs:
-        position = reference + _displacement(output.grids, *reference.T)
-        lines[output.t] = position[np.isfinite(position).all(axis=1)]
-    return Beam(one.name, lines)
+    lines = {output.t: reference + _displacement(output.grids, *reference.T) for output in one.outputs}
+    known = np.isfinite(np.concatenate(list(lines.values()), axis=1)).all(axis=1)
+    stations = s[known, 0] * np.hypot(*(ends[1] - ends[0]))
+    return Beam(one.name, stations, {t: position[known] for t, position in lines.items()})
 
 
 def of(series):
@@ -112,11 +110,12 @@ def _common_times(a, b):
 
 def distances(a, b):
     """{t: largest distance between the same stations of two centrelines}."""
-    result = {}
-    for t, other in _common_times(a, b):
-        count = min(len(a.lines[t]), len(b.lines[other]))
-        result[t] = np.hypot(*(a.lines[t][:count] - b.lines[other][:count]).T).max()
-    return result
+    stations = np.linspace(0, min(a.stations[-1], b.stations[-1]), STATIONS)
+
+    def at(beam, line):
+        return np.array([np.interp(stations, beam.stations, x) for x in line.T])
+
+    return {t: np.hypot(*(at(a, a.lines[t]) - at(b, b.lines[other]))).max() for t, other in _common_times(a, b)}
 
 
 def _groups(runs):

@@ -1,0 +1,92 @@
+#!/usr/bin/python3
+"""Centrelines of beams and streamlines: what is drawn of given fields."""
+
+import sys
+import unittest
+
+import numpy as np
+
+from running import ROOT
+
+sys.path.insert(0, str(ROOT / "launch"))
+from fsi_launch.plot import beams, data, streamlines  # noqa: E402
+
+HALF, DEPTH = 0.05, 0.02
+
+
+def bend(x, y):
+    return 0.3 * y ** 2, -0.1 * y ** 2 + 0.05 * x
+
+
+def solid(grids):
+    """A program's output at t = 0 (at rest) and t = 1 (bent); grids: (name, x, y) of reference points."""
+    outputs = []
+    for t in (0.0, 1.0):
+        read = []
+        for name, x, y in grids:
+            u1, u2 = (t * u for u in bend(x, y))
+            read.append(data._read_grid(name, {"x1": x + u1, "x2": y + u2, "x1_bar": x, "x2_bar": y, "u1": u1, "u2": u2}))
+        outputs.append(data.Output(t, read))
+    return data.Series("beam", outputs)
+
+
+def beam(points, turned=False):
+    """A beam with a straight core and a grid along its outline, both ends on the wall y = 0."""
+    s = np.linspace(0, 2 + 2 * HALF, points)  # up, across the end, down
+    x, y = np.clip(s - 1 - HALF, -HALF, HALF), np.minimum(np.minimum(s, s[-1] - s), 1)
+    depth = np.linspace(0, DEPTH, 5)[:, None]
+    fitted = [x * (1 - depth / HALF), y * (1 - depth)]
+    core = np.meshgrid(np.linspace(-HALF, HALF, 9), np.linspace(0, 1, 81))
+    if turned:
+        return solid([("core", core[1].T, -core[0].T), ("outline", fitted[1], -fitted[0])])
+    return solid([("core", *core), ("outline", *fitted)])
+
+
+class Centrelines(unittest.TestCase):
+    def test_is_where_the_displacement_takes_the_middle_of_the_beam(self):
+        found = beams.of([beam(201)])[0]
+        self.assertEqual(sorted(found.lines), [0.0, 1.0])
+        y = found.stations
+        self.assertGreater(y[-1], 0.98)
+        self.assertLess(np.abs(found.lines[0.0] - np.column_stack([0 * y, y])).max(), 1e-12)
+        bent = np.column_stack([0 * y, y]) + np.column_stack(bend(0 * y, y))
+        self.assertLess(np.abs(found.lines[1.0] - bent).max(), 0.3 * 0.0125 ** 2)  # linear between points
+
+    def test_does_not_depend_on_where_the_points_of_the_outline_lie(self):
+        found = beams.distances(beams.of([beam(201)])[0], beams.of([beam(198)])[0])
+        self.assertLess(max(found.values()), 1e-4)
+
+    def test_of_a_beam_that_lies_on_its_side_starts_at_its_wall(self):
+        line = beams.of([beam(201, turned=True)])[0].lines[0.0]
+        self.assertLess(np.abs(line[0]).max(), 1e-12)
+        self.assertLess(np.abs(line[:, 1]).max(), 1e-12)
+        self.assertGreater(line[-1, 0], 0.98)
+
+    def test_a_ring_is_no_beam(self):
+        angle, r = np.meshgrid(np.arange(80) * 2 * np.pi / 80, np.linspace(0.5, 1, 6))
+        self.assertEqual(beams.of([solid([("ring", r * np.cos(angle), r * np.sin(angle))])]), [])
+
+    def test_runs_with_the_same_parameters_are_compared_the_finer_first(self):
+        case = "parameters:\n  rho_bar: 10\n  mach: {m}\ngrid:\n  factor: {j}\ntime:\n  end: 7\n"
+        runs = [beams.run_of([beam(n)], case.format(j=j, m=m)) for n, j, m in ((101, 8, 1.1), (201, 16, 1.1), (201, 16, 1.3))]
+        table = beams.table(runs)
+        self.assertEqual({(coarse, fine) for _, coarse, fine, _, _ in table}, {(8.0, 16.0)})
+        self.assertEqual({label for label, *_ in table}, {"mach = 1.1"})
+        self.assertEqual(len(beams.picture(runs).axes), 2)
+
+
+class Streamlines(unittest.TestCase):
+    def test_velocity_on_the_lattice_is_that_of_the_grid_and_holes_have_none(self):
+        x1, x2 = np.meshgrid(np.linspace(0, 2, 21), np.linspace(0, 1, 11))
+        kind = np.where((np.abs(x1 - 1) < 0.25) & (x2 < 0.45), data.UNUSED, data.DISCRETISED)
+        gas = data.Output(1.0, [data._read_grid("channel", {"x1": x1, "x2": x2, "kind": kind, "v1": 1 + x1 * x2, "v2": -x2})])
+        points = np.meshgrid(np.linspace(0.05, 1.95, 30), np.linspace(0.05, 0.95, 15))
+        v1, v2 = streamlines._velocity(gas, points)
+        hole = np.isnan(v1)
+        self.assertTrue(hole[np.hypot(points[0] - 1, points[1] - 0.2) < 0.15].all())
+        self.assertLess(np.abs(v1 - 1 - points[0] * points[1])[~hole].max(), 1e-12)
+        self.assertLess(np.abs(v2 + points[1])[~hole].max(), 1e-12)
+
+
+if __name__ == "__main__":
+    unittest.main()
