@@ -189,7 +189,8 @@ def picture(runs):
         return None
     columns = min(2, len(groups))
     rows = -(-len(groups) // columns)
-    figure, panels = pyplot.subplots(rows, columns, figsize=(4.6 * columns, 3.9 * rows), squeeze=False)
+    figure, panels = pyplot.subplots(rows, columns, figsize=(4.6 * columns, 3.9 * rows), squeeze=False,
+                                    sharex=True, sharey=True)
     for axes, group in zip(panels.flat, groups):
         _panel(axes, group, _label(group[0], [run for other in groups for run in other]) or "centreline")
     for axes in list(panels.flat)[len(groups):]:
