@@ -189,7 +189,7 @@ COLUMNS = ("rho", "v1", "v2", "T", "u_bar", "v_bar", "P_bar")
 
 def faults(count):
     """The campaign of signals at random moments; its table as it prints it."""
-    command = ["./launch/fsi", "faults", "--count", str(count), "--seed", "1"]
+    command = ["./launch/fsi", "faults", "--count", str(count), "--seed", "1", "--jobs", "4"]
     answer = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
     flaws = [line for line in answer.stderr.splitlines() if line.startswith("trial ")]
     return f"`{shlex.join(command)}`, exit code {answer.returncode}\n\n```\n" + "\n".join([answer.stdout.rstrip(), *flaws]) + "\n```\n"

@@ -139,11 +139,12 @@ def _shared_memory():
 
 
 def _signal(run, trial):
-    """Does it. False where the target is gone already."""
+    """Does it; returns the moment, or None where the target is gone already."""
     kind = FAULTS[trial.fault][0]
     pid = run.process.pid if trial.target == "launcher" else _until(run.programs, 5).get(trial.target)
     if pid is None or run.process.poll() is not None:
-        return False
+        return None
+    moment = time.monotonic()
     try:
         if kind == "SIGCONT":
             os.kill(pid, signal.SIGSTOP)
@@ -152,8 +153,8 @@ def _signal(run, trial):
         else:
             os.kill(pid, signal.Signals[kind])
     except ProcessLookupError:
-        return False
-    return True
+        return None
+    return moment
 
 
 def _check_end(run, trial, before):
@@ -202,12 +203,15 @@ def _try(trial, folder, undisturbed):
     run = Run(place / "run", *CASE, "--out", str(place / "run"))
     try:
         time.sleep(trial.after)
-        start = time.monotonic()
-        trial.late = not _signal(run, trial)
+        moment = _signal(run, trial)
         trial.code = run.wait()
         _until(lambda: not run.programs(), END_WITHIN)
-        trial.seconds = time.monotonic() - start
-        if not trial.late:
+        asked = FAULTS[trial.fault][0] in ("SIGTERM", "SIGINT")  # who is ending anyway does not mind
+        trial.late = moment is None or (asked and trial.code == 0)
+        trial.seconds = time.monotonic() - (moment or 0)
+        if trial.late:
+            trial.seconds = None
+        else:
             _check_end(run, trial, before)
             _check_restart(run, trial, undisturbed)
     except (subprocess.TimeoutExpired, OSError) as error:

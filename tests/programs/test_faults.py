@@ -5,7 +5,6 @@ form of the campaign of `fsi faults`."""
 import json
 import math
 import os
-import shutil
 import subprocess
 import time
 import unittest
@@ -25,8 +24,9 @@ class BrokenNumbers(EndToEnd):
         self.assertRegex(run.stderr, r"step \d+, t = .*grid|step \d+, t = .*point")
         for name, field in (("fluid", "p"), ("solid_solid", "u1")):
             with h5py.File(run.directory / "last_state" / f"{name}.h5") as file:
+                ahead = run.summary()["dt"]["max"] if name != "fluid" else 0  # a solid shows what it has predicted
                 self.assertGreater(file.attrs["t"], 0)
-                self.assertLessEqual(file.attrs["t"], run.summary()["t"] * (1 + 1e-12))
+                self.assertLessEqual(file.attrs["t"], run.summary()["t"] + ahead + 1e-12)
                 values = next(iter(file.values()))[field][:]
                 self.assertTrue(all(math.isfinite(value) for value in values.flat))
                 if field == "p":
@@ -41,7 +41,7 @@ class LostFolder(EndToEnd):
         self.assertTrue(until(lambda: len(list(run.directory.glob("fields/*"))) >= 4))
         victim = run.directory / folder
         if victim.exists():
-            shutil.rmtree(victim)
+            victim.rename(run.directory / "gone")
         victim.write_text("a file\n")
         return run
 
