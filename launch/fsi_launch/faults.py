@@ -19,7 +19,8 @@ from pathlib import Path
 from fsi_launch import paths, restart
 from fsi_launch.failure import DONE, EXPECTATION_MISSED, Failure, INTERNAL_ERROR
 
-PEER_TIMEOUT = 2.0      # [s] of the runs: a stopped program is lost after it
+PEER_TIMEOUT = 4.0      # [s] of the runs: a stopped program is lost after it
+STOP_FOR = 1.0          # [s] and goes on as if nothing had been
 END_WITHIN = 5.0        # [s] that a run may take to end
 BUSY = 1.5              # [s] more on a machine that does other things too
 WATCHDOG = 120.0        # [s] nothing here may take longer
@@ -127,6 +128,11 @@ def _unreadable(directory):
             yield f"{path.name} has half a line"
 
 
+def _as_a_shell_says(code):
+    """128 + the signal's number for a launcher that was interrupted before it had begun with anything."""
+    return 128 - code if code in (-signal.SIGINT, -signal.SIGTERM) else code
+
+
 def _reason(directory):
     return json.loads((directory / "summary.json").read_text(encoding="utf-8"))["reason"]
 
@@ -148,7 +154,7 @@ def _signal(run, trial):
     try:
         if kind == "SIGCONT":
             os.kill(pid, signal.SIGSTOP)
-            time.sleep(0.5 * PEER_TIMEOUT)
+            time.sleep(STOP_FOR)
             os.kill(pid, signal.SIGCONT)
         else:
             os.kill(pid, signal.Signals[kind])
@@ -204,7 +210,7 @@ def _try(trial, folder, undisturbed):
     try:
         time.sleep(trial.after)
         moment = _signal(run, trial)
-        trial.code = run.wait()
+        trial.code = _as_a_shell_says(run.wait())
         _until(lambda: not run.programs(), END_WITHIN)
         asked = FAULTS[trial.fault][0] in ("SIGTERM", "SIGINT")  # who is ending anyway does not mind
         trial.late = moment is None or (asked and trial.code == 0)

@@ -40,7 +40,7 @@ TEST(RestartOfACase, ReadsTheSameCaseBackFromWhatTheRunLeft) {
   const tests::TemporaryFolder folder;
   for (const std::string& path : tests::config_paths()) {
     if (!path.ends_with(".yaml")) continue;
-    const Case first = load_case(path, {"grid.factor=1"});
+    const Case first = load_case(path);
     const Case again = load_case(folder.write("again.yaml", first.resolved));
     EXPECT_EQ(again.resolved, first.resolved) << path;
     EXPECT_EQ(again.restart_digest, first.restart_digest) << path;
