@@ -9,6 +9,7 @@ template <Law L>
 void SolidBoundary<L>::apply(FieldView q, double t, std::span<const InterfaceValues> projected) {
   set_motion(q, t, projected);
   fill_line(q, t, {.first_plane = plane::u1, .last_plane = plane::v2, .m = -1});
+  fill_line(q, t, {.first_plane = plane::u1, .last_plane = plane::u2, .m = -2});
   set_tractions(q, t, projected);
   fill_line(q, t, {.first_plane = plane::v1, .last_plane = plane::P22, .m = -1});
   for (const Side side : all_sides) {
@@ -261,10 +262,32 @@ void SolidBoundary<L>::match_point(FieldView q, Side side, int k, double t) cons
     const Vec2 dv = match_traction_rate(law_, strain, *du, along, rate);
     set_ghost(q, line, k, plane::v1, 2.0 * m.sign * dv);
   }
-  const Tensor2 P = plus(law_.P(plus_dyad(strain.F, *du, m.across)), offset);
+  const Tensor2 F = with_sharper_tangent(q, line, k, plus_dyad(strain.F, *du, m.across));
+  const Tensor2 P = plus(law_.P(F), offset);
   const Vec2 change = traction_of(P, m.t0) - traction_of(s.P, m.t0);
   s.P = plus_dyad(s.P, m.t0, change);
   store(q, line.at(k, 0), s);
+}
+
+/// F with its stretch along the side from differences of third order or better, of the reference positions
+/// and of u alike, so that a turned body is not stretched. Central ones of second order make the largest
+/// error of P.
+template <Law L>
+Tensor2 SolidBoundary<L>::with_sharper_tangent(ConstFieldView q, const SideIndex& line, int k,
+                                               const Tensor2& F) const {
+  const auto difference = [&](ConstFieldView field, int first) -> Vec2 {
+    const auto value = [&](int at) {
+      const std::ptrdiff_t a = line.at(at, 0);
+      return Vec2(field.plane(first)[a], field.plane(first + 1)[a]);
+    };
+    if (k == 1) return (6.0 * value(2) - value(3) - 2.0 * value(0) - 3.0 * value(1)) / 6.0;
+    if (k == line.n - 2)
+      return -(6.0 * value(k - 1) - value(k - 2) - 2.0 * value(k + 1) - 3.0 * value(k)) / 6.0;
+    return (8.0 * (value(k + 1) - value(k - 1)) - (value(k + 2) - value(k - 2))) / 12.0;
+  };
+  const Vec2 along = difference(grid_.x, 0), change = difference(q, plane::u1);
+  const Vec2 image = {F.a11 * along.x() + F.a12 * along.y(), F.a21 * along.x() + F.a22 * along.y()};
+  return plus_dyad(F, along + change - image, along / along.squaredNorm());
 }
 
 /// The shear of P(F) vanishes: ghost u and v are moved along the side, their normal parts stay extrapolated.
