@@ -15,15 +15,17 @@ using namespace fsi::fluid;
 
 constexpr double pi = std::numbers::pi;
 
-/// Periodic unit square of n x n points, at rest on a lattice or with lines that swing.
+/// Periodic unit square of n x n points, at rest on a lattice or with lines that swing. The formula is a
+/// cheap one: it is not what is measured.
 fsi::grid::GridDescription square(int n, bool moving) {
   fsi::grid::GridDescription grid;
   grid.n1 = grid.n2 = n;
   grid.moving = moving;
   grid.periodic1 = grid.periodic2 = true;
   grid.mapping = [moving](double r, double s, double t) {
-    const double swing = moving ? 0.03 * std::sin(2 * pi * r) * std::sin(2 * pi * s) : 0.0;
-    return Vec2(r + swing * std::cos(3 * t), s + swing * std::sin(2 * t));
+    const double a = r - std::floor(r), b = s - std::floor(s), tau = t - std::floor(t);
+    const double hill = a * (1 - a) * b * (1 - b), swing = moving ? 5 * hill * hill : 0.0;
+    return Vec2(r + swing * (1 - tau), s + swing * tau * (1 - tau));
   };
   return grid;
 }

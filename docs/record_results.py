@@ -302,11 +302,12 @@ def disk_studies():
         for projection in ("simplified", "full"):
             yield (f"Rotating disk, {weight} (delta = {delta}), {projection} projection",
                    lambda d=delta, p=projection: disk(d, p))
-    yield ("Rotating disk, the traditional scheme, h = 1/80, t = 1",
-           lambda: sweep("disk-traditional", "rotating_disk", [(f"delta = {d}", [f"parameters.delta={d}"], [])
-                                                              for d in ("10", "1", "0.5", "0.2", "0.1")],
-                         [*END, ("rho", "errors.rho"), ("v_bar", "errors.v_bar")],
-                         ["interface.projection=traditional", "grid.factor=8", "time.end=1", "output.times=[1]"]))
+    yield ("Rotating disk, the traditional scheme, h = 1/80, t = 2",
+           lambda: sweep("disk-traditional", "rotating_disk",
+                         [(f"delta = {d}, z_f / z_p = {1.4 / d / 3 ** 0.5:.2f}", [f"parameters.delta={d}"], [])
+                          for d in (10, 1, 0.8, 0.7, 0.6, 0.5, 0.2, 0.1)],
+                         [*END, ("rho", "errors.rho"), ("v_bar", "errors.v_bar"), ("P_bar", "errors.P_bar")],
+                         ["interface.projection=traditional", "grid.factor=8", "time.end=2", "output.times=[2]"]))
     for law in ("neo_hookean", "linear_elastic"):
         yield f"Rotating disk, {law}", lambda l=law: converge(f"disk-{l}", "rotating_disk", "2,4,8,16", solids=[f"disk={l}"])
     yield ("Rotating disk, lambda = 2, mu = 0.5",

@@ -112,7 +112,9 @@ class SolidBoundary {
   void extend_stress_to_corners(FieldView q, Side side) const;
   void match_side(FieldView q, Side side, double t) const;
   void match_point(FieldView q, Side side, int k, double t) const;
-  Tensor2 with_sharper_tangent(ConstFieldView q, const SideIndex& line, int k, const Tensor2& F) const;
+  Tensor2 with_sharper_tangent(ConstFieldView q, Side side, int k, const Tensor2& F) const;
+  /// Ghost points beyond this end of a side are images of inner ones.
+  bool imaged(Side side, int end) const;
   void match_slip_point(FieldView q, Side side, int k, double t) const;
   void match_corners(FieldView q, double t) const;
   Tensor2 gradient(ConstFieldView q, Side side, int k, int first) const;

@@ -262,7 +262,7 @@ void SolidBoundary<L>::match_point(FieldView q, Side side, int k, double t) cons
     const Vec2 dv = match_traction_rate(law_, strain, *du, along, rate);
     set_ghost(q, line, k, plane::v1, 2.0 * m.sign * dv);
   }
-  const Tensor2 F = with_sharper_tangent(q, line, k, plus_dyad(strain.F, *du, m.across));
+  const Tensor2 F = with_sharper_tangent(q, side, k, plus_dyad(strain.F, *du, m.across));
   const Tensor2 P = plus(law_.P(F), offset);
   const Vec2 change = traction_of(P, m.t0) - traction_of(s.P, m.t0);
   s.P = plus_dyad(s.P, m.t0, change);
@@ -273,16 +273,16 @@ void SolidBoundary<L>::match_point(FieldView q, Side side, int k, double t) cons
 /// and of u alike, so that a turned body is not stretched. Central ones of second order make the largest
 /// error of P.
 template <Law L>
-Tensor2 SolidBoundary<L>::with_sharper_tangent(ConstFieldView q, const SideIndex& line, int k,
-                                               const Tensor2& F) const {
+Tensor2 SolidBoundary<L>::with_sharper_tangent(ConstFieldView q, Side side, int k, const Tensor2& F) const {
+  const SideIndex line(layout(), side);
+  for (const int end : {0, line.n - 1}) {
+    if (std::abs(k - end) < 2 && !imaged(side, end)) return F;
+  }
   const auto difference = [&](ConstFieldView field, int first) -> Vec2 {
     const auto value = [&](int at) {
       const std::ptrdiff_t a = line.at(at, 0);
       return Vec2(field.plane(first)[a], field.plane(first + 1)[a]);
     };
-    if (k == 1) return (6.0 * value(2) - value(3) - 2.0 * value(0) - 3.0 * value(1)) / 6.0;
-    if (k == line.n - 2)
-      return -(6.0 * value(k - 1) - value(k - 2) - 2.0 * value(k + 1) - 3.0 * value(k)) / 6.0;
     return (8.0 * (value(k + 1) - value(k - 1)) - (value(k + 2) - value(k - 2))) / 12.0;
   };
   const Vec2 along = difference(grid_.x, 0), change = difference(q, plane::u1);

@@ -96,11 +96,16 @@ std::optional<typename SolidBoundary<L>::Motion> SolidBoundary<L>::given_motion(
 }
 
 template <Law L>
+bool SolidBoundary<L>::imaged(Side side, int end) const {
+  const Kind other = kind(neighbour(side, end != 0));
+  return other == Kind::periodic || other == Kind::symmetry;
+}
+
+template <Law L>
 bool SolidBoundary<L>::inner(Side side, int k) const {
   const SideIndex line(layout(), side);
-  if (!end_of(line, k)) return true;
-  const Kind other = kind(neighbour(side, k != 0));
-  return other == Kind::periodic || other == Kind::symmetry || (loaded(side) && other == Kind::slip);
+  if (!end_of(line, k) || imaged(side, k)) return true;
+  return loaded(side) && kind(neighbour(side, k != 0)) == Kind::slip;
 }
 
 template <Law L>

@@ -121,6 +121,16 @@ BodyFittedSpec build_fitted(const Reader& reader, const Node* node, CurveSpec cu
   Reader::assign(*node, "lines", grid.lines);
   Reader::assign(*node, "spacing", grid.spacing);
   Reader::assign(*node, "growth", grid.growth);
+  if (const Node* map = node->find("map")) {
+    grid.map = reader.vector(*map);
+    for (const char* key : {"spacing", "growth"}) {
+      if (const Node* own = node->find(key))
+        fail(own->place, key,
+             "belongs to a grid that is marched from its curve; `map` says where its lines are");
+    }
+    if (grid.map->c1.uses("t") || grid.map->c2.uses("t"))
+      fail(map->place, "map", "must not depend on t: the grid moves with its curve");
+  }
   return grid;
 }
 

@@ -32,20 +32,34 @@ const Node& place_of(const OverlapCheck& check) {
   return shape != nullptr ? *shape : *list;
 }
 
+/// The first line of a mapped grid is its curve.
+void check_curve(const BodyFittedSpec& spec, const grid::MovingGrid& grid) {
+  const std::vector<double> line = grid.side_points(spec.side);
+  const auto n = static_cast<std::size_t>(spec.curve.points());
+  for (std::size_t k = 0; k < n; ++k) {
+    const Vec2 there(line[k], line[n + k]), curve(spec.curve.x[k], spec.curve.x[n + k]);
+    if ((there - curve).norm() <= 1e-6 * spec.curve.spacing) continue;
+    throw UserMistake(
+        fmt::format("grid \"{}\": `map` at r = {:.6g}, s = 0 is ({:.6g}, {:.6g}), but point {} of its curve "
+                    "is at ({:.6g}, {:.6g})",
+                    spec.name, static_cast<double>(k) / static_cast<double>(n - 1), there.x(), there.y(), k,
+                    curve.x(), curve.y()));
+  }
+}
+
 }  // namespace
 
 void check_overlap(const OverlapCheck& check) {
   if (check.body_fitted.empty()) return;
   check_background(check);
-  std::vector<Field> positions;
+  std::vector<grid::MovingGrid> grids;
   std::vector<ConstFieldView> views;
   try {
     for (const BodyFittedSpec& spec : check.body_fitted) {
-      grid::HyperbolicMarch march(march_of(spec));
-      positions.emplace_back(march.layout(), 2);
-      march.march(spec.curve.x, positions.back().view(), 0);
+      grids.emplace_back(grid_of(spec), 0);
+      if (spec.map) check_curve(spec, grids.back());
     }
-    for (const Field& x : positions) views.push_back(x.view());
+    for (const grid::MovingGrid& grid : grids) views.push_back(grid.x());
     grid::CompositeGrid composite(background_of(check.background), bodies_of(check.body_fitted));
     composite.connect(views, 0);
   } catch (const Failure& failure) {

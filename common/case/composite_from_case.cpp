@@ -24,7 +24,19 @@ grid::CartesianGrid background_of(const GridSpec& spec) {
           .y_b = spec.y_b};
 }
 
-grid::HyperbolicGrid march_of(const BodyFittedSpec& spec) {
+grid::GridDescription grid_of(const BodyFittedSpec& spec) {
+  if (spec.map) {
+    const bool from_last = spec.side == Side::top;
+    return {.name = spec.name,
+            .n1 = spec.curve.points(),
+            .n2 = spec.lines,
+            .mapping =
+                [map = *spec.map, from_last](double r1, double r2, double t) {
+                  const double s = from_last ? 1 - r2 : r2;
+                  return Vec2(map.c1.at_parameters(r1, s, t), map.c2.at_parameters(r1, s, t));
+                },
+            .periodic1 = spec.curve.closed()};
+  }
   grid::HyperbolicGrid march{.name = spec.name,
                              .points = spec.curve.points(),
                              .lines = spec.lines,
@@ -35,7 +47,9 @@ grid::HyperbolicGrid march_of(const BodyFittedSpec& spec) {
   if (spec.curve.walls) {
     for (std::size_t end : {0U, 1U}) march.walls[end] = direction_along((*spec.curve.walls)[end]);
   }
-  return march;
+  grid::GridDescription description = grid::marched_from(march, spec.curve.x);
+  description.follows = false;
+  return description;
 }
 
 std::vector<grid::BodyFittedGrid> bodies_of(const std::vector<BodyFittedSpec>& specs) {

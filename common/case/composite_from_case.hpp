@@ -5,15 +5,15 @@
 
 #include "common/case/case.hpp"
 #include "common/grid/composite_grid.hpp"
-#include "common/grid/hyperbolic.hpp"
+#include "common/grid/moving_grid.hpp"
 
 namespace fsi {
 
 /// A rectangle as the background of body-fitted grids.
 grid::CartesianGrid background_of(const GridSpec& spec);
 
-/// How a body-fitted grid is marched from its curve.
-grid::HyperbolicGrid march_of(const BodyFittedSpec& spec);
+/// A body-fitted grid, marched from its curve or mapped. It does not follow commands.
+grid::GridDescription grid_of(const BodyFittedSpec& spec);
 
 /// What the overlap needs to know of body-fitted grids.
 std::vector<grid::BodyFittedGrid> bodies_of(const std::vector<BodyFittedSpec>& specs);

@@ -117,6 +117,15 @@ constexpr Key growth_key{.name = "growth",
                          .fallback = "1",
                          .range = {.low = 0.5, .high = 2}};
 
+constexpr Key map_key{
+    .name = "map",
+    .type = Type::map,
+    .meaning =
+        "position of the point with parameters r along the curve and s from the curve (0) to the "
+        "last line (1), in place of marching; at s = 0 it must be the curve",
+    .unit = "length",
+    .fallback = "marched from the curve"};
+
 constexpr array gas_fitted_keys{
     Key{.name = "name", .type = Type::name, .meaning = "name in messages and output", .required = true},
     Key{.name = "solid",
@@ -150,6 +159,7 @@ constexpr array gas_fitted_keys{
     lines_key,
     line_spacing_key,
     growth_key,
+    map_key,
 };
 constexpr array solid_fitted_keys{
     Key{.name = "boundary",
@@ -161,6 +171,7 @@ constexpr array solid_fitted_keys{
     lines_key,
     line_spacing_key,
     growth_key,
+    map_key,
 };
 
 }  // namespace

@@ -37,7 +37,7 @@ grid::GridDescription grid_from_case(const GridSpec& spec, bool follows) {
 }
 
 grid::GridDescription grid_from_case(const BodyFittedSpec& spec) {
-  grid::GridDescription description = grid::marched_from(march_of(spec), spec.curve.x);
+  grid::GridDescription description = grid_of(spec);
   description.follows = !spec.solid.empty();
   return description;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string>
 
+#include "common/case/composite_from_case.hpp"
 #include "tests/unit/case/cases.hpp"
 
 namespace fsi {
@@ -70,6 +71,19 @@ TEST(CaseShape, PointsOfAFileBecomePartOfTheResolvedCase) {
   EXPECT_EQ(from_file.resolved.find("outline.csv"), std::string::npos);
 }
 
+/// Lines of a disk of radius 0.9 down to radius 0.2.
+const std::string rings = "map: [(0.9 - 0.7 * s) * cos(2 * pi * r), (0.9 - 0.7 * s) * sin(2 * pi * r)]";
+
+TEST(CaseShape, LinesOfABodyFittedGridMayBeGivenByAFormulaFromTheirCurve) {
+  const Case problem = load_text(disk_case(circle, "{name: ring, solid: disk}", "{lines: 8, " + rings + "}"));
+  const BodyFittedSpec& fitted = problem.solids.at(0).body_fitted.at(0);
+  const grid::MovingGrid grid(grid_of(fitted), 0);
+  EXPECT_TRUE(grid.periodic(0));
+  for (int j = 0; j < 8; ++j) {
+    EXPECT_NEAR(std::hypot(grid.x()(0, 5, j), grid.x()(1, 5, j)), 0.9 - 0.1 * j, 1e-14);
+  }
+}
+
 struct ShapeMistake {
   std::string text, part;
 };
@@ -87,6 +101,11 @@ TEST(CaseShape, MistakesSayWhereAndWhatToWrite) {
        "`points` or `spacing`, one of them"},
       {disk_case("{kind: spline}"), "give `through: [[x, y], ..]` or `file: NAME.csv`"},
       {disk_case("{kind: spline, file: nowhere.csv}"), "cannot be read"},
+      {disk_case(circle, "{name: ring, solid: disk}",
+                 "{lines: 8, map: [0.8 * cos(2 * pi * r), 0.8 * sin(2 * pi * r)]}"),
+       "but point 0 of its curve is at (0.9, 0)"},
+      {disk_case(circle, "{name: ring, solid: disk}", "{spacing: h, " + rings + "}"),
+       "`map` says where its lines are"},
       {disk_case("{kind: circle, radius: 1.3}"), "change `lines`, `spacing` or the shape"},
   };
   for (const ShapeMistake& mistake : mistakes) {

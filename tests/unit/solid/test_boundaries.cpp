@@ -59,12 +59,14 @@ TEST(GivenTraction, StressAlongTheSideIsSharperThanCentralDifferences) {
     return {law.lambda * k * std::cos(k * y), 0};
   };
   const auto u = [=](double, double y, double) -> Vec2 { return {0, std::sin(k * y)}; };
-  grid::GridDescription square{.name = "square", .n1 = 13, .n2 = 13};
-  square.mapping = [](double r, double s, double) -> Vec2 { return {r, s}; };
+  const grid::GridDescription square{
+      .name = "square", .n1 = 13, .n2 = 13, .mapping = [](double r, double s, double) -> Vec2 {
+        return {r, s};
+      }};
   SolidSolver<LinearElastic> solver(grid::MovingGrid(square, 0), law, {}, boundaries, 0);
   solver.assign_initial_conditions(u, [](double, double, double) -> Vec2 { return {0, 0}; });
   const ConstFieldView q = solver.state(), x = solver.reference();
-  for (int j = 1; j < 12; ++j) {
+  for (int j = 2; j < 11; ++j) {  // the points beside free corners have no fourth-order differences
     const double y = x(1, 12, j), exact = (law.lambda + 2 * law.mu) * k * std::cos(k * y);
     const double central = 0.5 * 12 * (std::sin(k * (y + 1.0 / 12)) - std::sin(k * (y - 1.0 / 12)));
     const double plain = (law.lambda + 2 * law.mu) * (central - k * std::cos(k * y));
