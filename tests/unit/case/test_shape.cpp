@@ -102,7 +102,7 @@ TEST(CaseShape, MistakesSayWhereAndWhatToWrite) {
       {disk_case("{kind: spline}"), "give `through: [[x, y], ..]` or `file: NAME.csv`"},
       {disk_case("{kind: spline, file: nowhere.csv}"), "cannot be read"},
       {disk_case(circle, "{name: ring, solid: disk}",
-                 "{lines: 8, map: [0.8 * cos(2 * pi * r), 0.8 * sin(2 * pi * r)]}"),
+                 "{lines: 8, map: [(0.8 - 0.6 * s) * cos(2 * pi * r), (0.8 - 0.6 * s) * sin(2 * pi * r)]}"),
        "but point 0 of its curve is at (0.9, 0)"},
       {disk_case(circle, "{name: ring, solid: disk}", "{spacing: h, " + rings + "}"),
        "`map` says where its lines are"},
