@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "common/grid/partition.hpp"
+#include "common/grid/quality.hpp"
 #include "fluid_solver/gas_solver.hpp"
 #include "fluid_solver/side_points.hpp"
 
@@ -148,6 +149,8 @@ Health GasSolver::health() const {
         health.min_p = std::min(health.min_p, smallest(p, run));
       }
     }
+    if (component.grid().moves())
+      health.min_cell_quality = std::min(health.min_cell_quality, grid::cell_quality(component.grid().x()));
     first_order += component.counters().first_order;
     floors += component.counters().floors;
   }

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "common/case/composite_from_case.hpp"
+#include "common/grid/quality.hpp"
 #include "common/program/grid_from_case.hpp"
 #include "common/program/reference_from_case.hpp"
 
@@ -237,6 +238,10 @@ void FluidParticipant::advance(double t, double dt, int /*substeps*/, ProjectedS
     commands.push_back({interfaces_[k].side, projected[k]->x_next, interfaces_[k].grid});
   const double t_next = projected.empty() ? t + dt : projected.front()->t_next;
   solver_.move_grids(t_next, dt, commands);
+  for (int k = 0; k < solver_.grids(); ++k) {
+    const grid::MovingGrid& grid = solver_.grid(k);
+    if (grid.moves()) worst_cells_ = std::min(worst_cells_, grid::cell_quality(grid.x()));
+  }
   solver_.advance_fluid(t_next, dt);
 }
 
@@ -283,6 +288,7 @@ wire::Health FluidParticipant::health() const {
   return {.min_rho = health.min_rho,
           .min_p = health.min_p,
           .min_det_F = 0,
+          .min_cell_quality = health.min_cell_quality,
           .first_order_fallbacks = health.first_order_fallbacks,
           .floors = health.floors};
 }
@@ -293,6 +299,7 @@ void FluidParticipant::report(double t, io::Part& part) const {
   part.counters["floors"] = static_cast<double>(health.floors);
   part.health["min_rho"] = health.min_rho;
   part.health["min_p"] = health.min_p;
+  part.health["min_cell_quality"] = worst_cells_;
   const Totals now = solver_.totals();
   part.conservation["mass"] = now.mass - initial_totals_.mass;
   part.conservation["energy"] = now.energy - initial_totals_.energy;

@@ -56,6 +56,7 @@ class FluidParticipant final : public Participant {
   std::vector<ProbeSpec> probes_;
   std::optional<io::CsvWriter> probe_table_;
   Totals initial_totals_;
+  double worst_cells_ = 1;  ///< quality of the moving grids' cells, smallest since the start
 };
 
 }  // namespace fsi::fluid

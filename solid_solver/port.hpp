@@ -134,6 +134,7 @@ class SolidParticipant final : public Participant {
     return {.min_rho = 0,
             .min_p = 0,
             .min_det_F = solver_.health().min_det_F,
+            .min_cell_quality = 1,
             .first_order_fallbacks = 0,
             .floors = 0};
   }

@@ -28,6 +28,7 @@ amp_fsi_Health borrow(const wire::Health& health) {
   return {.min_rho = health.min_rho,
           .min_p = health.min_p,
           .min_det_F = health.min_det_F,
+          .min_cell_quality = health.min_cell_quality,
           .first_order_fallbacks = health.first_order_fallbacks,
           .floors = health.floors};
 }
@@ -56,6 +57,7 @@ void copy(const amp_fsi_Health& from, wire::Health& to) {
   to.min_rho = from.min_rho;
   to.min_p = from.min_p;
   to.min_det_F = from.min_det_F;
+  to.min_cell_quality = from.min_cell_quality;
   to.first_order_fallbacks = from.first_order_fallbacks;
   to.floors = from.floors;
 }

@@ -81,7 +81,10 @@ void HyperbolicMarch::march(std::span<const double> curve, FieldView x, double t
   for (int line = 0; line + 1 < grid_.lines; ++line, d *= grid_.growth) {
     measure(x, row_of(line));
     smooth_arclength();
-    if (!closed()) blend_into_walls();
+    if (!closed()) {
+      keep_off_walls(x, row_of(line));
+      blend_into_walls();
+    }
     fill_rows(x, row_of(line), d);
     place(x, row_of(line), row_of(line + 1));
   }
@@ -130,8 +133,31 @@ void HyperbolicMarch::blend_into_walls() {
     for (std::size_t k = 0; k <= reach; ++k) {
       LinePoint& here = line_[end == 0 ? k : line_.size() - 1 - k];
       const Vec2 wall = here.normal.dot(*direction) < 0 ? Vec2(-*direction) : *direction;
-      here.blend = 1 - static_cast<double>(k) / static_cast<double>(reach + 1);
-      here.normal = ((1 - here.blend) * here.normal + here.blend * wall).normalized();
+      const double blend = 1 - static_cast<double>(k) / static_cast<double>(reach + 1);
+      here.normal = ((1 - blend) * here.normal + blend * wall).normalized();
+      here.blend = std::max(here.blend, blend);
+    }
+  }
+}
+
+/// Where the curve leans over the wall on which its end slides, lines would run into the wall: near the end a
+/// normal descends over the whole depth by no more than half the point's height above the wall.
+void HyperbolicMarch::keep_off_walls(ConstFieldView x, int j) {
+  const double reach = 2 * depth();
+  for (std::size_t end = 0; end < 2; ++end) {
+    if (!grid_.walls[end]) continue;
+    const auto index = [&](std::size_t k) { return end == 0 ? k : line_.size() - 1 - k; };
+    const auto position = [&](std::size_t k) { return point(x, static_cast<int>(index(k)), j); };
+    Vec2 up(-(*grid_.walls[end])[1], (*grid_.walls[end])[0]);
+    if (up.dot(position(line_.size() / 2) - position(0)) < 0) up = -up;
+    for (std::size_t k = 1; k < line_.size() / 2; ++k) {
+      const double height = up.dot(position(k) - position(0));
+      if (!(height < reach)) break;
+      LinePoint& here = line_[index(k)];
+      const double descent = -up.dot(here.normal), most = std::max(height, 0.0) / reach;
+      if (descent <= most) continue;
+      here.blend = 1 - most / descent;
+      here.normal = (here.normal + (descent - most) * up).normalized();
     }
   }
 }

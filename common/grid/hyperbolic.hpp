@@ -58,7 +58,7 @@ class HyperbolicMarch {
   struct LinePoint {
     Vec2 tangent;      ///< unit
     Vec2 normal;       ///< unit, towards the next line
-    double blend = 0;  ///< 1 at a wall, 0 far from it
+    double blend = 0;  ///< 1 where the wall alone decides on the normal, 0 where the curve does
   };
 
   HyperbolicGrid grid_;
@@ -72,6 +72,7 @@ class HyperbolicMarch {
   int row_of(int line) const { return grid_.curve == Side::bottom ? line : grid_.lines - 1 - line; }
   void measure(ConstFieldView x, int j);
   void smooth_arclength();
+  void keep_off_walls(ConstFieldView x, int j);
   void blend_into_walls();
   void fill_rows(ConstFieldView x, int j, double d);
   void fill_end(std::size_t k, double d);

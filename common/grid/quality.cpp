@@ -28,6 +28,15 @@ struct CellRow {
     return std::min(std::min(bx * ly - by * lx, bx * ry - by * rx),
                     std::min(tx * ly - ty * lx, tx * ry - ty * rx));
   }
+  /// Area of the rectangle with the mean sides of cell i.
+  double size(int i) const {
+    const double bx = x0[i + 1] - x0[i], by = y0[i + 1] - y0[i], tx = x1[i + 1] - x1[i],
+                 ty = y1[i + 1] - y1[i];
+    const double lx = x1[i] - x0[i], ly = y1[i] - y0[i], rx = x1[i + 1] - x0[i + 1],
+                 ry = y1[i + 1] - y0[i + 1];
+    return 0.25 * (std::sqrt(bx * bx + by * by) + std::sqrt(tx * tx + ty * ty)) *
+           (std::sqrt(lx * lx + ly * ly) + std::sqrt(rx * rx + ry * ry));
+  }
 };
 
 double smallest_of_row(const CellRow& cells, int count) {
@@ -61,6 +70,16 @@ GridQuality quality_of(ConstFieldView x) {
   GridQuality quality{.min_jacobian = std::numeric_limits<double>::infinity(), .min_jacobian_ratio = 1};
   for (int j = 0; j + 1 < x.layout.n2; ++j) {
     for (int i = 0; i + 1 < x.layout.n1; ++i) add_cell(x, i, j, quality);
+  }
+  return quality;
+}
+
+double cell_quality(ConstFieldView x) {
+  double quality = 1;
+  for (int j = 0; j + 1 < x.layout.n2; ++j) {
+    const CellRow cells(x, j);
+#pragma omp simd reduction(min : quality)
+    for (int i = 0; i < x.layout.n1 - 1; ++i) quality = std::min(quality, cells.smallest(i) / cells.size(i));
   }
   return quality;
 }

@@ -17,6 +17,10 @@ struct GridQuality {
 /// Over all cells; x: planes x1, x2.
 GridQuality quality_of(ConstFieldView x);
 
+/// One number for a watcher: the smallest ratio of a corner's area to that of the rectangle with the cell's
+/// mean sides. 1 where all cells are rectangles, 0 where one is about to fold, negative where one is folded.
+double cell_quality(ConstFieldView x);
+
 /// @throws NumbersBroke naming grid, cell, position, t and the corner area of the first folded cell
 void check_cells(ConstFieldView x, const std::string& name, double t);
 

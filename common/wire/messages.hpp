@@ -38,6 +38,8 @@ struct Health {
   double min_rho = 0;
   double min_p = 0;
   double min_det_F = 0;
+  double min_cell_quality =
+      1;  ///< of moving grids: 1 where cells are rectangles, 0 where one is about to fold
   std::uint64_t first_order_fallbacks = 0;
   std::uint64_t floors = 0;
 };

@@ -155,6 +155,45 @@ TEST(HyperbolicMarch, BeamGridsAreUnfoldedAndTheirEndsStayOnTheWall) {
   }
 }
 
+TEST(HyperbolicMarch, LinesStayOffTheWallOverWhichTheirCurveLeans) {
+  constexpr int points = 81, lines = 9;
+  for (const double lean : {0.2, 0.4, 0.6}) {  // radians from the vertical
+    std::vector<double> curve(2 * points);
+    for (std::size_t k = 0; k < points; ++k) {
+      curve[k] = 0.0125 * static_cast<double>(k) * std::sin(lean);
+      curve[points + k] = 0.0125 * static_cast<double>(k) * std::cos(lean);
+    }
+    HyperbolicMarch marcher({.points = points,
+                             .lines = lines,
+                             .curve = Side::top,
+                             .ends = Curve::open,
+                             .spacing = 0.0125,
+                             .walls = {Vec2(1, 0), std::nullopt},
+                             .blend = 2 * lines});
+    Field x(marcher.layout(), 2);
+    marcher.march(curve, x.view(), 0);
+    EXPECT_GT(cell_quality(x.view()), 0.85 * std::cos(lean)) << lean;  // the corner at the wall has cos(lean)
+    EXPECT_GT(x(1, 1, 0), 0.5 * x(1, 1, lines - 1)) << lean;
+  }
+}
+
+TEST(CellQuality, IsOneOfRectanglesTheSineOfAParallelogramsAngleAndZeroWhereACellFolds) {
+  const auto grid = [](double shear, double taper) {
+    Field x(Layout(6, 5), 2);
+    for (int j = 0; j < 5; ++j) {
+      for (int i = 0; i < 6; ++i) {
+        x(0, i, j) = 0.3 * i * (1 - taper * (j == 4 ? 1 : 0)) + shear * j;
+        x(1, i, j) = j;
+      }
+    }
+    return cell_quality(x.view());
+  };
+  EXPECT_NEAR(grid(0, 0), 1, 1e-15);
+  EXPECT_NEAR(grid(1, 0), std::sqrt(0.5), 1e-15);
+  EXPECT_NEAR(grid(0, 1), 0, 1e-15);
+  EXPECT_LT(grid(0, 1.2), 0);
+}
+
 TEST(HyperbolicMarch, StraightCurveBetweenWallsGivesARectangularGrid) {
   std::vector<double> curve(22, 0.25);
   for (std::size_t k = 0; k < 11; ++k) curve[11 + k] = 0.1 * static_cast<double>(k);

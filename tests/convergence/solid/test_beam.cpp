@@ -1,0 +1,169 @@
+// A clamped beam of a neo-Hookean solid, ten times longer than thick, against beam theory in plane strain:
+//
+//      | --> load          E' I w'''' + rho A w'' = 0 while it bends little,
+//      |                   E' I theta'' = -load cos(theta), the elastica, under an end load of any size
+//      |
+//     ===  clamped at y = 0
+//
+// With lambda = mu, E' = E / (1 - nu^2) = 8/3 mu.
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "tests/convergence/solid/solvers.hpp"
+
+namespace fsi::solid::test {
+namespace {
+
+constexpr double thickness = 0.1, rho = 1, mu = 1;
+constexpr double bending = 8.0 / 3.0 * mu * thickness * thickness * thickness / 12;
+constexpr double beta = 1.8751040687, sigma = 0.7340955138;  // first mode of a clamped beam
+const double omega = beta * beta * std::sqrt(bending / (rho * thickness));
+
+/// Deflection of the mode, 1 at the end.
+double mode(double y) {
+  return 0.5 *
+         (std::cosh(beta * y) - std::cos(beta * y) - sigma * (std::sinh(beta * y) - std::sin(beta * y)));
+}
+double mode_slope(double y) {
+  return 0.5 * beta *
+         (std::sinh(beta * y) + std::sin(beta * y) - sigma * (std::cosh(beta * y) - std::cos(beta * y)));
+}
+
+grid::MovingGrid upright(int cells_across) {
+  return {{.name = "beam",
+           .n1 = cells_across + 1,
+           .n2 = 10 * cells_across + 1,
+           .mapping = [](double r, double s, double) -> Vec2 {
+             return {thickness * (r - 0.5), s};
+           }},
+          0};
+}
+
+/// Clamped at its bottom; `load` per unit area of the undeformed top.
+Boundaries clamped(VectorFunction load = {}) {
+  Boundaries boundaries;
+  boundaries[static_cast<std::size_t>(Side::bottom)].kind = Boundary::Kind::displacement;
+  boundaries[static_cast<std::size_t>(Side::top)].vector = std::move(load);
+  boundaries[static_cast<std::size_t>(Side::top)].load = LoadConfiguration::reference;
+  return boundaries;
+}
+
+/// The scheme of configs/beam.yaml.
+constexpr SolidOptions options = {.rho = rho,
+                                  .tangential_stress = {.scaled = 0.5},
+                                  .displacement = {.scaled = 0.5},
+                                  .relaxation = {.scaled = 0.2}};
+
+using Solver = SolidSolver<NeoHookean>;
+
+Vec2 at_rest(double, double, double) {
+  return {0, 0};
+}
+
+SolidState end_of(const Solver& solver, int cells) {
+  return load(solver.state(), solver.state().layout.at(cells / 2, 10 * cells));
+}
+
+struct Swing {
+  double omega;         ///< from the time at which the end turns round
+  double energy_drift;  ///< until then, part of the initial energy
+};
+
+/// From the straight beam, with the velocity of the mode, until its end stands still.
+Swing swing(int cells) {
+  constexpr double amplitude = 1e-3;
+  const double v_0 = amplitude * omega;
+  Solver solver(upright(cells), {.lambda = mu, .mu = mu}, options, clamped(), 0);
+  solver.assign_initial_conditions(at_rest, [&](double x, double y, double) -> Vec2 {
+    return {v_0 * mode(y), -v_0 * x * mode_slope(y)};
+  });
+  const double energy = solver.totals().energy();
+  double t = 0, v_before = v_0, dt = 0;
+  double v = v_0;
+  while (v > 0) {
+    v_before = v;
+    dt = solver.compute_time_step().dt;
+    solver.advance_solid(t, dt);
+    t += dt;
+    solver.apply_solid_bcs(t);
+    v = end_of(solver, cells).v.x();
+  }
+  const double turn = t - dt * v / (v - v_before);
+  return {.omega = 0.5 * std::numbers::pi / turn, .energy_drift = solver.totals().energy() / energy - 1};
+}
+
+TEST(ClampedBeam, SwingsAtTheFrequencyOfBeamTheoryAndConvergesAtSecondOrder) {
+  const Swing coarse = swing(4), middle = swing(8), fine = swing(16);
+  // Shear and rotary inertia slow a beam of this thickness by 0.4 %, the corners at the clamp by less.
+  EXPECT_NEAR(fine.omega, omega, 0.01 * omega);
+  const double first = coarse.omega - middle.omega, second = middle.omega - fine.omega;
+  EXPECT_GE(std::log2(std::abs(first / second)), 1.7) << first << " " << second;
+  EXPECT_LT(std::abs(fine.energy_drift), 2e-3);
+  EXPECT_LT(std::abs(fine.energy_drift), 0.35 * std::abs(middle.energy_drift));
+}
+
+/// Deflection of the elastica's end for load L^2 / (E' I) = alpha, by shooting for the curvature at the
+/// clamp.
+Vec2 elastica(double alpha) {
+  constexpr int steps = 2000;
+  Vec2 end = Vec2::Zero();
+  const auto curvature_at_end = [&](double start) {
+    double theta = 0, curvature = start;
+    end = Vec2(0, -1);
+    for (int k = 0; k < steps; ++k) {
+      const double ds = 1.0 / steps, half = theta + 0.5 * ds * curvature;
+      const double mid = curvature - 0.5 * ds * alpha * std::cos(theta);
+      theta += ds * mid;
+      curvature -= ds * alpha * std::cos(half);
+      end += ds * Vec2(std::sin(half), std::cos(half));
+    }
+    return curvature;
+  };
+  double low = 0, high = alpha;
+  for (int k = 0; k < 60; ++k) {
+    const double middle = 0.5 * (low + high);
+    (curvature_at_end(middle) < 0 ? low : high) = middle;
+  }
+  return end;
+}
+
+/// Deflection of the end under a load that grows in two periods of the first mode, when nothing of it is left
+/// to swing.
+Vec2 deflection(double alpha, int cells) {
+  const double growth = 2 * 2 * std::numbers::pi / omega;
+  const double traction = alpha * bending / thickness;
+  const auto load = [=](double, double, double t) -> Vec2 {
+    const double part = std::clamp(t / growth, 0.0, 1.0), turn = 2 * std::numbers::pi;
+    return {traction * (part - std::sin(turn * part) / turn), 0};
+  };
+  Solver solver(upright(cells), {.lambda = mu, .mu = mu}, options, clamped(load), 0);
+  solver.assign_initial_conditions(at_rest, at_rest);
+  for (double t = 0; t < growth;) {
+    const double dt = std::min(solver.compute_time_step().dt, growth - t + 1e-9);
+    solver.advance_solid(t, dt);
+    t += dt;
+    solver.apply_solid_bcs(t);
+  }
+  return end_of(solver, cells).u;
+}
+
+TEST(ClampedBeam, BendsUnderASmallEndLoadAsBeamTheoryWithShearSays) {
+  constexpr double alpha = 0.01, shear_area = 5.0 / 6.0 * thickness;
+  const double expected = alpha / 3 + alpha * bending / (mu * shear_area);
+  EXPECT_NEAR(deflection(alpha, 6).x(), expected, 0.02 * expected);
+}
+
+TEST(ClampedBeam, BendsUnderALargeEndLoadAsTheElastica) {
+  constexpr double alpha = 2;
+  const Vec2 u = deflection(alpha, 6), expected = elastica(alpha);
+  EXPECT_GT(expected.x(), 0.4);  // as far as the beam in the gas
+  EXPECT_NEAR(u.x(), expected.x(), 0.02 * expected.x());
+  EXPECT_NEAR(u.y(), expected.y(), 0.04 * std::abs(expected.y()));
+}
+
+}  // namespace
+}  // namespace fsi::solid::test
