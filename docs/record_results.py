@@ -20,6 +20,8 @@ import sys
 import time
 from pathlib import Path
 
+import beam_studies
+
 ROOT = Path(__file__).resolve().parent.parent
 RUNS = ROOT / "runs" / "results"
 RESULTS = ROOT / "docs" / "results.md"
@@ -354,7 +356,7 @@ def kept_sections():
 
 def main(words):
     sections = kept_sections()
-    studies = [*piston_studies(), *chosen_studies(), *other_studies(), *disk_studies(), *ellipse_studies(),
+    studies = [*piston_studies(), *chosen_studies(), *other_studies(), *disk_studies(), *ellipse_studies(), *beam_studies.studies(sys.modules[__name__]),
                ("What watching costs", lambda: watched("watched")),
                ("Signals to every program at random moments", lambda: faults(200)),
                ("Benchmarks", lambda: bench("bench"))]

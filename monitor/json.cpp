@@ -50,6 +50,7 @@ json program_json(const RunState& state, const wire::Telemetry& program, double 
            {{"min_rho", number(health.min_rho)},
             {"min_p", number(health.min_p)},
             {"min_det_F", number(health.min_det_F)},
+            {"min_cell_quality", number(health.min_cell_quality)},
             {"first_order_fallbacks", health.first_order_fallbacks},
             {"floors", health.floors}}},
           {"bus",

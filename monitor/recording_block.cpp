@@ -52,9 +52,9 @@ struct Table {
 
 constexpr const char* message_columns =
     "at from role state host pid step t t_end dt dt_reason compute_s wait_s point_updates_per_s min_rho "
-    "min_p min_det_F "
+    "min_p min_det_F min_cell_quality "
     "first_order_fallbacks floors messages bytes round_trip_p50_us round_trip_p99_us interfaces";
-constexpr std::size_t message_width = 24;
+constexpr std::size_t message_width = 25;
 constexpr const char* interface_columns =
     "name velocity_jump traction_jump gap power p_min p_max v_min v_max closed points has_p_predicted_solid";
 constexpr std::size_t interface_width = 12;
@@ -154,12 +154,13 @@ wire::Telemetry telemetry_from(std::span<const double> row, const TextOf& text) 
           .health = {.min_rho = row[14],
                      .min_p = row[15],
                      .min_det_F = row[16],
-                     .first_order_fallbacks = whole(row[17]),
-                     .floors = whole(row[18])},
-          .messages = whole(row[19]),
-          .bytes = whole(row[20]),
-          .round_trip_p50_us = row[21],
-          .round_trip_p99_us = row[22],
+                     .min_cell_quality = row[17],
+                     .first_order_fallbacks = whole(row[18]),
+                     .floors = whole(row[19])},
+          .messages = whole(row[20]),
+          .bytes = whole(row[21]),
+          .round_trip_p50_us = row[22],
+          .round_trip_p99_us = row[23],
           .interfaces = {}};
 }
 
@@ -190,6 +191,7 @@ void write_block(io::Hdf5& group, const std::vector<Heard>& heard) {
                               m->health.min_rho,
                               m->health.min_p,
                               m->health.min_det_F,
+                              m->health.min_cell_quality,
                               count(m->health.first_order_fallbacks),
                               count(m->health.floors),
                               count(m->messages),
@@ -229,7 +231,7 @@ std::vector<Heard> read_block(const io::Hdf5& group) {
     const auto row = messages.take();
     wire::Telemetry& telemetry =
         heard.emplace_back(Heard{.at = row[0]}).telemetry.emplace(telemetry_from(row, text));
-    for (std::uint64_t k = 0; k < whole(row[23]); ++k)
+    for (std::uint64_t k = 0; k < whole(row[24]); ++k)
       telemetry.interfaces.push_back(side_from(sides.take(), profiles, text));
   }
   while (aborts.more()) {

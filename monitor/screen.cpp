@@ -138,13 +138,14 @@ class Painter {
   /// Over all programs, in one line.
   void health() {
     constexpr double none = std::numeric_limits<double>::infinity();
-    double rho = none, p = none, det_F = none;
+    double rho = none, p = none, det_F = none, cells = none;
     std::uint64_t fallbacks = 0, floors = 0;
     for (const auto& [name, program] : state_.programs()) {
       const wire::Health& health = program.health;
       if (program.role == "fluid") {
         rho = std::min(rho, health.min_rho);
         p = std::min(p, health.min_p);
+        cells = std::min(cells, health.min_cell_quality);
         fallbacks += health.first_order_fallbacks;
         floors += health.floors;
       } else if (program.role == "solid") {
@@ -153,6 +154,7 @@ class Painter {
     }
     std::string line = "min";
     if (rho < none) line += fmt::format(" rho {:.4g}  p {:.4g}", rho, p);
+    if (cells < none) line += fmt::format("  cells {:.2f}", cells);
     if (det_F < none) line += fmt::format("  det F {:.4g}", det_F);
     if (rho < none) line += fmt::format("   first order {}  floors {}", fallbacks, floors);
     if (line == "min") return;

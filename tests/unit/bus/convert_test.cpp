@@ -46,7 +46,7 @@ TEST(Convert, PredictedStateKeepsEveryField) {
       .fixed = {1, 0},
       .p_e = 11,
       .modal = {.modes = 1, .M = {12}, .N = {13}, .q_dot = {14}, .f_own = {15}},
-      .health = {16, 17, 18, 19, 20},
+      .health = {16, 17, 18, 18.5, 19, 20},
       .compute_s = 21,
       .wait_s = 22};
   const wire::PredictedInterface in = carried(out);
@@ -56,9 +56,9 @@ TEST(Convert, PredictedStateKeepsEveryField) {
             std::tie(out.x, out.v, out.w, out.p, out.z_f, out.Z, out.z_p, out.fixed, out.p_e));
   EXPECT_EQ(std::tie(in.modal.modes, in.modal.M, in.modal.N, in.modal.q_dot, in.modal.f_own),
             std::tie(out.modal.modes, out.modal.M, out.modal.N, out.modal.q_dot, out.modal.f_own));
-  EXPECT_EQ(std::tie(in.health.min_rho, in.health.min_p, in.health.min_det_F, in.health.first_order_fallbacks,
-                     in.health.floors),
-            std::tie(out.health.min_rho, out.health.min_p, out.health.min_det_F,
+  EXPECT_EQ(std::tie(in.health.min_rho, in.health.min_p, in.health.min_det_F, in.health.min_cell_quality,
+                     in.health.first_order_fallbacks, in.health.floors),
+            std::tie(out.health.min_rho, out.health.min_p, out.health.min_det_F, out.health.min_cell_quality,
                      out.health.first_order_fallbacks, out.health.floors));
   EXPECT_EQ(std::tie(in.compute_s, in.wait_s), std::tie(out.compute_s, out.wait_s));
 }
@@ -128,7 +128,7 @@ TEST(Convert, HelloAndTelemetryKeepTheirInterfaces) {
                             .compute_s = 5,
                             .wait_s = 6,
                             .point_updates_per_s = 7,
-                            .health = {1, 2, 3, 4, 5},
+                            .health = {1, 2, 3, 3.5, 4, 5},
                             .messages = 8,
                             .bytes = 9,
                             .round_trip_p50_us = 10,

@@ -28,7 +28,12 @@ bool shows(const Frame& frame, const std::string& words) {
 RunState coupled() {
   RunState state(entry("r-1"));
   auto gas = telemetry("fluid", "fluid", 7, 1);
-  gas.health = {.min_rho = 0.5, .min_p = 0.25, .min_det_F = 0, .first_order_fallbacks = 3, .floors = 0};
+  gas.health = {.min_rho = 0.5,
+                .min_p = 0.25,
+                .min_det_F = 0,
+                .min_cell_quality = 1,
+                .first_order_fallbacks = 3,
+                .floors = 0};
   for (int k = 0; k < 20; ++k) {
     auto coupler = with_interface("beam", 40);
     coupler.t = 0.1 * k;
