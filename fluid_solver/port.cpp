@@ -155,7 +155,8 @@ FluidParticipant::FluidParticipant(const Setup& setup)
     for (const char* quantity : {"rho", "v1", "v2", "p"})
       columns.push_back(fmt::format("{}.{}", probe.name, quantity));
   }
-  if (!probes_.empty()) probe_table_.emplace(setup.run_dir + "/parts/probes_fluid.csv", columns, setup.opening());
+  if (!probes_.empty())
+    probe_table_.emplace(setup.run_dir + "/parts/probes_fluid.csv", columns, setup.opening());
 }
 
 wire::Hello FluidParticipant::hello() const {

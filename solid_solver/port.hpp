@@ -224,7 +224,8 @@ class SolidParticipant final : public Participant {
       }
     }
     if (!probes_.empty())
-      probe_table_.emplace(setup_.run_dir + "/parts/probes_" + spec_.name + ".csv", columns, setup_.opening());
+      probe_table_.emplace(setup_.run_dir + "/parts/probes_" + spec_.name + ".csv", columns,
+                           setup_.opening());
   }
 
   const Setup& setup_;
