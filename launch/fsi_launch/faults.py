@@ -22,6 +22,7 @@ from fsi_launch.failure import DONE, EXPECTATION_MISSED, Failure, INTERNAL_ERROR
 PEER_TIMEOUT = 4.0      # [s] of the runs: a stopped program is lost after it
 STOP_FOR = 1.0          # [s] and goes on as if nothing had been
 END_WITHIN = 5.0        # [s] that a run may take to end
+HELLO_TIMEOUT = 20.0    # [s] that programs have to join: one stopped before is missed only then
 BUSY = 1.5              # [s] more on a machine that does other things too
 WATCHDOG = 120.0        # [s] nothing here may take longer
 CASE = ("elastic_piston", "--set", "grid.factor=2", "--set", "time.dt=1e-3", "--set", "output.every=0.1",
@@ -167,6 +168,8 @@ def _check_end(run, trial, before):
     _, _, code, within = FAULTS[trial.fault]
     if trial.code != code:
         trial.flaws.append(f"exit code {trial.code}, not {code}: {run.words.strip()[-300:]}")
+    if within and "did not join" in run.words:
+        within = HELLO_TIMEOUT + END_WITHIN
     if within and trial.seconds > within + BUSY:
         trial.flaws.append(f"took {trial.seconds:.1f} s to end")
     if left := run.programs():
