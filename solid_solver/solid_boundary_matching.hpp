@@ -377,20 +377,6 @@ Vec2 SolidBoundary<L>::difference_across(ConstFieldView q, const SideIndex& line
 }
 
 template <Law L>
-void SolidBoundary<L>::archive(Archive& archive) {
-  const auto vectors = [&](const std::string& name, std::vector<Vec2>& list) {
-    archive.values(name, {list.empty() ? nullptr : list.front().data(), 2 * list.size()});
-  };
-  for (const Side side : all_sides) {
-    archive.inside(name_of(side), [&] {
-      vectors("T", T_[index(side)]);
-      vectors("T_rate", T_rate_[index(side)]);
-      vectors("v_change", v_change_[index(side)]);
-    });
-  }
-}
-
-template <Law L>
 void SolidBoundary<L>::broke(Side side, int k, double t) const {
   const GridPoint p = grid_point(layout(), side, k);
   throw NumbersBroke(
