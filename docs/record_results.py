@@ -21,6 +21,7 @@ import time
 from pathlib import Path
 
 import beam_studies
+import record_ellipse
 
 ROOT = Path(__file__).resolve().parent.parent
 RUNS = ROOT / "runs" / "results"
@@ -339,13 +340,6 @@ def disk_studies():
                          + [("gap", "interface.max_gap"), ("velocity jump", "interface.max_velocity_jump")]))
 
 
-def ellipse_studies():
-    ratios = [(f"gas : solid = {name}", [f"fluid.body_fitted.0.points=round({factor} * 2 * pi / h) + 1"], [])
-              for name, factor in (("1 : 1", 1), ("1 : 2", 0.5), ("1 : 4", 0.25), ("2 : 1", 2), ("4 : 1", 4))]
-    yield ("Rotating disk, different numbers of points on the two sides, h = 1/80",
-           lambda: rates("disk-points", "rotating_disk", "2,4,8", ratios, COLUMNS))
-
-
 def kept_sections():
     """{title: text} of the present docs/results.md."""
     if not RESULTS.is_file():
@@ -356,7 +350,8 @@ def kept_sections():
 
 def main(words):
     sections = kept_sections()
-    studies = [*piston_studies(), *chosen_studies(), *other_studies(), *disk_studies(), *ellipse_studies(), *beam_studies.studies(sys.modules[__name__]),
+    studies = [*piston_studies(), *chosen_studies(), *other_studies(), *disk_studies(), *record_ellipse.studies(sys.modules[__name__]),
+               *beam_studies.studies(sys.modules[__name__]),
                ("What watching costs", lambda: watched("watched")),
                ("Signals to every program at random moments", lambda: faults(200)),
                ("Benchmarks", lambda: bench("bench"))]

@@ -124,7 +124,8 @@ def _parser():
     verb.set_defaults(act=_check)
 
     verb = verbs.add_parser("converge", description="Runs a case on several grids and prints its errors with their "
-                            "rates of convergence; writes them as text, markdown and JSON.")
+                            "rates of convergence, or without a reference solution how far its bodies are apart from grid to "
+                            "grid; writes them as text, markdown and JSON.")
     _add_case(verb)
     verb.add_argument("--levels", type=_levels, metavar="J,J,..", default=[2, 4, 8],
                       help="grid factors j of h = 1/(10 j) (default: 2,4,8)")

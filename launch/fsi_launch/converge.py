@@ -1,4 +1,7 @@
-"""`fsi converge`: the same case on finer and finer grids; errors and rates as text, markdown and JSON."""
+"""`fsi converge`: the same case on finer and finer grids; errors and rates as text, markdown and JSON.
+
+Without a reference solution the grids are compared with each other (self_convergence.py).
+"""
 
 import json
 import math
@@ -6,7 +9,7 @@ import sys
 import time
 from pathlib import Path
 
-from fsi_launch import case as cases
+from fsi_launch import case as cases, self_convergence
 from fsi_launch.failure import DONE, EXPECTATION_MISSED, Failure, UserMistake
 from fsi_launch.run import Request, run
 
@@ -96,9 +99,24 @@ def _run_levels(options, directory):
     return summaries
 
 
+def _compare_levels(options, case, directory):
+    """The bodies on each grid against those on the next finer one."""
+    rows = self_convergence.compare(options.levels, [directory / f"level_{j}" for j in options.levels], case.times)
+    if not rows:
+        raise UserMistake(f"{case.name} has no reference solution and no solid that moves: there is nothing to compare")
+    text = self_convergence.as_text(options.levels, rows)
+    print(text, end="")
+    for suffix, content in (("txt", text), ("md", self_convergence.as_markdown(options.levels, rows)),
+                            ("json", self_convergence.as_json(options.levels, rows))):
+        (directory / f"converge.{suffix}").write_text(content, encoding="utf-8")
+    print(f"tables in {directory}", file=sys.stderr)
+    return DONE
+
+
 def main(options):
     """Prints the table and writes converge.{txt,md,json}."""
-    name = cases.resolve(options.case, options.overrides, options.laws).name
+    case = cases.resolve(options.case, options.overrides, options.laws)
+    name = case.name
     directory = Path(options.out or f"runs/converge-{name}-{time.strftime('%Y%m%d-%H%M%S')}")
     summaries = _run_levels(options, directory)
     names = [key for key in summaries[0]["errors"] if not options.rates or key in options.rates]
@@ -106,7 +124,7 @@ def main(options):
         raise UserMistake(f"--rates: no error {', '.join(sorted(unknown))}; there are: "
                           + (", ".join(summaries[0]["errors"]) or "none, for want of a reference solution"))
     if not names:
-        raise UserMistake(f"{name} has no reference solution: there are no errors to compare")
+        return _compare_levels(options, case, directory)
     result = table(options.levels, summaries, names) | {"case": name, "overrides": options.overrides}
     text = as_text(result)
     print(text, end="")

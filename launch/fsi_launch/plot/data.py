@@ -136,9 +136,10 @@ def all_tables(directory):
 
 
 def convergence(directory):
-    """The table `fsi converge` left in the folder, or None."""
+    """The table of errors `fsi converge` left in the folder, or None."""
     path = directory / "converge.json"
-    return json.loads(path.read_text(encoding="utf-8")) if path.is_file() else None
+    table = json.loads(path.read_text(encoding="utf-8")) if path.is_file() else {}
+    return table if "errors" in table else None
 
 
 def disk_reference(directory):

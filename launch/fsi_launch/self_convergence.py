@@ -1,0 +1,122 @@
+"""What a case without a reference solution converges to: differences from each grid to the next finer one, for the bodies.
+
+Position, velocity and turn of each solid come from forces_<solid>.csv, boundary curves from its fields; both at the output
+times. The order is the logarithm of the ratio of successive differences.
+"""
+
+import csv
+import json
+import math
+from dataclasses import dataclass
+from pathlib import Path
+
+QUANTITIES = (("centre", ("centre1", "centre2")), ("velocity", ("velocity1", "velocity2")), ("angle", ("angle",)))
+FINER = 8           # times the points, for the curve a boundary is compared with
+
+
+@dataclass
+class Row:
+    """One quantity of one solid at one time: a difference for each pair of levels, an order for each pair of those."""
+
+    solid: str
+    quantity: str
+    t: float
+    differences: list
+    orders: list
+
+
+def orders(levels, differences):
+    """Observed orders; None where differences are missing or the levels are not in one ratio."""
+    result = []
+    for k in range(len(differences) - 1):
+        ratio, next_ratio = levels[k + 1] / levels[k], levels[k + 2] / levels[k + 1]
+        a, b = differences[k], differences[k + 1]
+        result.append(math.log(a / b) / math.log(ratio) if a and b and math.isclose(ratio, next_ratio) else None)
+    return result
+
+
+def _table(path):
+    """{t: {column: value}} of a table of a solid."""
+    with open(path, encoding="utf-8", newline="") as file:
+        rows = [{key.split(" ")[0]: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
+    return {row["t"]: row for row in rows}
+
+
+def _tables(directory):
+    return {path.stem.removeprefix("forces_"): _table(path) for path in sorted(Path(directory).glob("forces_*.csv"))}
+
+
+def _refined(curve):
+    """A closed curve with more points, by trigonometric interpolation in the index."""
+    import numpy as np
+    points = curve[:-1, 0] + 1j * curve[:-1, 1]
+    n = len(points)
+    spectrum = np.fft.fft(points)
+    padded = np.zeros(FINER * n, dtype=complex)
+    half = n // 2
+    padded[:half] = spectrum[:half]
+    padded[-(n - half):] = spectrum[half:]
+    fine = np.fft.ifft(padded) * FINER
+    return np.column_stack([np.append(fine.real, fine.real[0]), np.append(fine.imag, fine.imag[0])])
+
+
+def _outlines(directory):
+    """{solid: {t: outline}}; nothing where h5py or matplotlib is missing."""
+    try:
+        from fsi_launch.plot import data, outlines
+    except ModuleNotFoundError:
+        return {}
+    return {body.name: body.outlines for body in outlines.of(data.all_series(Path(directory)))}
+
+
+def _distance(coarse, fine):
+    from fsi_launch.plot import outlines
+    return float(outlines.distance(coarse, _refined(fine)))
+
+
+def compare(levels, directories, times):
+    """Rows of all solids, quantities and output times."""
+    tables = [_tables(directory) for directory in directories]
+    curves = [_outlines(directory) for directory in directories]
+    rows = []
+    for solid in tables[0]:
+        runs = [table.get(solid, {}) for table in tables]
+        for t in (t for t in times if t > 0 and all(t in run for run in runs)):
+            for name, columns in QUANTITIES:
+                found = [math.dist(*([run[t][column] for column in columns] for run in pair)) for pair in zip(runs, runs[1:])]
+                rows.append(Row(solid, name, t, found, orders(levels, found)))
+            lines = [{round(time, 9): line for time, line in one.get(solid, {}).items()}.get(round(t, 9)) for one in curves]
+            if all(line is not None for line in lines):
+                found = [_distance(coarse, fine) for coarse, fine in zip(lines, lines[1:])]
+                rows.append(Row(solid, "boundary", t, found, orders(levels, found)))
+    return rows
+
+
+def _cells(levels, rows):
+    heading = ["solid", "quantity", "t"]
+    for k, (a, b) in enumerate(zip(levels, levels[1:])):
+        heading += [f"1/{10 * a} to 1/{10 * b}"] + (["order"] if k else [])
+    lines = [heading]
+    for row in rows:
+        line = [row.solid, row.quantity, f"{row.t:g}"]
+        for k, difference in enumerate(row.differences):
+            line.append(f"{difference:.2e}")
+            if k:
+                line.append("-" if row.orders[k - 1] is None else f"{row.orders[k - 1]:.2f}")
+        lines.append(line)
+    return lines
+
+
+def as_text(levels, rows):
+    lines = _cells(levels, rows)
+    widths = [max(len(line[k]) for line in lines) for k in range(len(lines[0]))]
+    return "\n".join("  ".join(cell.rjust(width) for cell, width in zip(line, widths)) for line in lines) + "\n"
+
+
+def as_markdown(levels, rows):
+    lines = ["| " + " | ".join(line) + " |" for line in _cells(levels, rows)]
+    return "\n".join([lines[0], "|" + "---|" * len(_cells(levels, rows)[0]), *lines[1:]]) + "\n"
+
+
+def as_json(levels, rows):
+    return json.dumps({"levels": levels, "differences": [vars(row) for row in rows]}, indent=2) + "\n"
