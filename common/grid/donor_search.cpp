@@ -75,18 +75,21 @@ struct Bases {
   }
 };
 
-/// Tries the stencils around a cell in order of preference; `place` sets r and s and says whether the
-/// position is in reach.
+/// Tries the stencils around a cell in order of preference, those that shift least first, so that a turned
+/// grid has turned stencils; `place` sets r and s and says whether the position is in reach.
 template <class Place>
 std::optional<Stencil> first_legal(const Layout& shape, const Donors& donors, const CellPosition& cell,
                                    Place&& place) {
+  const bool rows_first = std::abs(cell.s - 0.5) < std::abs(cell.r - 0.5);
   for (const int width : {3, 2}) {
     const Bases columns(cell.i, cell.r, width, shape.n1), rows(cell.j, cell.s, width, shape.n2);
     for (const bool implicit : {false, true}) {
       for (int c = 0; c < columns.count * rows.count; ++c) {
+        const int column = rows_first ? c / rows.count : c % columns.count;
+        const int row = rows_first ? c % rows.count : c / columns.count;
         Stencil stencil{.grid = -1,
-                        .i = columns.first[static_cast<std::size_t>(c % columns.count)],
-                        .j = rows.first[static_cast<std::size_t>(c / columns.count)],
+                        .i = columns.first[static_cast<std::size_t>(column)],
+                        .j = rows.first[static_cast<std::size_t>(row)],
                         .width = width,
                         .implicit = implicit};
         if (!(implicit ? donors.implicit_legal(stencil) : donors.explicit_legal(stencil))) continue;
