@@ -147,6 +147,7 @@ FluidParticipant::FluidParticipant(const Setup& setup)
   solver_.assign_initial_conditions(
       data_of(spec_.initial_from_reference, spec_.initial, reference_, "initial"));
   initial_totals_ = solver_.totals();
+  open_budget();
 
   std::vector<std::string> columns{"t [time]"};
   for (const ProbeSpec& probe : setup.problem.output.probes) {
@@ -261,6 +262,9 @@ std::vector<io::GridOutput> FluidParticipant::last_fields() const {
 
 void FluidParticipant::write_fields(double t, std::uint64_t step) {
   fields_.write(t, step, last_fields());
+  if (!budget_) return;
+  const Totals defect = budget_->defect(solver_);
+  budget_table_->row({t, defect.mass, defect.momentum1, defect.momentum2, defect.energy});
 }
 
 void FluidParticipant::write_last_state(double t, std::uint64_t step) {
@@ -271,9 +275,38 @@ void FluidParticipant::archive(Archive& archive) {
   solver_.archive(archive);
   archive.inside("fields", [&] { fields_.archive(archive); });
   if (probe_table_) archive.inside("probes", [&] { probe_table_->archive(archive); });
+  if (budget_) archive.inside("budget", [&] { budget_->archive(archive); });
+  if (budget_table_) archive.inside("budget_table", [&] { budget_table_->archive(archive); });
 }
 
-void FluidParticipant::write_tables(double t, double /*dt*/, ProjectedStates /*projected*/) {
+/// A budget needs to know all that passes its boundary: bodies away from it, and no sources.
+void FluidParticipant::open_budget() {
+  const bool bodies =
+      !spec_.body_fitted.empty() && std::ranges::all_of(spec_.body_fitted, [](const BodyFittedSpec& fitted) {
+        return fitted.curve.closed() && !fitted.solid.empty();
+      });
+  const bool known = std::ranges::none_of(spec_.boundary, [](const BoundarySpec& side) {
+    return side.kind == BoundaryKind::interface || side.kind == BoundaryKind::periodic;
+  });
+  if (!bodies || !known || chosen_) return;
+  budget_.emplace(solver_);
+  budget_table_.emplace(
+      setup_.run_dir + "/budget_fluid.csv",
+      std::vector<std::string>{"t [time]", "mass_defect [mass/depth]", "momentum1_defect [force*time/depth]",
+                               "momentum2_defect [force*time/depth]", "energy_defect [force*length/depth]"},
+      setup_.opening());
+}
+
+void FluidParticipant::write_tables(double t, double dt, ProjectedStates projected) {
+  if (budget_) {
+    std::vector<InterfaceLoad> loads;
+    for (std::size_t k = 0; k < projected.size(); ++k) {
+      const wire::ProjectedInterface& p = *projected[k];
+      loads.push_back(
+          {.side = interfaces_[k].side, .grid = interfaces_[k].grid, .n = p.n, .v_n = p.v_n, .w_n = p.w_n});
+    }
+    budget_->add(solver_, loads, dt);
+  }
   if (!probe_table_) return;
   std::vector<double> row{t};
   for (const ProbeSpec& probe : probes_) {
@@ -307,6 +340,13 @@ void FluidParticipant::report(double t, io::Part& part) const {
   part.conservation["momentum1"] = now.momentum1 - initial_totals_.momentum1;
   part.conservation["momentum2"] = now.momentum2 - initial_totals_.momentum2;
   part.conservation["angular_momentum"] = now.angular_momentum - initial_totals_.angular_momentum;
+  if (budget_) {
+    const Totals defect = budget_->defect(solver_);
+    part.conservation["mass_defect"] = defect.mass;
+    part.conservation["momentum1_defect"] = defect.momentum1;
+    part.conservation["momentum2_defect"] = defect.momentum2;
+    part.conservation["energy_defect"] = defect.energy;
+  }
   if (!reference_ || part.status == "stopped") return;
   const StateField exact = field_of(reference_);
   const GasErrors errors = solver_.errors(exact, t);

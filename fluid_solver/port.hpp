@@ -11,6 +11,7 @@
 #include "common/io/csv_writer.hpp"
 #include "common/io/grid_writer.hpp"
 #include "common/program/participant.hpp"
+#include "fluid_solver/budget.hpp"
 #include "fluid_solver/gas_solver.hpp"
 
 namespace fsi::fluid {
@@ -56,7 +57,11 @@ class FluidParticipant final : public Participant {
   std::vector<ProbeSpec> probes_;
   std::optional<io::CsvWriter> probe_table_;
   Totals initial_totals_;
-  double worst_cells_ = 1;  ///< quality of the moving grids' cells, smallest since the start
+  double worst_cells_ = 1;        ///< quality of the moving grids' cells, smallest since the start
+  std::optional<Budget> budget_;  ///< of a gas around closed bodies
+  std::optional<io::CsvWriter> budget_table_;
+
+  void open_budget();
 };
 
 }  // namespace fsi::fluid

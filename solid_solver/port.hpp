@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "common/case/composite_from_case.hpp"
+#include "common/core/time_integral.hpp"
 #include "common/grid/interface_geometry.hpp"
 #include "common/io/csv_writer.hpp"
 #include "common/io/grid_writer.hpp"
@@ -111,11 +113,13 @@ class SolidParticipant final : public Participant {
     archive.inside("fields", [&] { fields_.archive(archive); });
     if (forces_) archive.inside("forces", [&] { forces_->archive(archive); });
     if (probe_table_) archive.inside("probes", [&] { probe_table_->archive(archive); });
+    archive.inside("received", [&] { received_.archive(archive); });
   }
 
-  void write_tables(double t, double /*dt*/, ProjectedStates /*projected*/) override {
+  void write_tables(double t, double dt, ProjectedStates /*projected*/) override {
     if (forces_) {
       const SideLoad load = solver_.side_load(*side_, grid_);
+      received_.add({load.force[0], load.force[1], load.power}, dt);
       const Pose pose = solver_.pose();
       forces_->row({t, load.force[0], load.force[1], load.moment, load.power, pose.centre[0], pose.centre[1],
                     pose.velocity[0], pose.velocity[1], pose.angle});
@@ -149,6 +153,12 @@ class SolidParticipant final : public Participant {
     part.conservation["momentum2"] = now.momentum[1] - initial_totals_.momentum[1];
     part.conservation["angular_momentum"] = now.angular_momentum - initial_totals_.angular_momentum;
     part.conservation["angular_momentum_initial"] = initial_totals_.angular_momentum;
+    if (surrounded()) {
+      const std::array<double, 3>& in = received_.sum();
+      part.conservation["momentum1_defect"] = part.conservation["momentum1"] - in[0];
+      part.conservation["momentum2_defect"] = part.conservation["momentum2"] - in[1];
+      part.conservation["energy_defect"] = part.conservation["energy"] - in[2];
+    }
     const StateFunction exact = data_.reference_state();
     if (!exact || part.status == "stopped") return;
     const Errors errors = solver_.errors(exact, t);
@@ -178,6 +188,12 @@ class SolidParticipant final : public Participant {
                        .kinds = kinds_of(solver_.composite(), g)});
     }
     return grids;
+  }
+
+  /// Whether all that acts on the body is the gas.
+  bool surrounded() const {
+    return side_ && grid_ == 1 && spec_.body_fitted.front().curve.closed() && !spec_.body_force &&
+           !setup_.problem.interface.motion;
   }
 
   grid::Curve curve() const { return curve_along(solver_.grid(grid_), *side_); }
@@ -240,6 +256,7 @@ class SolidParticipant final : public Participant {
   std::optional<io::CsvWriter> forces_, probe_table_;
   std::vector<ProbePoint> probes_;
   Totals initial_totals_;
+  TimeIntegral<3> received_;  ///< of the gas: force, power
 };
 
 }  // namespace fsi::solid

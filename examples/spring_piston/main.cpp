@@ -171,6 +171,7 @@ void run(const fsi::Setup& setup, fsi::io::Part& part) {
   if (spec == setup.problem.solids.end()) throw fsi::UserMistake("the case has no solid " + setup.name);
   const auto side = std::ranges::find(spec->boundary, fsi::BoundaryKind::interface, &fsi::BoundarySpec::kind);
   if (side == spec->boundary.end()) throw fsi::UserMistake("no side of the piston is an interface");
+  if (!setup.restart.empty()) throw fsi::UserMistake("the spring piston keeps no checkpoints: start anew");
   Piston piston(*spec, fsi::all_sides[side - spec->boundary.begin()]);
   part.points = points;
   fsi::io::CsvWriter table(

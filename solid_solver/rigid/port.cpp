@@ -166,6 +166,10 @@ void RigidParticipant::report(double /*t*/, io::Part& part) const {
                        {"impulse2", impulse.force[1]},
                        {"angular_impulse", impulse.moment},
                        {"work", impulse.power}};
+  if (spec_.body_force || spec_.body_fitted.empty() || !spec_.body_fitted.front().curve.closed()) return;
+  part.conservation["momentum1_defect"] = part.conservation["momentum1"] - impulse.force[0];
+  part.conservation["momentum2_defect"] = part.conservation["momentum2"] - impulse.force[1];
+  part.conservation["energy_defect"] = part.conservation["energy"] - impulse.power;
 }
 
 RigidParticipant::Totals RigidParticipant::totals() const {

@@ -1,0 +1,83 @@
+/// What passes the boundary of a gas is what its totals change by.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "fluid_solver/budget.hpp"
+#include "tests/unit/fluid/gas_runs.hpp"
+
+namespace fsi::fluid {
+namespace {
+
+const std::array<Boundary, 4> open_sides{Outflow{}, Outflow{}, Outflow{}, Outflow{}};
+
+/// Largest defect while a round pulse in a wind leaves a box of n x n points on its right side.
+double defect_of_a_pulse(int n) {
+  GasSolver gas = test::solver(test::rectangle(n, n, {0, 0}, {1, 1}), {.limiter = Limiter::none}, open_sides,
+                               [](double x, double y, double) {
+                                 const double bump =
+                                     std::exp(-40 * ((x - 0.6) * (x - 0.6) + (y - 0.5) * (y - 0.5)));
+                                 return State{1 + 0.2 * bump, 0.7, 0.1, 1 / 1.4 + 0.2 * bump};
+                               });
+  Budget budget(gas);
+  budget.add(gas, {}, 0);
+  double largest = 0;
+  for (double t = 0; t < 0.4;) {
+    const double dt = gas.compute_time_step().dt;
+    t += dt;
+    gas.move_grids(t, dt);
+    gas.advance_fluid(t, dt);
+    gas.apply_fluid_bcs(t);
+    budget.add(gas, {}, dt);
+    const Totals defect = budget.defect(gas);
+    for (const double part : {defect.mass, defect.momentum1, defect.momentum2, defect.energy})
+      largest = std::max(largest, std::abs(part));
+  }
+  return largest;
+}
+
+TEST(Budget, OfAUniformWindIsClosedToRoundOff) {
+  GasSolver gas =
+      test::solver(test::rectangle(15, 13, {0, 0}, {2, 1}), {}, open_sides, [](double, double, double) {
+        return State{1.2, 0.5, -0.3, 0.8};
+      });
+  Budget budget(gas);
+  budget.add(gas, {}, 0);
+  budget.add(gas, {}, 0.5);  // as if half a unit of time had passed: the state is steady
+  const Totals defect = budget.defect(gas);
+  for (const double part : {defect.mass, defect.momentum1, defect.momentum2, defect.energy})
+    EXPECT_NEAR(part, 0, 1e-14);
+}
+
+TEST(Budget, OfWavesThatLeaveIsClosedToSecondOrder) {
+  const double coarse = defect_of_a_pulse(41), fine = defect_of_a_pulse(81);
+  EXPECT_LT(coarse, 2e-3);
+  EXPECT_GT(std::log2(coarse / fine), 1.7);
+}
+
+/// A wall of pressure p_e + 0.3 that moves into the gas gives it momentum and energy.
+TEST(Budget, CountsForceAndPowerOfAnInterface) {
+  GasSolver gas = test::solver(test::rectangle(5, 11, {0, 0}, {1, 1}), {.p_e = 1}, open_sides,
+                               [](double, double, double) {
+                                 return State{1, 0, 0, 1};
+                               });
+  Budget budget(gas);
+  const std::vector<double> n_along_x = [] {
+    std::vector<double> n(22, 0.0);
+    std::fill(n.begin(), n.begin() + 11, 1.0);
+    return n;
+  }();
+  const std::vector<double> v_n(11, 0.25), w_n(11, -0.3);
+  const InterfaceLoad load[] = {{.side = Side::left, .grid = 0, .n = n_along_x, .v_n = v_n, .w_n = w_n}};
+  budget.add(gas, load, 0);
+  budget.add(gas, load, 2);
+  const Totals defect = budget.defect(gas);  // the gas itself was not told
+  EXPECT_NEAR(defect.momentum1, -2 * 1.3, 1e-13);
+  EXPECT_NEAR(defect.momentum2, 0, 1e-13);
+  EXPECT_NEAR(defect.energy, -2 * 1.3 * 0.25, 1e-13);
+}
+
+}  // namespace
+}  // namespace fsi::fluid
