@@ -269,15 +269,14 @@ void SolidBoundary<L>::match_point(FieldView q, Side side, int k, double t) cons
   store(q, line.at(k, 0), s);
 }
 
-/// F with its stretch along the side from differences of third order or better, of the reference positions
-/// and of u alike, so that a turned body is not stretched. Central ones of second order make the largest
-/// error of P.
+/// F with its stretch along a closed or mirrored interface from fourth-order differences, of the reference
+/// positions and of u alike, so that a turned body is not stretched. Central ones of second order, which stay
+/// on other sides, make the largest error of P. One-sided differences would make free corners unstable, and a
+/// lower order only beside them would cost the rate.
 template <Law L>
 Tensor2 SolidBoundary<L>::with_sharper_tangent(ConstFieldView q, Side side, int k, const Tensor2& F) const {
   const SideIndex line(layout(), side);
-  for (const int end : {0, line.n - 1}) {
-    if (std::abs(k - end) < 2 && !imaged(side, end)) return F;
-  }
+  if (kind(side) != Kind::interface || !imaged(side, 0) || !imaged(side, line.n - 1)) return F;
   const auto difference = [&](ConstFieldView field, int first) -> Vec2 {
     const auto value = [&](int at) {
       const std::ptrdiff_t a = line.at(at, 0);

@@ -12,9 +12,10 @@ from running import EndToEnd, until
 CASES = {  # with the number of steps between checkpoints
     "elastic_piston": (10, "--set", "grid.factor=2", "--set", "output.every=0.1",
                        "--set", "output.probes=[{name: a, in: fluid, x: 0.5, y: 0.05}, {name: b, in: solid, x: 0, y: 0}]"),
-    "rotating_disk": (10, "--set", "grid.factor=1", "--set", "time.end=0.2", "--set", "reference.points=400"),
+    "rotating_disk": (4, "--set", "grid.factor=1", "--set", "time.end=0.2", "--set", "output.times=[0.1, 0.2]",
+                      "--set", "reference.points=400"),
     "shock_ellipse": (25, "--set", "grid.factor=4", "--set", "time.end=0.5", "--set", "output.times=[0, 0.3, 0.5]"),
-    "rigid_piston": (10, "--set", "time.end=0.4"),
+    "rigid_piston": (10, "--set", "time.end=0.4", "--set", "output.times=[0.2, 0.4]"),
     "manufactured_piston": (6, "--set", "grid.factor=1"),
     "sod_tube": (10, "--set", "grid.factor=2"),
 }
