@@ -23,13 +23,9 @@ def _table(heading, rows):
 
 
 def _run(tools, name, case, settings):
-    """(folder, summary, command as typed) of a run; an empty summary where it left none."""
-    directory = tools.fresh(name)
-    command, _, _ = tools.fsi("run", case, *tools.flags([*settings, "time.peer_timeout=60"]), "--no-progress", "--out",
-                              str(directory))
-    path = directory / "summary.json"
-    summary = json.loads(path.read_text(encoding="utf-8")) if path.is_file() else {}
-    return directory, summary, command.split(" --set time.peer_timeout")[0]
+    """(folder, summary, command as typed) of a run."""
+    directory, _, typed = tools.run_once(name, case, [*settings, "time.peer_timeout=60"])
+    return directory, tools.summary_of(directory), typed.split(" --set time.peer_timeout")[0]
 
 
 # --- in the gas

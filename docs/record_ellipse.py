@@ -1,7 +1,6 @@
 """The studies of record_results.py about the shock and the ellipse: laws, grids, symmetries, stabilisation, budgets."""
 
 import csv
-import json
 import math
 
 CASE = "shock_ellipse"
@@ -29,35 +28,28 @@ def table_of(directory, solid="ellipse"):
         return [{key.split(" ")[0]: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
 
 
-def summary_of(directory):
-    path = directory / "summary.json"
-    return json.loads(path.read_text(encoding="utf-8")) if path.is_file() else {}
-
-
 def bodies(tools, name, variants, settings):
     """Where the body is at the end of each variant, how far from the first one's, and what the run counted."""
     heading = ["", *POSE, "centre from first", "angle from first", *(path.rsplit(".", 1)[-1] for path in COUNTS)]
     lines = ["| " + " | ".join(heading) + " |", "|" + "---|" * len(heading)]
     first, typed = None, ""
     for index, (label, extra, solids) in enumerate(variants):
-        directory = tools.fresh(f"{name}-{index}")
-        command, _, _ = tools.fsi("run", CASE, *tools.flags([*settings, *extra], solids), "--no-progress", "--out", str(directory))
-        typed = command.split(" --no-progress")[0]
+        directory, _, typed = tools.run_once(f"{name}-{index}", CASE, [*settings, *extra], solids)
         end = (table_of(directory) or [dict.fromkeys(POSE, math.nan)])[-1]
         first = first or end
         apart = math.hypot(end["centre1"] - first["centre1"], end["centre2"] - first["centre2"])
-        summary = summary_of(directory)
+        summary = tools.summary_of(directory)
         cells = [*(f"{end[column]:.4f}" for column in POSE), f"{apart:.1e}", f"{abs(end['angle'] - first['angle']):.1e}",
                  *(tools.shown(tools.value_at(summary, path)) for path in COUNTS)]
         lines.append("| " + " | ".join([label, *cells]) + " |")
     return f"last row: `{typed}`\n\n" + "\n".join(lines) + "\n"
 
 
-def budget(directories):
+def budget(tools, directories):
     """What the totals of gas and solid are off by at the end of runs on finer and finer grids."""
     lines = []
     for directory in directories:
-        found = summary_of(directory).get("conservation", {})
+        found = tools.summary_of(directory).get("conservation", {})
         defects = {f"{part} {key.removesuffix('_defect')}": value for part, values in sorted(found.items())
                    for key, value in values.items() if key.endswith("_defect")}
         if not lines:
@@ -73,8 +65,7 @@ def symmetry(tools, factor):
             "turned": (TURNED, lambda r: (r["centre2"], -r["centre1"], r["velocity2"], -r["velocity1"], r["angle"]))}
 
     def rows_of(name, settings, pose):
-        directory = tools.fresh(f"ellipse-{name}")
-        tools.fsi("run", CASE, *tools.flags([f"grid.factor={factor}", *settings]), "--no-progress", "--out", str(directory))
+        directory, _, _ = tools.run_once(f"ellipse-{name}", CASE, [f"grid.factor={factor}", *settings])
         return [pose(row) for row in table_of(directory)]
 
     plain = rows_of("plain", [], lambda row: tuple(row[column] for column in POSE))
@@ -95,9 +86,8 @@ def parts(tools, name, variants):
     lines = ["| | wall [s] | steps | " + " | ".join(f"{one} computes [s] | waits [s] | updates/s" for one in programs) + " |",
              "|" + "---|" * (3 + 3 * len(programs))]
     for index, (label, settings, solids) in enumerate(variants):
-        directory = tools.fresh(f"{name}-{index}")
-        tools.fsi("run", CASE, *tools.flags(settings, solids), "--no-progress", "--out", str(directory))
-        summary = summary_of(directory)
+        directory, _, _ = tools.run_once(f"{name}-{index}", CASE, settings, solids)
+        summary = tools.summary_of(directory)
         cells = [tools.shown(tools.value_at(summary, path)) for path in ("wall_s", "steps")]
         for one in programs:
             cells += [tools.shown(tools.value_at(summary, f"participants.{one}.{key}"))
@@ -133,7 +123,7 @@ def studies(tools):
     for law in ("neo_hookean", "linear_elastic", "rigid"):
         yield (f"Shock and ellipse, {law}: from grid to grid",
                lambda l=law: tools.converge(f"ellipse-{l}", CASE, "4,8,16", solids=[f"ellipse={l}"])
-               + "\n" + budget([tools.RUNS / f"ellipse-{l}" / f"level_{j}" for j in (4, 8, 16)]))
+               + "\n" + budget(tools, [tools.RUNS / f"ellipse-{l}" / f"level_{j}" for j in (4, 8, 16)]))
     for what, runs in variants().items():
         yield (f"Shock and ellipse, {what}, h = 1/80",
                lambda w=what, r=runs: bodies(tools, "ellipse-" + w.replace(" ", "-"), r, ["grid.factor=8"]))

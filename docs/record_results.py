@@ -47,6 +47,25 @@ def flags(settings, solids=()):
         word for entry in solids for word in ("--solid", entry)]
 
 
+RAN = {}  # command as typed: (folder, exit code) of the runs made so far
+
+
+def run_once(name, case, settings=(), solids=()):
+    """(folder, exit code, command as typed) of `fsi run`; a run that several studies need is made once."""
+    words = ["run", case, *flags(settings, solids)]
+    typed = shlex.join(["./launch/fsi", *words])
+    if typed not in RAN:
+        directory = fresh(name)
+        _, code, _ = fsi(*words, "--no-progress", "--out", str(directory))
+        RAN[typed] = directory, code
+    return *RAN[typed], typed
+
+
+def summary_of(directory):
+    path = directory / "summary.json"
+    return json.loads(path.read_text(encoding="utf-8")) if path.is_file() else {}
+
+
 def value_at(summary, path):
     for key in path.split("."):
         summary = summary.get(key) if isinstance(summary, dict) else None
@@ -95,11 +114,8 @@ def sweep(name, case, variants, columns, settings=()):
              "|" + "---|" * (len(columns) + 2)]
     typed = ""
     for index, (label, extra, solids) in enumerate(variants):
-        directory = fresh(f"{name}-{index}")
-        command, code, _ = fsi("run", case, *flags([*settings, *extra], solids), "--no-progress", "--out", str(directory))
-        typed = command.split(" --no-progress")[0]
-        path = directory / "summary.json"
-        summary = json.loads(path.read_text(encoding="utf-8")) if path.is_file() else {}
+        directory, code, typed = run_once(f"{name}-{index}", case, [*settings, *extra], solids)
+        summary = summary_of(directory)
         lines.append("| " + " | ".join([label, *(shown(value_at(summary, path)) for _, path in columns), str(code)]) + " |")
     return f"last row: `{typed}`\n\n" + "\n".join(lines) + "\n"
 
