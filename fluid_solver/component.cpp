@@ -9,7 +9,6 @@
 #include "common/core/failure.hpp"
 #include "fluid_solver/ghost_lines.hpp"
 #include "fluid_solver/kernels/rates.hpp"
-#include "fluid_solver/time_step.hpp"
 
 namespace fsi::fluid {
 
@@ -138,7 +137,7 @@ void Component::start(double t) {
     most = 0;
     for (const Range& run : runs_.advanced(j)) {
       const Range inner{std::max(run.first, 1), std::min(run.last, shape.n1 - 1)};
-      if (inner.first < inner.last) most = std::max(most, fastest_in(j, inner).rate);
+      if (inner.first < inner.last) most = std::max(most, largest(step_rates(j, inner), inner));
     }
   }
   if (grid_.moves()) measure_initial_motion(t, 0.1 / fastest_point().rate);
@@ -216,16 +215,10 @@ void Component::report_broken(double t) const {
   throw NumbersBroke(fmt::format("t = {:.6g}, grid \"{}\": the state is no longer finite", t, grid_.name()));
 }
 
-FastestPoint Component::fastest_in(int j, Range range) const {
-  double *rate = workspace_.row(0), *diffusion = workspace_.row(1);
-  wave_rate_row(state_.view(), step_grid(), last_dt_, scheme_.gamma, j, rate, range);
-  if (scheme_.viscosity.any()) {
-    diffusion_rate_row(state_.view(), step_grid(), scheme_.viscosity, j, diffusion, range);
-    for (int i = range.first; i < range.last; ++i)
-      rate[i] = 1 / largest_stable_step({diffusion[i], rate[i], 0});
-  }
-  const double* fastest = std::max_element(rate + range.first, rate + range.last);
-  return {.rate = *fastest, .i = static_cast<int>(fastest - rate), .j = j};
+double* Component::step_rates(int j, Range range) const {
+  double* rate = workspace_.row(0);
+  step_rate_row(state_.view(), step_grid(), last_dt_, scheme_, j, rate, range);
+  return rate;
 }
 
 FastestPoint Component::fastest_point() const {
@@ -235,11 +228,14 @@ FastestPoint Component::fastest_point() const {
     for (const Range& run : runs_.advanced(j)) {
       const Range range{std::max(run.first, part.first), std::min(run.last, part.last)};
       if (range.first >= range.last) continue;
-      const FastestPoint other = fastest_in(j, range);
-      if (!(other.rate <= fastest.rate)) fastest = other;
+      const double* rate = step_rates(j, range);
+      const double most = largest(rate, range);
+      if (most <= fastest.rate) continue;
+      const double* point = std::max_element(rate + range.first, rate + range.last);
+      fastest = {.rate = *point, .i = static_cast<int>(point - rate), .j = j};
     }
   };
-  if (scheme_.viscosity.any()) {
+  if (scheme_.viscosity.any()) {  // it needs the neighbours' new states: the sweep cannot know it
     for (int j = 0; j < n2; ++j) compare(j, {0, n1});
     return fastest;
   }

@@ -112,7 +112,8 @@ class Component {
   void gather_runs();
   double fill_row(int j, const StateField& initial, double t);
   void measure_initial_motion(double t, double delta);
-  FastestPoint fastest_in(int j, Range range) const;
+  /// 1 / dt of (45) at the points of a row, in the workspace.
+  double* step_rates(int j, Range range) const;
   void add_source(double t, double dt);
   [[noreturn]] void report_broken(double t) const;
 };

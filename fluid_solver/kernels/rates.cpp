@@ -2,60 +2,94 @@
 
 #include <cmath>
 
+#include "fluid_solver/time_step.hpp"
+
 namespace fsi::fluid {
 
 namespace {
 
-void cartesian_rate_row(StateRow<const double> q, Spacing spacing, double gamma, double* rate, Range range) {
-  const double per_dx = 1.0 / spacing.dx, per_dy = 1.0 / spacing.dy;
+constexpr double diffusion_symbol = 8;  ///< of undivided second differences in two directions
+
+/// Undivided central differences of the velocity at point i in both directions.
+struct VelocityDifferences {
+  double v1_r1, v2_r1, v1_r2, v2_r2;
+  VelocityDifferences(const StateRows& rows, int i)
+      : v1_r1(0.5 * (rows.here.v1[i + 1] - rows.here.v1[i - 1])),
+        v2_r1(0.5 * (rows.here.v2[i + 1] - rows.here.v2[i - 1])),
+        v1_r2(0.5 * (rows.above.v1[i] - rows.below.v1[i])),
+        v2_r2(0.5 * (rows.above.v2[i] - rows.below.v2[i])) {}
+};
+
+double damping(const Viscosity& viscosity, double divergence) {
+  return diffusion_symbol * (viscosity.shock * larger(0.0, -divergence) + viscosity.linear);
+}
+
+/// A grid at rest: two spacings.
+template <bool viscous>
+void cartesian_rates(const StateRows& rows, Spacing spacing, const Scheme& scheme, double* rate,
+                     Range range) {
+  const auto q = rows.here;
+  const double per_dx = 1.0 / spacing.dx, per_dy = 1.0 / spacing.dy, gamma = scheme.gamma;
+  const Viscosity viscosity = scheme.viscosity;
 #pragma omp simd
   for (int i = range.first; i < range.last; ++i) {
     const double a = std::sqrt(gamma * q.p[i] / q.rho[i]);
-    rate[i] = (std::fabs(q.v1[i]) + a) * per_dx + (std::fabs(q.v2[i]) + a) * per_dy;
+    const double waves = (std::fabs(q.v1[i]) + a) * per_dx + (std::fabs(q.v2[i]) + a) * per_dy;
+    if constexpr (viscous) {
+      const VelocityDifferences d(rows, i);
+      rate[i] = stable_rate({damping(viscosity, per_dx * d.v1_r1 + per_dy * d.v2_r2), waves});
+    } else {
+      rate[i] = waves;
+    }
   }
 }
 
-void mapped_rate_row(StateRow<const double> q, const PointRows& points, PointRow before, double per_dt,
-                     double gamma, double* rate, Range range) {
-  const auto [below, here, above] = points;
+struct MovedRow {
+  PointRows points;
+  PointRow before;
+  double per_dt;
+};
+
+template <bool viscous>
+void mapped_rates(const StateRows& rows, const MovedRow& grid, const Scheme& scheme, double* rate,
+                  Range range) {
+  const auto q = rows.here;
+  const auto [below, here, above] = grid.points;
+  const PointRow before = grid.before;
+  const double per_dt = grid.per_dt, gamma = scheme.gamma;
+  const Viscosity viscosity = scheme.viscosity;
 #pragma omp simd
   for (int i = range.first; i < range.last; ++i) {
     const double x_r1 = 0.5 * (here.x[i + 1] - here.x[i - 1]), y_r1 = 0.5 * (here.y[i + 1] - here.y[i - 1]);
     const double x_r2 = 0.5 * (above.x[i] - below.x[i]), y_r2 = 0.5 * (above.y[i] - below.y[i]);
+    const double J = x_r1 * y_r2 - x_r2 * y_r1;
     const double w1 = q.v1[i] - per_dt * (here.x[i] - before.x[i]),
                  w2 = q.v2[i] - per_dt * (here.y[i] - before.y[i]);
     const double a = std::sqrt(gamma * q.p[i] / q.rho[i]);
     const double across1 = std::fabs(w1 * y_r2 - w2 * x_r2) + a * std::sqrt(x_r2 * x_r2 + y_r2 * y_r2);
     const double across2 = std::fabs(w2 * x_r1 - w1 * y_r1) + a * std::sqrt(x_r1 * x_r1 + y_r1 * y_r1);
-    rate[i] = (across1 + across2) / std::fabs(x_r1 * y_r2 - x_r2 * y_r1);
+    const double waves = (across1 + across2) / std::fabs(J);
+    if constexpr (viscous) {
+      const VelocityDifferences d(rows, i);
+      const double divergence = (y_r2 * d.v1_r1 - x_r2 * d.v2_r1 + x_r1 * d.v2_r2 - y_r1 * d.v1_r2) / J;
+      rate[i] = stable_rate({damping(viscosity, divergence), waves});
+    } else {
+      rate[i] = waves;
+    }
   }
 }
 
 }  // namespace
 
-void wave_rate_row(ConstFieldView q, const StepGrid& grid, double dt, double gamma, int j, double* rate,
-                   Range range) {
+void step_rate_row(ConstFieldView q, const StepGrid& grid, double dt, const Scheme& scheme, int j,
+                   double* rate, Range range) {
+  const StateRows rows(q, j);
+  const bool viscous = scheme.viscosity.any();
   if (grid.cartesian) {
-    cartesian_rate_row(StateRow<const double>(q, j), *grid.cartesian, gamma, rate, range);
+    (viscous ? cartesian_rates<true> : cartesian_rates<false>)(rows, *grid.cartesian, scheme, rate, range);
   } else {
-    mapped_rate_row(StateRow<const double>(q, j), PointRows(grid.x, j), PointRow(grid.x_old, j),
-                    dt > 0 ? 1 / dt : 0.0, gamma, rate, range);
-  }
-}
-
-void diffusion_rate_row(ConstFieldView q, const StepGrid& grid, Viscosity viscosity, int j, double* rate,
-                        Range range) {
-  const auto [below, here, above] = StateRows(q, j);
-  const auto [x_below, x, x_above] = PointRows(grid.x, j);
-#pragma omp simd
-  for (int i = range.first; i < range.last; ++i) {
-    const double x_r1 = x.x[i + 1] - x.x[i - 1], y_r1 = x.y[i + 1] - x.y[i - 1];
-    const double x_r2 = x_above.x[i] - x_below.x[i], y_r2 = x_above.y[i] - x_below.y[i];
-    const double dv1_1 = here.v1[i + 1] - here.v1[i - 1], dv2_1 = here.v2[i + 1] - here.v2[i - 1];
-    const double dv1_2 = above.v1[i] - below.v1[i], dv2_2 = above.v2[i] - below.v2[i];
-    const double divergence =
-        (y_r2 * dv1_1 - x_r2 * dv2_1 + x_r1 * dv2_2 - y_r1 * dv1_2) / (x_r1 * y_r2 - x_r2 * y_r1);
-    rate[i] = 8.0 * (viscosity.shock * larger(0.0, -divergence) + viscosity.linear);
+    const MovedRow moved{PointRows(grid.x, j), PointRow(grid.x_old, j), dt > 0 ? 1 / dt : 0.0};
+    (viscous ? mapped_rates<true> : mapped_rates<false>)(rows, moved, scheme, rate, range);
   }
 }
 

@@ -22,12 +22,16 @@ struct StateRow {
   operator StateRow<const double>() const { return {rho, v1, v2, p}; }  // NOLINT(google-explicit-constructor)
 };
 
-/// Fluxes through the faces of one row times dt times face area. Faces along a row: face i lies between
-/// points i and i + 1.
-struct FluxRow {
+/// Conserved variables per volume at the points of one row, or their fluxes through its faces times dt times
+/// face area. Faces along a row: face i lies between points i and i + 1.
+struct ConservedRow {
   double *mass = nullptr, *momentum1 = nullptr, *momentum2 = nullptr, *energy = nullptr;
-  FluxRow exchanged() const { return {mass, momentum2, momentum1, energy}; }
+  ConservedRow exchanged() const { return {mass, momentum2, momentum1, energy}; }
+  ConservedRow shifted(int shift) const {
+    return {mass + shift, momentum1 + shift, momentum2 + shift, energy + shift};
+  }
 };
+using FluxRow = ConservedRow;
 
 /// Positions in one row.
 struct PointRow {

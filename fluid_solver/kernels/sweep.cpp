@@ -53,13 +53,14 @@ class Sweep {
     const int n2 = task_.q.layout.n2;
     for (int r = -1; r <= n2; ++r) {
       each(task_.runs.predicted(r), 1, [&](Range run) { predict(r, run); });
-      if (r > -1) each(task_.runs.between(r), 0, [&](Range run) { flux_between(r, run); });
+      if (r > -1) each(task_.runs.between(r), 0, [&](Range run) { flux_between(run); });
       if (r > 0) each(task_.runs.advanced(r - 1), 0, [&](Range run) { update(r - 1, run); });
       if (r == n2) break;
       if constexpr (mapped) next_corners(r);
-      if (r > -1) each(task_.runs.advanced(r), 0, [&](Range run) { flux_along(r, run); });
+      if (r > -1) each(task_.runs.advanced(r), 0, [&](Range run) { flux_along(run); });
       std::swap(predicted_.upper, upper_before_);
       std::swap(kappa_, kappa_before_);
+      std::swap(conserved_, conserved_before_);
       std::swap(lower_, upper_);
     }
     return counts_;
@@ -81,6 +82,7 @@ class Sweep {
   FaceRow face_ = rows_.faces();
   double *volume_old_ = rows_.next(), *volume_ = rows_.next();
   double *kappa_ = rows_.next(), *kappa_before_ = rows_.next();
+  ConservedRow conserved_ = rows_.flux(), conserved_before_ = rows_.flux();
   double* rate_ = rows_.next();
   SweepCounts counts_;
 
@@ -108,7 +110,9 @@ class Sweep {
     }
     const StateRows states(task_.q, r);
     predict_row<Limiter>(states, metric(), scheme_.gamma, predicted_, run);
-    if (viscous_) viscosity_row(states, metric(), scheme_.viscosity, task_.dt, kappa_, run);
+    if (!viscous_) return;
+    viscosity_row(states, metric(), scheme_.viscosity, task_.dt, kappa_, run);
+    conserved_row(states.here, scheme_.gamma, conserved_, run);
   }
 
   /// Corners between rows r and r + 1 become those above.
@@ -122,8 +126,8 @@ class Sweep {
     });
   }
 
-  /// Fluxes between rows r - 1 and r.
-  void flux_between(int r, Range run) {
+  /// Fluxes between the row before and the one just predicted.
+  void flux_between(Range run) {
     if constexpr (mapped) {
       face_row_2(above_, task_.dt, face_, run);
       flux_row(upper_before_, predicted_.lower, solve_, face_, upper_, run);
@@ -131,14 +135,11 @@ class Sweep {
       flux_row(upper_before_.exchanged(), predicted_.lower.exchanged(), solve_, metric().dt_dy,
                upper_.exchanged(), run);
     }
-    if (viscous_) {
-      const StateRow<const double> before(task_.q, r - 1), after(task_.q, r);
-      add_viscous_flux_row({before, after, kappa_before_, kappa_}, scheme_.gamma, upper_, run);
-    }
+    if (viscous_) add_viscous_flux_row({conserved_before_, conserved_, kappa_before_, kappa_}, upper_, run);
   }
 
-  /// Fluxes through the faces along row r on both sides of the points of a run.
-  void flux_along(int r, Range run) {
+  /// Fluxes through the faces along that row on both sides of the points of a run.
+  void flux_along(Range run) {
     counts_.first_order += sum(predicted_.first_order, run);
     const Range faces{run.first - 1, run.last};
     const StateRow<const double> after = predicted_.left;
@@ -148,10 +149,8 @@ class Sweep {
     } else {
       flux_row(predicted_.right, after.shifted(1), solve_, metric().dt_dx, along_, faces);
     }
-    if (viscous_) {
-      const StateRow<const double> here(task_.q, r);
-      add_viscous_flux_row({here, here.shifted(1), kappa_, kappa_ + 1}, scheme_.gamma, along_, faces);
-    }
+    if (viscous_)
+      add_viscous_flux_row({conserved_, conserved_.shifted(1), kappa_, kappa_ + 1}, along_, faces);
   }
 
   void update(int r, Range run) {
@@ -161,10 +160,10 @@ class Sweep {
         {scheme_.gamma, scheme_.p_floor}, StateRow<double>(task_.q_new, r), run);
     counts_.floors += counts.floors;
     counts_.broken += counts.broken;
-    if (r == 0 || r == task_.q.layout.n2 - 1) return;
+    if (viscous_ || r == 0 || r == task_.q.layout.n2 - 1) return;
     const Range inner{std::max(run.first, 1), std::min(run.last, task_.q.layout.n1 - 1)};
     if (inner.first >= inner.last) return;
-    wave_rate_row(task_.q_new, task_.grid, task_.dt, scheme_.gamma, r, rate_, inner);
+    step_rate_row(task_.q_new, task_.grid, task_.dt, scheme_, r, rate_, inner);
     double& most = row_rates_[static_cast<std::size_t>(r)];
     most = std::max(most, largest(rate_, inner));
   }

@@ -52,13 +52,13 @@ struct SweepCounts {
 };
 
 /// Rows of scratch memory a sweep needs.
-inline constexpr int sweep_rows = 60;
+inline constexpr int sweep_rows = 68;
 
 /// What a sweep writes besides the new state.
 struct SweepOutput {
-  Workspace& work;  ///< scratch, sweep_rows rows
-  std::span<double>
-      row_rates;  ///< n2: largest wave rate of the inner points of each row, for the next time step
+  Workspace& work;              ///< scratch, sweep_rows rows
+  std::span<double> row_rates;  ///< n2: largest wave rate of the inner points of each row, for the next time
+                                ///< step; without viscosity only
 };
 
 /// What is advanced: the points of the runs, boundary points included, from q (with the points around them

@@ -31,12 +31,15 @@ template <class Metric>
   }
 }
 
+/// Conserved variables at the points of a row.
+void conserved_row(StateRow<const double> q, double gamma, ConservedRow out, Range range);
+
 /// Adds the viscous fluxes between the points of rows `before` and `after` (a row and itself shifted by one
 /// for direction 1).
 struct ViscousPair {
-  StateRow<const double> before, after;
+  ConservedRow before, after;
   const double *kappa_before, *kappa_after;
 };
-void add_viscous_flux_row(const ViscousPair& pair, double gamma, FluxRow flux, Range range);
+void add_viscous_flux_row(const ViscousPair& pair, FluxRow flux, Range range);
 
 }  // namespace fsi::fluid
