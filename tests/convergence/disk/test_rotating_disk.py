@@ -78,6 +78,14 @@ class RotatingDisk(unittest.TestCase):
         self.assertEqual(summary["status"], "failed")
         self.assertIn("point", summary["reason"])
 
+    def test_traditional_scheme_breaks_for_a_medium_disk_on_lines_finer_than_points_where_amp_goes_on(self):
+        settings = ("grid.factor=4", "time.end=1", "output.times=[1]", "expect={}", "solids.disk.body_fitted.lines=16",
+                    "solids.disk.body_fitted.spacing=0.5 * h", "solids.disk.shape.points=round(pi / h) + 1")
+        answer, _ = self.run_once("medium-traditional", *settings, "interface.projection=traditional")
+        self.assertEqual(answer.returncode, 3, answer.stderr)
+        answer, _ = self.run_once("medium-amp", *settings)
+        self.assertEqual(answer.returncode, 0, answer.stderr)
+
 
 if __name__ == "__main__":
     unittest.main()
