@@ -12,6 +12,7 @@ endif()
 
 set(FSI_MARCH native CACHE STRING "Instruction set of the kernels (-march=...); x86-64-v3 for a portable build")
 option(FSI_SANITIZE "Build with the address and undefined-behaviour sanitizers" OFF)
+option(FSI_SANITIZE_THREADS "Build with the thread sanitizer" OFF)
 option(FSI_BENCH "Build the micro-benchmarks" ON)
 
 # A compiler cache sees nothing through precompiled headers, so a build with one goes without them, and notices includes
@@ -36,6 +37,11 @@ if(FSI_SANITIZE)
   target_compile_options(fsi_settings INTERFACE -fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer
     -g1)  # names and lines for the reports; more would double the size of everything
   target_link_options(fsi_settings INTERFACE -fsanitize=address,undefined)
+endif()
+
+if(FSI_SANITIZE_THREADS)
+  target_compile_options(fsi_settings INTERFACE -fsanitize=thread -O1 -fno-omit-frame-pointer -g1)
+  target_link_options(fsi_settings INTERFACE -fsanitize=thread)
 endif()
 
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)

@@ -19,7 +19,9 @@ bus::CouplerSession join(const Setup& setup) {
   std::vector<bus::Expected> who{{.role = "fluid", .name = "fluid"}};
   for (const SolidSpec& solid : problem.solids) who.push_back({.role = "solid", .name = solid.name});
   return {bus::BusOptions{.run = setup.run,
+                          .key = setup.key,
                           .peer_timeout_s = problem.time.peer_timeout,
+                          .step_timeout_s = problem.time.step_timeout,
                           .throw_if_interrupted = throw_if_interrupted},
           std::move(who), problem.digest};
 }

@@ -22,6 +22,7 @@ from pathlib import Path
 
 import beam_studies
 import record_ellipse
+import record_faults
 
 ROOT = Path(__file__).resolve().parent.parent
 RUNS = ROOT / "runs" / "results"
@@ -396,7 +397,7 @@ def main(words):
     studies = [*piston_studies(), *chosen_studies(), *other_studies(), *disk_studies(), *record_ellipse.studies(sys.modules[__name__]),
                *beam_studies.studies(sys.modules[__name__]),
                ("What watching costs", lambda: watched("watched")),
-               ("Signals to every program at random moments", lambda: faults(200)),
+               ("Signals to every program at random moments", lambda: faults(200)), *record_faults.studies(sys.modules[__name__]),
                ("Benchmarks", lambda: bench("bench"))]
     head = ("# Results\n\nWhat the commands gave on two cores; `docs/record_results.py` repeats them all and writes this page. "
             "Errors are largest absolute differences over all points and components.\n\n")

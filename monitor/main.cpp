@@ -104,7 +104,7 @@ void act(const Wishes& wishes) {
   if (!wishes.replay.empty()) return replay(wishes);
   const auto run = choose_run(wishes);
   if (!run) return;
-  if (!wishes.send.empty()) return bus::send_control(run->run, wishes.send);
+  if (!wishes.send.empty()) return bus::send_control(run->run, run->key, wishes.send);
   Live live(*run, wishes.record);
   RunState state(*run);
   if (wishes.once) return show_once(wishes, live, state);

@@ -1,6 +1,7 @@
 #include "monitor/registry.hpp"
 
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -22,6 +23,12 @@ bool lives(int pid) {
   return pid > 0 && (kill(pid, 0) == 0 || errno == EPERM);
 }
 
+/// What others left under a name of ours says nothing.
+bool is_ours(const fs::path& folder) {
+  struct stat found {};
+  return lstat(folder.c_str(), &found) == 0 && S_ISDIR(found.st_mode) && found.st_uid == getuid();
+}
+
 std::optional<RunEntry> read_entry(const fs::path& path) {
   std::ifstream file(path);
   const auto json = nlohmann::json::parse(file, nullptr, false);
@@ -30,7 +37,8 @@ std::optional<RunEntry> read_entry(const fs::path& path) {
     return RunEntry{.run = json.at("run").get<std::string>(),
                     .name = json.value("case", ""),
                     .dir = json.value("dir", ""),
-                    .pid = json.at("pid").get<int>()};
+                    .pid = json.at("pid").get<int>(),
+                    .key = json.value("key", "")};
   } catch (const nlohmann::json::exception&) {
     return std::nullopt;
   }
@@ -49,6 +57,7 @@ std::vector<fs::path> registry_folders() {
 std::vector<RunEntry> running_runs(const std::vector<fs::path>& folders) {
   std::vector<RunEntry> entries;
   for (const fs::path& folder : folders) {
+    if (!is_ours(folder)) continue;
     std::error_code none;
     for (const auto& file : fs::directory_iterator(folder, none)) {
       if (file.path().extension() != ".json") continue;

@@ -204,7 +204,11 @@ amp_fsi_Abort borrow(const wire::Abort& abort) {
 }
 
 amp_fsi_Control borrow(const wire::Control& control) {
-  return {.run = borrow(control.run), .command = borrow(control.command)};
+  return {.run = borrow(control.run),
+          .command = borrow(control.command),
+          .from = borrow(control.from),
+          .number = control.number,
+          .seal = borrow(control.seal)};
 }
 
 void copy(const amp_fsi_Hello& from, wire::Hello& to) {
@@ -329,6 +333,9 @@ void copy(const amp_fsi_Abort& from, wire::Abort& to) {
 void copy(const amp_fsi_Control& from, wire::Control& to) {
   copy(from.run, to.run);
   copy(from.command, to.command);
+  copy(from.from, to.from);
+  to.number = from.number;
+  copy(from.seal, to.seal);
 }
 
 std::size_t payload(const wire::PredictedInterface& m) {

@@ -12,6 +12,7 @@
 #include "common/bus/lengths.hpp"
 #include "common/bus/link.hpp"
 #include "common/bus/peer.hpp"
+#include "common/bus/seal.hpp"
 
 namespace fsi::bus {
 
@@ -63,7 +64,8 @@ struct CouplerSession::Implementation {
         digest(std::move(config_digest)),
         welcome_writer(link.participant(), welcome_topic, Delivery::lasting),
         hello_reader(link.participant(), hello_topic, Delivery::lasting),
-        control_reader(link.participant(), control_topic, Delivery::lasting) {
+        control_reader(link.participant(), control_topic, Delivery::lasting),
+        gatekeeper(link.options().run, link.options().key) {
     link.waitset().attach(hello_reader.condition());
     link.waitset().attach(control_reader.condition());
     for (const Expected& one : who) members.emplace_back().label = label_of(one.role, one.name);
@@ -157,7 +159,9 @@ struct CouplerSession::Implementation {
       if (hello.run == link.options().run) admit(std::move(hello));
     });
     control_reader.take([&](const amp_fsi_Control& sample) {
-      if (same(sample.run, link.options().run)) copy(sample, requests.emplace_back());
+      wire::Control request;
+      copy(sample, request);
+      if (gatekeeper.lets_in(request)) requests.push_back(std::move(request));
     });
     if (predicted.empty()) return;
     for (Member& member : members) {
@@ -220,13 +224,14 @@ struct CouplerSession::Implementation {
 
   std::span<const wire::PredictedInterface> gather(std::uint64_t step) {
     expect(step);
-    const auto start = Clock::now();
+    for (const Member& member : members) member.peer->begin_step();
     drain();
     while (std::ranges::find(fresh, false) != fresh.end()) {
       link.sleep();
       drain();
-      if (link.time_to_check()) check_peers(step, since(start));
+      if (link.time_to_check()) check_peers(step);
     }
+    for (const Member& member : members) member.peer->end_step();
     for (const wire::PredictedInterface& one : predicted) {
       if (one.step != step) {
         throw PeerLost(
@@ -251,15 +256,12 @@ struct CouplerSession::Implementation {
   }
 
   /// Looks after those who have not delivered `step`.
-  void check_peers(std::uint64_t step, double waited_s) {
+  void check_peers(std::uint64_t step) {
     for (Member& member : members) {
       for (std::size_t k = 0; k < member.channels.size(); ++k) {
         if (fresh[member.first_slot + k]) continue;
         check_peer(member, member.channels[k]);
-        if (waited_s > link.options().step_timeout_s) {
-          throw PeerLost(fmt::format("{} lives but has not finished step {} within {} s", member.label, step,
-                                     link.options().step_timeout_s));
-        }
+        member.peer->check_step(step, link.options().step_timeout_s);
       }
     }
   }
@@ -315,6 +317,7 @@ struct CouplerSession::Implementation {
   Writer<amp_fsi_Welcome> welcome_writer;
   Reader<amp_fsi_Hello> hello_reader;
   Reader<amp_fsi_Control> control_reader;
+  Gatekeeper gatekeeper;
   std::deque<Member> members;  ///< in the order of `who`
   std::vector<std::string> strangers;
   std::vector<wire::Hello> all_hellos;

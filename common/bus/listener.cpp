@@ -7,6 +7,7 @@
 #include "common/bus/convert.hpp"
 #include "common/bus/dds.hpp"
 #include "common/bus/link.hpp"
+#include "common/bus/seal.hpp"
 #include "common/core/failure.hpp"
 
 namespace fsi::bus {
@@ -67,7 +68,8 @@ int Listener::programs() const {
   return implementation_->telemetry_reader.alive();
 }
 
-void send_control(const std::string& run, const std::string& command, double timeout_s) {
+void send_control(const std::string& run, const std::string& key, const std::string& command,
+                  double timeout_s) {
   const auto domain = join_domain(run, participant_lease_s);
   const Entity participant = create_participant(run);
   Waitset waitset(participant);
@@ -79,8 +81,8 @@ void send_control(const std::string& run, const std::string& command, double tim
       throw PeerLost(fmt::format("nobody of run '{}' takes requests; is it running?", run));
     waitset.wait(timeout_s - since(start));
   }
-  const wire::Control control{.run = run, .command = command};
-  writer.write(borrow(control));
+  const wire::Control request = Sealer(run, key).request(command);
+  writer.write(borrow(request));
   if (!writer.arrived(timeout_s))
     throw PeerLost(fmt::format("run '{}' did not take '{}' within {} s", run, command, timeout_s));
 }

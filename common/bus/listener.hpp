@@ -30,8 +30,10 @@ class Listener {
   std::unique_ptr<Implementation> implementation_;
 };
 
-/// Sends a request ("pause", "resume", "checkpoint", "stop") to a run and returns when it has arrived.
+/// Sends a request ("pause", "resume", "checkpoint", "stop") to a run and returns when it has arrived. Only
+/// with the `key` of the run it is obeyed.
 /// @throws PeerLost nobody takes requests for that run within `timeout_s`
-void send_control(const std::string& run, const std::string& command, double timeout_s = 3);
+void send_control(const std::string& run, const std::string& key, const std::string& command,
+                  double timeout_s = 3);
 
 }  // namespace fsi::bus

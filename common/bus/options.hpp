@@ -12,12 +12,16 @@ namespace fsi::bus {
 struct BusOptions {
   /// Identity of the run; programs of different runs never see each other.
   std::string run;
+  /// Requests count when they are sealed with this key (seal.hpp); empty: none does.
+  std::string key = {};
   /// A peer whose liveliness lease expired (stopped, starved) has this long to return [s].
   double peer_timeout_s = 4;
   /// Everybody must have joined within this time [s].
   double hello_timeout_s = 20;
-  /// A living solver may take this long for one step; then it counts as stuck [s].
-  double step_timeout_s = 600;
+  /// A living program may compute this long for one step, or twenty times as long as for its longest one so
+  /// far if that is more; then it counts as stuck [s]. What counts is the processor time of its first thread,
+  /// so a busy machine changes nothing; time on the clock must be ten times as long.
+  double step_timeout_s = 120;
   /// Called at least every 100 ms while waiting; ends the wait by throwing (`fsi::throw_if_interrupted`
   /// fits). May be empty.
   std::function<void()> throw_if_interrupted = {};

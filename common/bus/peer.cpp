@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <fstream>
 #include <sstream>
@@ -14,6 +15,10 @@ namespace fsi::bus {
 namespace {
 
 constexpr int between_state_and_user_time = 10;
+/// A step may need so many times the longest one so far.
+constexpr double slower_than_longest = 20;
+/// And so many times its processor time on the clock: others compute too, disks are slow.
+constexpr double clock_over_work = 10;
 
 /// Of a process' first thread. Nothing where the system does not tell.
 std::optional<Pulse> pulse_of(int pid) {
@@ -29,6 +34,10 @@ std::optional<Pulse> pulse_of(int pid) {
   while (status >> word && word != "voluntary_ctxt_switches:") continue;
   if (!fields || !(status >> waited)) return {};
   return Pulse{.computed = user + system, .waited = waited, .sleeping = state == "S"};
+}
+
+double work_between(const Pulse& begin, const Pulse& end) {
+  return static_cast<double>(end.computed - begin.computed) / static_cast<double>(sysconf(_SC_CLK_TCK));
 }
 
 /// Start time of a living process in clock ticks since boot: with the pid it identifies the process for good.
@@ -83,6 +92,41 @@ void Peer::check(int matched, int alive, double timeout_s) {
     throw PeerLost(fmt::format("{} (pid {}) has been silent for {} s (time.peer_timeout); is it stopped?",
                                label_, pid_, timeout_s));
   }
+}
+
+void Peer::begin_step() {
+  owes_since_ = std::chrono::steady_clock::now();
+  step_began_.reset();
+  work_s_ = 0;
+}
+
+void Peer::end_step() {
+  longest_work_s_ = std::max(longest_work_s_, work_s_);
+  owes_since_.reset();
+}
+
+void Peer::check_step(std::uint64_t step, double step_timeout_s) {
+  if (!owes_since_) return;
+  const double limit = std::max(step_timeout_s, slower_than_longest * longest_work_s_);
+  const double waited =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - *owes_since_).count();
+  const std::optional<Pulse> now = born_ != 0 ? pulse_of(pid_) : std::nullopt;
+  if (now && !step_began_) step_began_ = now;
+  if (now) work_s_ = work_between(*step_began_, *now);
+  if (work_s_ <= limit && waited <= clock_over_work * limit) return;
+  throw PeerLost(fmt::format(
+      "{} (pid {}) lives but has not finished step {} within {:.3g} s{} (time.step_timeout)", label_, pid_,
+      step, waited, now ? fmt::format(", of which it computed for {:.3g} s", work_s_) : ""));
+}
+
+void Peer::check_endless(double step_timeout_s) {
+  const std::optional<Pulse> now = born_ != 0 ? pulse_of(pid_) : std::nullopt;
+  if (!now) return;
+  if (!last_nap_ || now->waited != last_nap_->waited) last_nap_ = now;
+  if (work_between(*last_nap_, *now) <= step_timeout_s) return;
+  throw PeerLost(
+      fmt::format("{} (pid {}) hangs: it computes without end, for {:g} s (time.step_timeout) by now", label_,
+                  pid_, step_timeout_s));
 }
 
 void Peer::check_pulse(double timeout_s) {

@@ -30,6 +30,14 @@ class Peer {
   /// For a program that owes an answer.
   /// @throws PeerLost it died, left, or has been silent or asleep for longer than `timeout_s`
   void check(int matched, int alive, double timeout_s);
+  /// From now on it owes one step: what it computes counts for that.
+  void begin_step();
+  void end_step();
+  /// @throws PeerLost it has computed for too long since `begin_step` (BusOptions::step_timeout_s)
+  void check_step(std::uint64_t step, double step_timeout_s);
+  /// For a program that waits for others most of the time: @throws PeerLost it has computed for as long as
+  /// `step_timeout_s` without waiting once
+  void check_endless(double step_timeout_s);
   /// Only whether its process lives, for a program whose writers are not known yet.
   void check_process() const;
   const std::string& label() const { return label_; }
@@ -40,6 +48,9 @@ class Peer {
   std::uint64_t born_ = 0;  ///< start time of the process; 0: not visible from here, only liveliness tells
   std::optional<std::chrono::steady_clock::time_point> silent_since_, asleep_since_;
   Pulse pulse_;
+  std::optional<Pulse> step_began_, last_nap_;
+  std::optional<std::chrono::steady_clock::time_point> owes_since_;
+  double work_s_ = 0, longest_work_s_ = 0;  ///< processor time of this step and of the longest one [s]
 
   void check_pulse(double timeout_s);
 };

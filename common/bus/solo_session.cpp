@@ -2,19 +2,23 @@
 
 #include "common/bus/convert.hpp"
 #include "common/bus/link.hpp"
+#include "common/bus/seal.hpp"
 
 namespace fsi::bus {
 
 struct SoloSession::Implementation {
   Implementation(BusOptions options, const std::string& role, const std::string& name)
       : link(std::move(options), role, name),
-        control_reader(link.participant(), control_topic, Delivery::lasting) {
+        control_reader(link.participant(), control_topic, Delivery::lasting),
+        gatekeeper(link.options().run, link.options().key) {
     link.waitset().attach(control_reader.condition());
   }
 
   void drain() {
     control_reader.take([&](const amp_fsi_Control& sample) {
-      if (same(sample.run, link.options().run)) copy(sample, requests.emplace_back());
+      wire::Control request;
+      copy(sample, request);
+      if (gatekeeper.lets_in(request)) requests.push_back(std::move(request));
     });
   }
 
@@ -26,6 +30,7 @@ struct SoloSession::Implementation {
 
   Link link;
   Reader<amp_fsi_Control> control_reader;
+  Gatekeeper gatekeeper;
   std::vector<wire::Control> requests;
 };
 

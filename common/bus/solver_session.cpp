@@ -11,6 +11,7 @@
 #include "common/bus/lengths.hpp"
 #include "common/bus/link.hpp"
 #include "common/bus/peer.hpp"
+#include "common/bus/seal.hpp"
 
 namespace fsi::bus {
 
@@ -53,6 +54,7 @@ struct SolverSession::Implementation {
         link(std::move(options), self.role, self.name),
         hello_writer(link.participant(), hello_topic, Delivery::lasting),
         control_writer(link.participant(), control_topic, Delivery::lasting),
+        sealer(link.options().run, link.options().key),
         welcome_reader(link.participant(), welcome_topic, Delivery::lasting) {
     self.run = link.options().run;
     self.host = host_name();
@@ -174,6 +176,7 @@ struct SolverSession::Implementation {
       drain();
       if (!channel.fresh && link.time_to_check()) {
         coupler->check(welcome_reader.matched(), welcome_reader.alive(), link.options().peer_timeout_s);
+        coupler->check_endless(link.options().step_timeout_s);
       }
     }
     if (channel.incoming.step != step) {
@@ -197,6 +200,7 @@ struct SolverSession::Implementation {
   Link link;
   Writer<amp_fsi_Hello> hello_writer;
   Writer<amp_fsi_Control> control_writer;
+  Sealer sealer;
   Reader<amp_fsi_Welcome> welcome_reader;
   std::deque<Channel> channels;
   std::unique_ptr<Peer> coupler;  ///< null until its welcome came
@@ -221,8 +225,8 @@ const wire::ProjectedInterface& SolverSession::receive(const std::string& interf
 }
 
 void SolverSession::request(const std::string& command) {
-  const wire::Control control{.run = implementation_->self.run, .command = command};
-  implementation_->control_writer.write(borrow(control));
+  const wire::Control request = implementation_->sealer.request(command);
+  implementation_->control_writer.write(borrow(request));
 }
 
 bool SolverSession::telemetry_due() const {

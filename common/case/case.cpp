@@ -143,7 +143,7 @@ Case load_case(const std::string& path, const std::vector<std::string>& override
   const std::string file = find_case(path, {"configs", configs_folder()});
   Node root = config::parse_file(file);
   if (root.kind == Node::Kind::null)
-    throw UserMistake(file + ": the file is empty; begin with configs/template.yaml");
+    throw UserMistake(file + ":1:1: the file is empty; begin with configs/template.yaml");
   if (!root.is_map())
     throw UserMistake(
         fmt::format("{}: a case is a section of keys, this is {}; begin with configs/template.yaml",

@@ -146,9 +146,10 @@ struct TimeSpec {
   double cfl = 0.9;     ///< safety factor C_CFL
   double growth = 1.2;  ///< largest ratio of successive steps
   bool multirate = false;
-  int robin_order = 2;       ///< 1 linear, 2 quadratic extrapolation of the Robin data
-  std::optional<double> dt;  ///< largest step, for studies
-  double peer_timeout = 4;   ///< [s]
+  int robin_order = 2;        ///< 1 linear, 2 quadratic extrapolation of the Robin data
+  std::optional<double> dt;   ///< largest step, for studies
+  double peer_timeout = 4;    ///< [s]
+  double step_timeout = 120;  ///< [s]
 };
 
 struct InterfaceSpec {

@@ -171,6 +171,12 @@ constexpr array time_keys{
         .unit = "s",
         .fallback = "4",
         .range = positive},
+    Key{.name = "step_timeout",
+        .meaning = "a program that computes for so long without ending its step is stuck, unless it needed a "
+                   "twentieth of that before",
+        .unit = "s",
+        .fallback = "120",
+        .range = positive},
 };
 constexpr Section time_section{.title = "Time", .keys = time_keys};
 

@@ -28,7 +28,8 @@ ordered_json time_json(const TimeSpec& time) {
           {"multirate", time.multirate},
           {"robin_order", time.robin_order},
           {"dt", or_null(time.dt)},
-          {"peer_timeout", time.peer_timeout}};
+          {"peer_timeout", time.peer_timeout},
+          {"step_timeout", time.step_timeout}};
 }
 
 ordered_json expect_json(const std::vector<Expectation>& expect) {

@@ -6,7 +6,9 @@ namespace fsi {
 
 bus::BusOptions bus_options(const Setup& setup) {
   return {.run = setup.run,
+          .key = setup.key,
           .peer_timeout_s = setup.problem.time.peer_timeout,
+          .step_timeout_s = setup.problem.time.step_timeout,
           .throw_if_interrupted = throw_if_interrupted};
 }
 

@@ -8,6 +8,7 @@
 #include <atomic>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <ctime>
 
 #include "common/core/log.hpp"
@@ -142,6 +143,7 @@ int run_program(int argc, char** argv, const std::string& default_name, const st
   }
 
   catch_signals();
+  if (const char* key = std::getenv("AMP_FSI_KEY")) setup.key = key;  // NOLINT(concurrency-mt-unsafe)
   io::Part part;
   part.participant = setup.name;
   part.role = role;

@@ -9,7 +9,7 @@
 
 namespace fsi::wire {
 
-inline constexpr std::uint32_t protocol_version = 3;
+inline constexpr std::uint32_t protocol_version = 4;
 
 /// Where one program meets the gas or a solid.
 struct InterfaceInfo {
@@ -115,10 +115,13 @@ struct Abort {
   std::string reason;
 };
 
-/// An outside request: pause, resume, checkpoint or stop.
+/// An outside request: pause, resume, checkpoint or stop. common/bus/seal.hpp makes and checks it.
 struct Control {
   std::string run;
   std::string command;
+  std::string from;          ///< the sender: a name drawn at random
+  std::uint64_t number = 0;  ///< of the request among those of the sender, growing
+  std::string seal;          ///< proof that the sender knows the key of the run
 };
 
 /// What the monitor shows; best effort, never waited for.

@@ -179,7 +179,9 @@ void run(const fsi::Setup& setup, fsi::io::Part& part) {
       {"t [time]", "force1 [force/depth]", "force2 [force/depth]", "power [power/depth]", "centre1 [length]",
        "centre2 [length]", "velocity1 [length/time]", "velocity2 [length/time]"});
   fsi::bus::SolverSession session({.run = setup.run,
+                                   .key = setup.key,
                                    .peer_timeout_s = setup.problem.time.peer_timeout,
+                                   .step_timeout_s = setup.problem.time.step_timeout,
                                    .throw_if_interrupted = fsi::throw_if_interrupted},
                                   piston.hello(setup.problem.digest));
   try {

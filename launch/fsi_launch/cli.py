@@ -31,7 +31,7 @@ def _run(options):
     from fsi_launch.run import Request, run
     result = run(Request(case=options.case, overrides=options.overrides, laws=options.laws, out=options.out,
                          overwrite=options.overwrite, restart=options.restart, progress=options.progress,
-                         frames=options.movie))
+                         monitor=options.monitor, frames=options.movie))
     if options.movie and result.code == DONE:
         from fsi_launch import plot
         plot.draw_movie(result.directory)
@@ -115,6 +115,8 @@ def _parser():
                       "expect may be changed")
     verb.add_argument("--overwrite", action="store_true", help="replace the results of a former run in DIR")
     verb.add_argument("--no-progress", dest="progress", action="store_false", help="no progress bar")
+    verb.add_argument("--monitor", action="store_true", help="show the run on the whole terminal, as fsi monitor does; "
+                      "with q it goes on with the progress bar")
     verb.add_argument("--movie", action="store_true", help="more output times, and an animated file DIR/plots/movie.mp4 of "
                       "them (.gif without ffmpeg)")
     verb.set_defaults(act=_run)
@@ -199,6 +201,7 @@ def main(arguments):
     signal.signal(signal.SIGTERM, _terminated)
     signal.signal(signal.SIGINT, signal.default_int_handler)  # also in the background of a script
     try:
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, (signal.SIGINT, signal.SIGTERM))
         options = _parser().parse_args(arguments)
         return options.act(options)
     except Failure as failure:
@@ -210,3 +213,5 @@ def main(arguments):
     except OSError as error:
         print(f"fsi: {error.filename or 'output'}: {error.strerror}", file=sys.stderr)
         return OUTPUT_FAILED
+    finally:
+        signal.signal(signal.SIGTERM, signal.SIG_DFL)

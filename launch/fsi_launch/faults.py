@@ -18,6 +18,7 @@ from pathlib import Path
 
 from fsi_launch import paths, restart
 from fsi_launch.failure import DONE, EXPECTATION_MISSED, Failure, INTERNAL_ERROR
+from fsi_launch.processes import programs_of, until
 
 PEER_TIMEOUT = 4.0      # [s] of the runs: a stopped program is lost after it
 STOP_FOR = 1.0          # [s] and goes on as if nothing had been
@@ -78,31 +79,13 @@ class Run:
 
     def programs(self):
         """{participant: pid} of its living programs."""
-        found = {}
-        for entry in Path("/proc").iterdir():
-            if not entry.name.isdigit():
-                continue
-            try:
-                words = (entry / "cmdline").read_bytes().split(b"\0")
-                state = (entry / "stat").read_text().rsplit(")", 1)[1].split()[0]
-            except (OSError, IndexError):
-                continue
-            if b"--run-dir" in words and os.fsencode(self.folder) in words and state not in "ZX":
-                found[os.fsdecode(words[words.index(b"--name") + 1])] = int(entry.name)
-        return found
+        return {program.name: program.pid for program in programs_of(self.folder)}
 
     def end_all(self):
         """Whatever is left after a flaw."""
         for pid in [*self.programs().values(), *([self.process.pid] if self.process.poll() is None else [])]:
             os.kill(pid, signal.SIGKILL)
         self.process.wait()
-
-
-def _until(condition, seconds):
-    end = time.monotonic() + seconds
-    while not (value := condition()) and time.monotonic() < end:
-        time.sleep(0.02)
-    return value
 
 
 def results(directory):
@@ -148,7 +131,7 @@ def _shared_memory():
 def _signal(run, trial):
     """Does it; returns the moment, or None where the target is gone already."""
     kind = FAULTS[trial.fault][0]
-    pid = run.process.pid if trial.target == "launcher" else _until(run.programs, 5).get(trial.target)
+    pid = run.process.pid if trial.target == "launcher" else until(run.programs, 5).get(trial.target)
     if pid is None or run.process.poll() is not None:
         return None
     moment = time.monotonic()
@@ -214,7 +197,7 @@ def _try(trial, folder, undisturbed):
         time.sleep(trial.after)
         moment = _signal(run, trial)
         trial.code = _as_a_shell_says(run.wait())
-        _until(lambda: not run.programs(), END_WITHIN)
+        until(lambda: not run.programs(), END_WITHIN)
         asked = FAULTS[trial.fault][0] in ("SIGTERM", "SIGINT")  # who is ending anyway does not mind
         trial.late = moment is None or (asked and trial.code == 0)
         trial.seconds = time.monotonic() - (moment or 0)

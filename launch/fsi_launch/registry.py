@@ -1,8 +1,15 @@
-"""Which runs are going on here: one small file per run, for the monitor and for control from outside."""
+"""Which runs are going on here: one small file per run, for the monitor and for control from outside. It holds the key
+that requests to the run are sealed with, so nobody but its user may read it."""
 
 import json
 import os
+import secrets
+import stat
 from pathlib import Path
+
+from fsi_launch.failure import Failure, OUTPUT_FAILED
+
+KEY_BYTES = 32
 
 
 def folder():
@@ -13,17 +20,30 @@ def folder():
     return Path(f"/tmp/amp-fsi-{os.getuid()}")
 
 
+def _make_folder(path):
+    """The folder of the entries, which only its user can read or write."""
+    path.mkdir(mode=0o700, parents=True, exist_ok=True)
+    found = path.lstat()
+    if not stat.S_ISDIR(found.st_mode) or found.st_uid != os.getuid():
+        raise Failure(OUTPUT_FAILED, f"{path} belongs to somebody else; set XDG_RUNTIME_DIR to a folder of your own")
+    if stat.S_IMODE(found.st_mode) != 0o700:
+        path.chmod(0o700)
+
+
 class Entry:
-    """A run's entry; exists while the context is open."""
+    """A run's entry; exists while the context is open. `key`: what programs and monitors of the run share."""
 
     def __init__(self, run, directory, case):
         self.path = folder() / f"{run}.json"
-        self.content = {"run": run, "dir": str(directory), "case": case, "pid": os.getpid()}
+        self.run = run
+        self.key = secrets.token_hex(KEY_BYTES)
+        self.content = {"run": run, "dir": str(directory), "case": case, "pid": os.getpid(), "key": self.key}
 
     def __enter__(self):
-        self.path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
+        _make_folder(self.path.parent)
         _forget_dead_runs(self.path.parent)
-        self.path.write_text(json.dumps(self.content) + "\n", encoding="utf-8")
+        with open(os.open(self.path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "w", encoding="utf-8") as file:
+            file.write(json.dumps(self.content) + "\n")
         return self
 
     def __exit__(self, *_):

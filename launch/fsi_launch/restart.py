@@ -5,7 +5,7 @@ import zlib
 from dataclasses import dataclass
 from pathlib import Path
 
-from fsi_launch import registry
+from fsi_launch import processes, registry
 from fsi_launch.failure import Failure, OUTPUT_FAILED, UserMistake
 
 CHUNK = 1 << 20
@@ -68,6 +68,9 @@ def choose(directory, say):
         raise UserMistake(f"--restart {directory} holds no run; name the folder of a run")
     if run := registry.running_in(directory):
         raise UserMistake(f"--restart {directory}: the run is still going on (launcher {run})")
+    if left := processes.programs_of(directory):
+        raise UserMistake(f"--restart {directory}: {left[0].name} of the former run is still alive (pid {left[0].pid}); "
+                          "wait for its end")
     if not _folders(directory):
         raise UserMistake(f"--restart {directory} has no checkpoint; begin anew, with --set output.checkpoint_every=N")
     if (found := latest(directory, say)) is None:

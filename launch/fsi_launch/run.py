@@ -1,5 +1,6 @@
 """`fsi run`: one case from its file to its summary."""
 
+import contextlib
 import signal
 import subprocess
 import sys
@@ -13,6 +14,7 @@ from fsi_launch.failure import (DONE, EXPECTATION_MISSED, Failure, INTERRUPTED, 
                                 PEER_LOST, TERMINATED, UserMistake)
 from fsi_launch.progress import Progress
 from fsi_launch.supervise import Outcome, Program, Supervisor
+from fsi_launch.watch import Monitor
 
 
 FRAMES = 60     # of a movie
@@ -29,6 +31,7 @@ class Request:
     overwrite: bool = False
     restart: str = None     # folder of the run to go on with
     progress: bool = True
+    monitor: bool = False   # in front, on a terminal
     quiet: bool = False
     judge: bool = True      # hold the results against the case's expectations
     frames: bool = False    # output times for a movie, unless the overrides say some
@@ -84,11 +87,12 @@ def _make_directory(request, name):
 # --- the programs
 
 
-def _programs(case, directory, run, checkpoint):
-    common = ["--case", str(directory / "case.yaml"), "--run-dir", str(directory), "--run", run]
+def _programs(case, directory, entry, checkpoint):
+    common = ["--case", str(directory / "case.yaml"), "--run-dir", str(directory), "--run", entry.run]
     if checkpoint:
         common += ["--restart", str(checkpoint.path)]
-    return [Program(name, [paths.program(program), *common, "--name", name], listen=name == case.speaker())
+    return [Program(name, [paths.program(program), *common, "--name", name], listen=name == case.speaker(),
+                    environment={"AMP_FSI_KEY": entry.key})
             for name, program in case.programs.items()]
 
 
@@ -179,14 +183,31 @@ def _write_xdmf(directory):
 # --- the whole
 
 
-def _supervise(case, directory, programs, progress):
+def _supervise(case, directory, programs, progress, tick):
     """Runs the reference program, then the programs of the run."""
     outcome = Outcome()
     for programs in (_reference(case, directory), programs):
-        supervisor = Supervisor(directory / "log", progress.hear, progress.tick)
+        supervisor = Supervisor(directory / "log", progress.hear, tick)
         outcome = supervisor.run(programs)
         if outcome.signal or root_cause(outcome.endings):
             break
+    return outcome
+
+
+def _watched(case, directory, entry, checkpoint, request, say):
+    """The Outcome of all programs, while a person sees how far they are."""
+    progress = Progress(request.progress and not request.quiet)
+    with contextlib.ExitStack() as stack:
+        monitor = stack.enter_context(Monitor(entry.run, say)) if request.monitor else None
+
+        def tick():
+            if monitor is None or not monitor.in_front():
+                progress.tick()
+
+        outcome = _supervise(case, directory, _programs(case, directory, entry, checkpoint), progress, tick)
+        if monitor and not outcome.signal:
+            monitor.wait()
+    progress.close()
     return outcome
 
 
@@ -236,10 +257,8 @@ def run(request):
     say(f"{case.name}: {', '.join(case.programs.values())}")
 
     start = time.monotonic()
-    progress = Progress(request.progress and not request.quiet)
-    with registry.Entry(identity, directory.resolve(), case.name):
-        outcome = _supervise(case, directory, _programs(case, directory, identity, checkpoint), progress)
-    progress.close()
+    with registry.Entry(identity, directory.resolve(), case.name) as entry:
+        outcome = _watched(case, directory, entry, checkpoint, request, say)
     code, status, reason = _judge(outcome, case, directory)
     result = summary.merge(directory, case, status, reason, time.monotonic() - start)
     if checkpoint:

@@ -33,6 +33,7 @@ class Program:
     name: str
     command: list
     listen: bool = False
+    environment: dict = field(default_factory=dict)     # besides the launcher's own
 
 
 @dataclass
@@ -104,7 +105,8 @@ class Supervisor:
             log = stack.enter_context(open(self._log_dir / f"{program.name}.out", "ab"))
             process = subprocess.Popen(
                 program.command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE if program.listen else log,
-                stderr=log, start_new_session=True, preexec_fn=_child_setup(os.getpid()))
+                stderr=log, start_new_session=True, preexec_fn=_child_setup(os.getpid()),
+                env=os.environ | program.environment)
         self._processes[program.name] = process
         pidfd = os.pidfd_open(process.pid)
         self._pidfds[program.name] = pidfd
@@ -188,6 +190,8 @@ class Supervisor:
             for number, handler in old_handlers.items():
                 signal.signal(number, handler)
             signal.set_wakeup_fd(old_wakeup)
+            with contextlib.suppress(BlockingIOError):  # one that came when nobody waited any more
+                self._asked_to_end(os.read(read_end, 64))
             os.close(read_end)
             os.close(write_end)
 

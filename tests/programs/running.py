@@ -4,8 +4,8 @@ import json
 import os
 import signal
 import subprocess
+import sys
 import tempfile
-import time
 import unittest
 from pathlib import Path
 
@@ -14,29 +14,13 @@ BIN = Path(os.environ.get("FSI_BIN") or ROOT / "build" / "release" / "bin")
 FSI = ROOT / "launch" / "fsi"
 WATCHDOG = 120.0  # [s] nothing here may take longer
 
+sys.path.insert(0, str(ROOT / "launch"))
+from fsi_launch import processes  # noqa: E402
+
 
 def until(condition, seconds=30.0):
     """Waits for `condition()` to hold; returns its value, false after `seconds`."""
-    end = time.monotonic() + seconds
-    while not (value := condition()) and time.monotonic() < end:
-        time.sleep(0.02)
-    return value
-
-
-def programs_of(directory):
-    """{executable: pid} of the living programs that work for the run in `directory`."""
-    found = {}
-    for entry in Path("/proc").iterdir():
-        if not entry.name.isdigit():
-            continue
-        try:
-            words = (entry / "cmdline").read_bytes().split(b"\0")
-            state = (entry / "stat").read_text().rsplit(")", 1)[1].split()[0]
-        except (OSError, IndexError):
-            continue
-        if b"--run-dir" in words and os.fsencode(directory) in words and state not in "ZX":
-            found[os.path.basename(os.fsdecode(words[0]))] = int(entry.name)
-    return found
+    return processes.until(condition, seconds)
 
 
 class Launched:
@@ -64,14 +48,15 @@ class Launched:
         return self.programs()
 
     def programs(self):
-        return programs_of(self.directory)
+        """{executable: pid} of its living programs."""
+        return {program.program: program.pid for program in processes.programs_of(self.directory)}
 
     def summary(self):
         return json.loads((self.directory / "summary.json").read_text(encoding="utf-8"))
 
     def leftovers(self):
         """What should be gone after a run: processes and the entry in the registry."""
-        return [*programs_of(self.directory), *(path.name for path in self.runtime.rglob("*.json"))]
+        return [*self.programs(), *(path.name for path in self.runtime.rglob("*.json"))]
 
 
 class EndToEnd(unittest.TestCase):

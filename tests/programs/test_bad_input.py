@@ -4,7 +4,7 @@
 import subprocess
 import unittest
 
-from running import BIN, EndToEnd, FSI, ROOT, programs_of
+from running import BIN, EndToEnd, FSI, ROOT
 
 PISTON = (ROOT / "configs" / "elastic_piston.yaml").read_text(encoding="utf-8")
 
@@ -18,7 +18,7 @@ class BadInput(EndToEnd):
         self.assertEqual(len(lines), 1, run.stderr)
         self.assertEqual(run.stdout, "")
         self.assertFalse(run.directory.exists(), "a folder was made")
-        self.assertEqual(programs_of(run.directory), {})
+        self.assertEqual(run.programs(), {})
         return lines[0]
 
     def changed(self, old, new):

@@ -8,6 +8,7 @@ import os
 import subprocess
 import time
 import unittest
+from pathlib import Path
 
 from running import BIN, EndToEnd, FSI, until
 
@@ -62,7 +63,58 @@ class LostFolder(EndToEnd):
 class Requests(EndToEnd):
     def ctl(self, run, word):
         environment = os.environ | {"FSI_BIN": str(BIN), "XDG_RUNTIME_DIR": str(run.runtime)}
-        subprocess.run([str(FSI), "ctl", word], check=True, env=environment, timeout=30, capture_output=True)
+        subprocess.run([str(FSI), "ctl", str(run.directory), word], check=True, env=environment, timeout=30, capture_output=True)
+
+    def entry(self, run):
+        """(path, content) of its entry in the registry."""
+        path = next((run.runtime / "amp-fsi").glob("*.json"))
+        return path, json.loads(path.read_text(encoding="utf-8"))
+
+    def send_with_key(self, run, key, word):
+        """What somebody can do who sees the run on the bus and has a registry of his own."""
+        path, content = self.entry(run)
+        others = self.folder / "others" / "amp-fsi"
+        others.mkdir(parents=True, exist_ok=True)
+        (others / path.name).write_text(json.dumps(content | {"key": key}), encoding="utf-8")
+        environment = os.environ | {"FSI_BIN": str(BIN), "XDG_RUNTIME_DIR": str(others.parent)}
+        subprocess.run([str(FSI), "ctl", content["run"], word], env=environment, timeout=30, capture_output=True, check=True)
+
+    def table(self, run):
+        return (run.directory / "interface.csv").read_text(encoding="utf-8").splitlines()
+
+    def test_requests_without_the_key_of_the_run_change_nothing(self):
+        case = (*SLOW, "--set", "time.dt=1e-5")
+        run = self.launch(*case)
+        run.until_stepping()
+        self.send_with_key(run, "", "stop")
+        self.send_with_key(run, "0" * 64, "pause")
+        self.assertTrue(until(lambda: (run.directory / "log" / "coupler.log").read_text().count("ignored the request") == 2))
+        before = self.steps(run)
+        self.assertTrue(until(lambda: self.steps(run) > before + 5000))
+        self.assertEqual(self.checkpoints(run), [])
+        self.ctl(run, "stop")
+        self.assertEqual(run.wait(), 0, run.stderr)
+        alone = self.launch(*case, out="alone")
+        self.assertTrue(until(lambda: alone.directory.is_dir() and (alone.directory / "interface.csv").is_file()
+                              and self.steps(alone) > self.steps(run)))
+        self.ctl(alone, "stop")
+        self.assertEqual(alone.wait(), 0, alone.stderr)
+        self.assertEqual(self.table(run), self.table(alone)[:len(self.table(run))])
+
+    def test_key_is_nowhere_but_in_the_entry_that_only_the_user_reads(self):
+        run = self.launch(*SLOW, "--set", "time.dt=1e-5")
+        programs = run.until_stepping()
+        path, content = self.entry(run)
+        self.assertEqual(path.stat().st_mode & 0o777, 0o600)
+        self.assertEqual(path.parent.stat().st_mode & 0o777, 0o700)
+        key = content["key"].encode()
+        self.assertGreaterEqual(len(key), 32)
+        for pid in programs.values():
+            self.assertNotIn(key, (Path("/proc") / str(pid) / "cmdline").read_bytes())
+        self.ctl(run, "stop")
+        self.assertEqual(run.wait(), 0, run.stderr)
+        for file in run.directory.rglob("*"):
+            self.assertTrue(file.is_dir() or key not in file.read_bytes(), file)
 
     def checkpoints(self, run):
         return sorted(path.parent.name for path in run.directory.glob("checkpoints/*/manifest.json"))

@@ -8,6 +8,7 @@ import signal
 import unittest
 
 from running import EndToEnd, until
+from test_lost_programs import LONG
 
 CASES = {  # with the number of steps between checkpoints
     "elastic_piston": (10, "--set", "grid.factor=2", "--set", "output.every=0.1",
@@ -160,6 +161,22 @@ class AfterAnEnd(Restart):
         longer = self.restart(run, "--set", "time.end=0.9")
         self.assertEqual(longer.wait(), 0, longer.stderr)
         self.assertEqual(longer.summary()["t"], 0.9)
+
+
+class Alive(EndToEnd):
+    def test_run_whose_program_is_still_alive_is_not_touched(self):
+        run = self.launch(*LONG)
+        programs = run.until_stepping()
+        pid = programs["solid_solver_linear_elastic"]
+        os.kill(pid, signal.SIGSTOP)  # it cannot notice what happens to the others
+        run.process.kill()
+        run.wait()
+        self.assertTrue(until(lambda: list(run.programs().values()) == [pid]))
+        before = results(run.directory)
+        again = self.launch("--restart", os.path.relpath(run.directory, self.folder), out=None)
+        self.assertEqual(again.wait(), 2)
+        self.assertIn(f"still alive (pid {pid})", again.stderr)
+        self.assertEqual(results(run.directory), before)
 
 
 if __name__ == "__main__":

@@ -10,6 +10,25 @@ from running import EndToEnd, until
 from test_lost_programs import LONG
 
 
+class Beginning(EndToEnd):
+    """While the shell script and the interpreter begin, nobody is ready for signals yet."""
+
+    def ask(self, number, code):
+        for moment in range(16):
+            run = self.launch(*LONG, out=f"run{moment}")
+            time.sleep(0.008 * moment)
+            run.process.send_signal(number)
+            ended = run.wait()
+            self.assertIn(ended, (code, -number), f"after {8 * moment} ms: {run.stderr}")
+            self.assert_nothing_left(run)
+
+    def test_interrupt(self):
+        self.ask(signal.SIGINT, 130)
+
+    def test_terminate(self):
+        self.ask(signal.SIGTERM, 143)
+
+
 class Stopping(EndToEnd):
     def ask(self, number, code):
         run = self.launch(*LONG)

@@ -11,6 +11,7 @@ import struct
 import subprocess
 import termios
 import time
+import types
 import unittest
 
 from running import BIN, EndToEnd, FSI
@@ -18,14 +19,14 @@ from test_lost_programs import LONG
 
 
 class Screen:
-    """A monitor on a terminal of its own."""
+    """A ./launch/fsi on a terminal of its own."""
 
     def __init__(self, run, *words, columns=80, rows=24):
         self.text = ""
         self.pid, self.terminal = pty.fork()
         if self.pid == 0:
             os.environ |= {"FSI_BIN": str(BIN), "XDG_RUNTIME_DIR": str(run.runtime), "TERM": "xterm", "LC_ALL": "C.UTF-8"}
-            os.execv(FSI, [str(FSI), "monitor", *words])
+            os.execv(FSI, [str(FSI), *words])
         self.resize(columns, rows)
 
     def resize(self, columns, rows):
@@ -119,7 +120,7 @@ class Watching(EndToEnd):
     def test_terminal_shows_the_run_and_stops_it_when_asked_twice(self):
         run = self.launch(*LONG)
         run.until_stepping()
-        screen = Screen(run, str(run.directory))
+        screen = Screen(run, "monitor", str(run.directory))
         for words in ("AMP-FSI", "limited by", "p50/p99", "v jump", "along solid"):
             self.assertTrue(screen.until(words), words)
         screen.resize(100, 30)
@@ -146,7 +147,7 @@ class Watching(EndToEnd):
         one, two = self.launch(*LONG), self.launch(*LONG, out="another")
         one.until_stepping()
         two.until_stepping()
-        screen = Screen(one)
+        screen = Screen(one, "monitor")
         self.assertTrue(screen.until("several runs are going on"))
         screen.press("\r")
         self.assertTrue(screen.until("TAB interface"))
@@ -157,7 +158,7 @@ class Watching(EndToEnd):
     def test_stopped_and_killed_programs_are_shown_as_such(self):
         run = self.launch(*LONG)
         gas = run.until_stepping()["fluid_solver"]
-        screen = Screen(run, str(run.directory))
+        screen = Screen(run, "monitor", str(run.directory))
         self.assertTrue(screen.until("alive"))
         os.kill(gas, signal.SIGSTOP)
         self.assertTrue(screen.until("stopped"))
@@ -183,6 +184,24 @@ class Watching(EndToEnd):
         self.assertEqual(state["step"], run.summary()["steps"])
         self.assertEqual(set(state["participants"]), {"fluid", "solid", "coupler"})
         self.assertIn("status=running", self.outside(run, "monitor", "--replay", str(recording), "--plain", "--speed", "4"))
+
+    def test_run_with_the_monitor_in_front_goes_on_without_it_after_q(self):
+        folder = self.folder / "run"
+        (self.folder / "runtime").mkdir()
+        screen = Screen(types.SimpleNamespace(runtime=self.folder / "runtime"), "run", *LONG, "--out", str(folder), "--monitor",
+                        columns=120)
+        for words in ("AMP-FSI", "limited by"):
+            self.assertTrue(screen.until(words), words)
+        screen.press("q")
+        self.assertTrue(screen.until("the monitor has ended; the run goes on"))
+        self.assertTrue(screen.until("steps/s"))
+        os.kill(screen.pid, signal.SIGTERM)
+        self.assertEqual(screen.end(), 143)
+        self.assertEqual(json.loads((folder / "summary.json").read_text(encoding="utf-8"))["status"], "failed")
+
+    def test_run_asked_for_a_monitor_without_a_terminal_says_so_and_goes_on(self):
+        run = self.complete("sod_tube", "--set", "grid.factor=2", "--set", "expect={}", "--monitor")
+        self.assertIn("--monitor needs a terminal", run.stderr)
 
     def test_unknown_run_is_a_mistake(self):
         answer = subprocess.run([FSI, "monitor", "no_such_run", "--once"], capture_output=True, text=True, check=False,

@@ -43,8 +43,8 @@ class Monitor : public testing::Test {
   ~Monitor() override { fs::remove_all(registry_); }
 
   void enter(const std::string& run, int launcher = getpid()) const {
-    std::ofstream(registry_ / "amp-fsi" / (run + ".json"))
-        << nlohmann::json{{"run", run}, {"case", "sod"}, {"dir", "/tmp"}, {"pid", launcher}};
+    std::ofstream(registry_ / "amp-fsi" / (run + ".json")) << nlohmann::json{
+        {"run", run}, {"case", "sod"}, {"dir", "/tmp"}, {"pid", launcher}, {"key", test_key}};
   }
 
   fs::path registry_;

@@ -102,7 +102,9 @@ TEST_P(Killing, NamesTheVictimWithinTwoSecondsAndEndsTheOthersWithCode4) {
 INSTANTIATE_TEST_SUITE_P(Programs, Killing, testing::Values("fluid", "beam", "coupler"));
 
 TEST(Stopping, ShortStopOnlyDelaysTheRun) {
-  Trio run(options(own_run()), 3000);
+  BusOptions impatient = options(own_run());
+  impatient.step_timeout_s = 0.5;  // who is stopped computes nothing
+  Trio run(impatient, 3000);
   run.wait_until_begun();
   run.beam.send(SIGSTOP);
   usleep(1500000);  // five leases, less than the peer timeout
@@ -145,6 +147,74 @@ TEST(Hanging, SolverThatSleepsWithoutEndIsNamed) {
   }
 }
 
+/// Computes for so many seconds of its own processor time.
+void compute(double seconds) {
+  const auto spent = [] {
+    timespec time{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+  };
+  for (const double end = spent() + seconds; spent() < end;) continue;
+}
+
+/// It neither sleeps nor ends its step, and its other threads renew the lease.
+TEST(Hanging, SolverThatComputesWithoutEndIsNamed) {
+  BusOptions impatient = options(own_run());
+  impatient.step_timeout_s = 0.5;
+  Process fluid([=](const auto& say) { solve(impatient, gas(), endless, 3, say); });
+  Process beam([=](const auto&) {
+    SolverSession session(impatient, solid());
+    session.publish(predicted(0, 3));
+    session.receive("beam", 0);
+    compute(1e9);
+  });
+  Process coupler([=](const auto& say) { couple(impatient, endless, 3, say); });
+  for (Process* process : {&fluid, &coupler}) {
+    EXPECT_EQ(process->hear(), "begun");
+    EXPECT_EQ(process->end(20), 4);
+    const std::string reason = process->hear();
+    EXPECT_TRUE(says(reason, "solid 'beam'") && says(reason, "has not finished step 1")) << reason;
+  }
+}
+
+TEST(Hanging, CouplerThatComputesWithoutEndIsNamed) {
+  BusOptions impatient = options(own_run());
+  impatient.step_timeout_s = 0.5;
+  Process fluid([=](const auto& say) { solve(impatient, gas(), endless, 3, say); });
+  Process coupler([=](const auto&) {
+    CouplerSession session(impatient, {{.role = "fluid", .name = "fluid"}}, "one case");
+    session.gather(0);
+    compute(1e9);
+  });
+  EXPECT_EQ(fluid.end(20), 4);
+  const std::string reason = fluid.hear();
+  EXPECT_TRUE(says(reason, "coupler") && says(reason, "computes without end")) << reason;
+}
+
+TEST(Hanging, StepMayTakeTwentyTimesAsLongAsTheLongestBefore) {
+  BusOptions impatient = options(own_run());
+  impatient.step_timeout_s = 0.4;
+  Process fluid([=](const auto&) {
+    SolverSession session(impatient, gas());
+    for (std::uint64_t step = 0; step < 2; ++step) {
+      session.publish(predicted(step, 3));
+      session.receive("beam", step);
+      compute(step == 0 ? 0.3 : 1.2);
+    }
+    session.publish(predicted(2, 3));
+    session.receive("beam", 2);
+  });
+  Process coupler([=](const auto&) {
+    CouplerSession session(impatient, {{.role = "fluid", .name = "fluid"}}, "one case");
+    for (std::uint64_t step = 0; step < 3; ++step) {
+      session.gather(step);
+      session.scatter(std::vector{projected("fluid", step)});
+    }
+  });
+  EXPECT_EQ(coupler.end(30), 0) << coupler.hear();
+  EXPECT_EQ(fluid.end(30), 0) << fluid.hear();
+}
+
 TEST(Watching, FrozenMonitorDoesNotHoldUpTheRun) {
   const std::string run_id = own_run();
   Process monitor([=](const auto& say) {
@@ -167,7 +237,8 @@ TEST(SideBySide, RunsInOneDomainDoNotSeeEachOther) {
   for (int k = 0; domain_of(other) != domain_of(one) || other.empty(); ++k)
     other = fmt::format("{}/{}", one, k);
   Trio first(options(one), 500), second(options(other), 500);
-  Process lonely([=](const auto&) { EXPECT_THROW(send_control(one + ".", "stop", 0.3), PeerLost); });
+  Process lonely(
+      [=](const auto&) { EXPECT_THROW(send_control(one + ".", test_key, "stop", 0.3), PeerLost); });
   for (Process* process :
        {&first.fluid, &first.beam, &first.coupler, &second.fluid, &second.beam, &second.coupler}) {
     EXPECT_EQ(process->end(60), 0) << process->hear();

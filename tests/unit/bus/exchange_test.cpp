@@ -4,7 +4,9 @@
 
 #include "common/bus/convert.hpp"
 #include "common/bus/dds.hpp"
+#include "common/bus/link.hpp"
 #include "common/bus/listener.hpp"
+#include "common/bus/seal.hpp"
 #include "common/bus/solo_session.hpp"
 #include "tests/unit/bus/seats.hpp"
 
@@ -160,17 +162,18 @@ TEST(Exchange, SolverThatLeavesWithoutAWordIsNamed) {
 TEST(Exchange, SolverThatNeverFinishesItsStepIsNamed) {
   const std::string run = own_run();
   BusOptions impatient = options(run);
-  impatient.step_timeout_s = 0.3;
+  impatient.step_timeout_s = 0.03;  // on the clock ten times as long
   auto fluid = in_thread([&] { SolverSession(options(run), gas()).receive("beam", 0); });
   auto coupler = in_thread([&] { CouplerSession(impatient, only_gas, "one case").gather(0); });
-  EXPECT_TRUE(says(coupler.get().reason, "fluid lives but has not finished step 0"));
+  const std::string reason = coupler.get().reason;
+  EXPECT_TRUE(says(reason, "fluid") && says(reason, "lives but has not finished step 0")) << reason;
   EXPECT_EQ(fluid.get().code, ExitCode::peer_lost);
 }
 
 TEST(Exchange, RequestReachesTheCouplerAndEndsItsIdling) {
   const std::string run = own_run();
   SoloSession solo(options(run), "fluid", "fluid");
-  auto outside = in_thread([&] { send_control(run, "pause", 20); });
+  auto outside = in_thread([&] { send_control(run, test_key, "pause", 20); });
   solo.idle(20);
   const auto requests = solo.controls();
   ASSERT_EQ(requests.size(), 1U);
@@ -179,8 +182,30 @@ TEST(Exchange, RequestReachesTheCouplerAndEndsItsIdling) {
   EXPECT_EQ(outside.get().reason, "");
 }
 
+/// A request of somebody who sees the run on the bus, and whatever he overheard.
+TEST(Exchange, RequestOfAStrangerOrOneRepeatedIsIgnored) {
+  const std::string run = own_run();
+  SoloSession solo(options(run), "fluid", "fluid");
+  const Entity participant = create_participant(run);
+  Writer<amp_fsi_Control> stranger(participant, control_topic, Delivery::lasting);
+  while (stranger.matched() == 0) std::this_thread::yield();
+  const wire::Control genuine = Sealer(run, test_key).request("pause"),
+                      unsealed{.run = run, .command = "stop", .from = "me", .number = 1, .seal = {}};
+  for (const wire::Control& request :
+       {unsealed, Sealer(run, "a guess").request("stop"), genuine, genuine, genuine})
+    stranger.write(borrow(request));
+  EXPECT_TRUE(stranger.arrived(5));
+  std::vector<wire::Control> obeyed;
+  for (int k = 0; k < 10; ++k) {
+    solo.idle(0.02);
+    for (const wire::Control& request : solo.controls()) obeyed.push_back(request);
+  }
+  ASSERT_EQ(obeyed.size(), 1U);
+  EXPECT_EQ(obeyed[0].command, "pause");
+}
+
 TEST(Exchange, RequestToNobodyFails) {
-  EXPECT_THROW(send_control(own_run(), "stop", 0.2), PeerLost);
+  EXPECT_THROW(send_control(own_run(), test_key, "stop", 0.2), PeerLost);
 }
 
 TEST(Exchange, ListenerHearsTheNewestTelemetryOfEveryProgram) {

@@ -20,8 +20,11 @@ inline std::string own_run() {
   return fmt::format("{}.{}.{}", info->test_suite_name(), info->name(), getpid());
 }
 
+/// Of every run in the tests.
+inline constexpr const char* test_key = "a key";
+
 inline BusOptions options(const std::string& run) {
-  return {.run = run, .peer_timeout_s = 4, .hello_timeout_s = 20, .step_timeout_s = 60};
+  return {.run = run, .key = test_key, .peer_timeout_s = 4, .hello_timeout_s = 20, .step_timeout_s = 60};
 }
 
 /// A solver at the interface "beam" of `points` points in two dimensions.

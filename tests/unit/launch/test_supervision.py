@@ -7,6 +7,7 @@ import sys
 import threading
 import time
 import unittest
+from unittest import mock
 
 from launcher import InScratch
 
@@ -85,6 +86,16 @@ class Supervision(InScratch):
         self.assertEqual(outcome.signal, signal.SIGINT)
         self.assertEqual({ending.code for ending in endings.values()}, {-signal.SIGTERM})
         self.assertLess(seconds, supervise.STOP_GRACE)
+
+    def test_signal_that_comes_when_all_have_ended_is_not_forgotten(self):
+        end_everything = supervise.Supervisor._end_everything
+
+        def signalled(supervisor):
+            end_everything(supervisor)
+            os.kill(os.getpid(), signal.SIGTERM)
+
+        with mock.patch.object(supervise.Supervisor, "_end_everything", signalled):
+            self.assertEqual(self.supervise(one=exits(0))[1].signal, signal.SIGTERM)
 
     def test_second_interrupt_kills_at_once(self):
         self.after(0.7, signal.SIGINT, signal.SIGINT)

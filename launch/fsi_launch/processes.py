@@ -1,0 +1,48 @@
+"""The living programs of runs, as the system shows them."""
+
+import os
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+
+@dataclass
+class Living:
+    """A process that works for a run."""
+
+    name: str           # of the participant
+    program: str        # its executable
+    pid: int
+
+
+def _option(words, option):
+    """The word behind an option, or None."""
+    place = words.index(option) + 1 if option in words else len(words)
+    return words[place] if place < len(words) else None
+
+
+def programs_of(directory):
+    """The programs that work for the run in `directory`."""
+    wanted = Path(directory).resolve()
+    found = []
+    for entry in Path("/proc").iterdir():
+        if not entry.name.isdigit():
+            continue
+        try:
+            words = [os.fsdecode(word) for word in (entry / "cmdline").read_bytes().split(b"\0")]
+            if (folder := _option(words, "--run-dir")) is None:
+                continue
+            ended = (entry / "stat").read_text().rsplit(")", 1)[1].split()[0] in "ZX"
+            if not ended and (Path(os.readlink(entry / "cwd")) / folder).resolve() == wanted:
+                found.append(Living(_option(words, "--name") or "reference", os.path.basename(words[0]), int(entry.name)))
+        except (OSError, IndexError):  # it has just ended, or is somebody else's
+            continue
+    return found
+
+
+def until(condition, seconds):
+    """Waits for `condition()` to hold; returns its value, false after `seconds`."""
+    end = time.monotonic() + seconds
+    while not (value := condition()) and time.monotonic() < end:
+        time.sleep(0.02)
+    return value
