@@ -151,7 +151,7 @@ def _check_end(run, trial, before):
     _, _, code, within = FAULTS[trial.fault]
     if trial.code != code:
         trial.flaws.append(f"exit code {trial.code}, not {code}: {run.words.strip()[-300:]}")
-    if within and "did not join" in run.words:
+    if within and any(words in run.words for words in ("did not join", "joined but cannot be heard")):
         within = HELLO_TIMEOUT + END_WITHIN
     if within and trial.seconds > within + BUSY:
         trial.flaws.append(f"took {trial.seconds:.1f} s to end")
