@@ -41,10 +41,10 @@ def findings(folder):
     return [text for path in sorted(folder.glob("report*")) if FINDING.search(text := path.read_text(errors="replace"))]
 
 
-def until_stepping(run):
+def until_stepping(run, size=2000):
     from running import until
     table = run.directory / "interface.csv"
-    if not until(lambda: table.is_file() and table.stat().st_size > 2000, ENDS):
+    if not until(lambda: table.is_file() and table.stat().st_size > size, ENDS):
         raise RuntimeError(f"{run.directory} does not get going")
 
 
@@ -61,20 +61,27 @@ def plain(launch, *case):
     return launch(*case).wait()
 
 
+def stop(run):
+    outside(run, "ctl", str(run.directory), "stop").communicate()
+    return run.wait()
+
+
 def stopped_and_restarted(launch, *case):
     run = launch(*case)
     until_stepping(run)
-    outside(run, "ctl", "stop").communicate()
-    if (code := run.wait()) != 0:
+    if (code := stop(run)) != 0:
         return code
-    return launch("--restart", str(run.directory), "--no-progress", "--set", "time.end=0.01", out=None).wait()
+    again = launch("--restart", str(run.directory), "--no-progress", out=None)
+    again.directory = run.directory
+    until_stepping(again, (run.directory / "interface.csv").stat().st_size + 2000)
+    return stop(again)
 
 
 def steered(launch, *case):
     run = launch(*case)
     until_stepping(run)
     for word in ("pause", "checkpoint", "resume", "stop"):
-        outside(run, "ctl", word).communicate()
+        outside(run, "ctl", str(run.directory), word).communicate()
         time.sleep(0.5)
     return run.wait()
 
@@ -83,17 +90,16 @@ def watched(launch, *case):
     """By everybody at once; a browser reads, and asks for a checkpoint."""
     run = launch(*case)
     until_stepping(run)
-    monitors = [outside(run, "monitor", *words) for words in (("--plain",), ("--json",))]
-    recorder = outside(run, "monitor", "--plain", "--record", str(run.directory / "recording.h5"))
-    web = outside(run, "monitor", "--web", "0")
+    monitors = [outside(run, "monitor", str(run.directory), *words) for words in (("--plain",), ("--json",))]
+    recorder = outside(run, "monitor", str(run.directory), "--plain", "--record", str(run.directory / "recording.h5"))
+    web = outside(run, "monitor", str(run.directory), "--web", "0")
     host, port, token = re.search(r"//([^:]+):(\d+)/#token=(\w+)", web.stdout.readline()).groups()
     page = http.client.HTTPConnection(host, int(port), timeout=60)
     for method, path in (("GET", "/api/state.json"), ("GET", "/metrics"), ("POST", "/api/control?command=checkpoint")):
         page.request(method, path, headers={"X-AMP-FSI-Token": token})
         page.getresponse().read()
     time.sleep(2)
-    outside(run, "ctl", "stop").communicate()
-    code = run.wait()
+    code = stop(run)
     web.send_signal(signal.SIGINT)
     for process in (*monitors, recorder, web):
         process.communicate(timeout=ENDS)
