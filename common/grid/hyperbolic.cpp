@@ -77,19 +77,33 @@ void HyperbolicMarch::march(std::span<const double> curve, FieldView x, double t
     std::copy_n(curve.begin() + (c == 0 ? 0 : grid_.points), grid_.points, x.row(c, row_of(0)));
     if (closed()) x(c, grid_.points - 1, row_of(0)) = x(c, 0, row_of(0));
   }
+  if (!(mean_distance_ > 0)) mean_distance_ = mean_distance(x, row_of(0));
   double d = grid_.spacing;
   for (int line = 0; line + 1 < grid_.lines; ++line, d *= grid_.growth) {
-    measure(x, row_of(line));
-    smooth_arclength();
-    if (!closed()) {
-      keep_off_walls(x, row_of(line));
-      blend_into_walls();
-    }
-    fill_rows(x, row_of(line), d);
-    place(x, row_of(line), row_of(line + 1));
+    const int steps = std::max(1, static_cast<int>(std::lround(d / mean_distance_)));
+    for (int k = 0; k < steps; ++k) step(x, row_of(line + (k > 0 ? 1 : 0)), row_of(line + 1), d / steps);
   }
   fill_ghosts(x);
   check_cells(x, grid_.name, t);
+}
+
+/// Mean distance of the points along row j.
+double HyperbolicMarch::mean_distance(ConstFieldView x, int j) const {
+  double sum = 0;
+  for (int k = 1; k < grid_.points; ++k) sum += (point(x, k, j) - point(x, k - 1, j)).norm();
+  return sum / (grid_.points - 1);
+}
+
+/// From row j to row j_next, which may be the same one.
+void HyperbolicMarch::step(FieldView x, int j, int j_next, double d) {
+  measure(x, j);
+  smooth_arclength();
+  if (!closed()) {
+    keep_off_walls(x, j);
+    blend_into_walls();
+  }
+  fill_rows(x, j, d);
+  place(x, j, j_next);
 }
 
 /// Tangents, normals and distances along row j, by central differences, one-sided at open ends.
@@ -208,17 +222,15 @@ void HyperbolicMarch::place(FieldView x, int j, int j_next) {
   for (int c = 0; c < 2; ++c) {
     const double* from = x.row(c, j);
     double* to = x.row(c, j_next);
+    const std::array<double, 2> ends{from[0], from[n - 1]};
     for (std::size_t k = 0; k < n; ++k) to[k] = from[k] + step[k][c];
     if (closed()) to[n] = to[0];
-  }
-  for (std::size_t end = 0; end < 2; ++end) {
-    const std::optional<Vec2>& direction = grid_.walls[end];
-    if (closed() || !direction) continue;
-    const int k = end == 0 ? 0 : grid_.points - 1;
-    const Vec2& wall = *direction;
-    const Vec2 on_wall = point(x, k, j) + wall * wall.dot(step[static_cast<std::size_t>(k)]);
-    x(0, k, j_next) = on_wall[0];
-    x(1, k, j_next) = on_wall[1];
+    for (std::size_t end = 0; end < 2; ++end) {
+      const std::optional<Vec2>& wall = grid_.walls[end];
+      if (closed() || !wall) continue;
+      const std::size_t k = end == 0 ? 0 : n - 1;
+      to[k] = ends[end] + (*wall)[c] * wall->dot(step[k]);
+    }
   }
 }
 

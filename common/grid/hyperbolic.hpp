@@ -38,7 +38,11 @@ struct HyperbolicGrid {
   int blend = 5;                ///< points over which normals turn into the wall's direction
 };
 
-/// Marches grids of one description; owns the work memory, so that a march allocates nothing.
+/// Marches grids of one description, in steps no longer than about the distance between points: where lines
+/// are farther apart than that, a line is reached in several steps, for one long step amplifies short waves
+/// of the curve until cells fold. How many steps is decided by the first curve.
+///
+/// An object owns the work memory, so that a march allocates nothing.
 class HyperbolicMarch {
  public:
   /// @throws UserMistake where the description is out of range
@@ -64,12 +68,15 @@ class HyperbolicMarch {
   HyperbolicGrid grid_;
   LineSolver solver_;
   std::vector<LinePoint> line_;
-  std::vector<double> arc_;  ///< distance between points
+  std::vector<double> arc_;   ///< distance between points
+  double mean_distance_ = 0;  ///< the same of the first curve, its mean
   std::vector<double> smooth_,
       smooth_before_;  ///< the same, smoothed; point k at [k + 1], a neighbour beyond each end
 
   bool closed() const { return grid_.ends == Curve::closed; }
   int row_of(int line) const { return grid_.curve == Side::bottom ? line : grid_.lines - 1 - line; }
+  double mean_distance(ConstFieldView x, int j) const;
+  void step(FieldView x, int j, int j_next, double d);
   void measure(ConstFieldView x, int j);
   void smooth_arclength();
   void keep_off_walls(ConstFieldView x, int j);

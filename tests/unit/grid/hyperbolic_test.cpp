@@ -222,6 +222,38 @@ TEST(HyperbolicMarch, GhostLinesContinueTheGridSmoothly) {
   }
 }
 
+/// Largest distance between the grid around a circle and that around one whose radius swings `waves` times by
+/// `swing`. Eight lines, 0.05 apart.
+double answer_to_a_wave(int points, int waves, double swing) {
+  const HyperbolicGrid description{.points = points, .lines = 8, .curve = Side::top, .spacing = 0.05};
+  const Marched round = march(circle({0, 0}, 1), description);
+  std::vector<double> curve = round.curve;
+  for (int k = 0; k < points; ++k) {
+    const double r = 1 + swing * std::cos(2 * pi * waves * k / (points - 1));
+    curve[static_cast<std::size_t>(k)] *= r;
+    curve[static_cast<std::size_t>(points + k)] *= r;
+  }
+  Field x(round.x.layout(), 2);
+  HyperbolicMarch(description).march(curve, x.view(), 0);
+  double worst = 0;
+  for (int j = 0; j < description.lines; ++j) {
+    for (int i = 0; i < points; ++i)
+      worst = std::max(worst, std::hypot(x(0, i, j) - round.x(0, i, j), x(1, i, j) - round.x(1, i, j)));
+  }
+  return worst;
+}
+
+TEST(HyperbolicMarch, DoesNotAmplifyWavesShorterThanTheDistanceOfTheLines) {
+  constexpr double swing = 0.0005;
+  for (const int finer : {1, 2, 4, 8}) {  // points than lines
+    const int points = 126 * finer + 1;
+    for (const int waves : {21, 42, 63, 126, 252}) {
+      if (4 * waves > points) continue;
+      EXPECT_LT(answer_to_a_wave(points, waves, swing), 4 * swing) << finer << " " << waves;
+    }
+  }
+}
+
 TEST(HyperbolicMarch, NamesGridCellPlaceAndTimeOfAFold) {
   try {
     march(beam_outline(), beam_grid(200, 10, Side::top, 0.02), 1.5);
