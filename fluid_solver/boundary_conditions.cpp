@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <vector>
 
 #include "common/core/failure.hpp"
+#include "fluid_solver/far_field.hpp"
 #include "fluid_solver/ghost_lines.hpp"
 
 namespace fsi::fluid {
@@ -36,6 +38,7 @@ class BoundaryConditions {
     each<SlipWall>([this](const SidePoints& side) { set_slip_wall(side); });
     each<Symmetry>([this](const SidePoints& side) { set_symmetry(side); });
     each<Inflow>([this](const SidePoints& side) { set_inflow(side); });
+    each<FarField>([this](const SidePoints& side) { set_far_field(side); });
     each<Dirichlet>([this](const SidePoints& side) { set_dirichlet(side); });
     each<Periodic>([this](const SidePoints& side) { set_periodic(side); });
   }
@@ -183,6 +186,21 @@ class BoundaryConditions {
     }
   }
 
+  void set_far_field(const SidePoints& side) {
+    const StateField& given = std::get<FarField>(component_.boundary(side.side())).state;
+    const std::vector<double>& velocity = component_.wall(side.side()).velocity;
+    const auto n = static_cast<std::size_t>(side.n());
+    for (std::size_t k = 0; k < n; ++k) {
+      const int point = static_cast<int>(k);
+      const Vec2 place = position(x_, side, point, 0), outward = -inward_normal(x_, side, point);
+      const StateVector beyond = to_vector(given(place[0], place[1], task_.t));
+      const OpenSide open{.n = outward,
+                          .speed = outward.dot(Vec2(velocity[k], velocity[n + k])),
+                          .gamma = task_.options.gamma};
+      store(q_, side.at(point, 0), between(load(q_, side.at(point, 0)), beyond, open));
+    }
+  }
+
   void set_dirichlet(const SidePoints& side) {
     given_lines(q_, x_, side, std::get<Dirichlet>(component_.boundary(side.side())).state, task_.t);
   }
@@ -198,7 +216,8 @@ class BoundaryConditions {
     // Gas with a chosen solution may cross a wall: the momentum equation on it does not hold.
     const bool is_wall = is<Interface>(boundary) || is<SlipWall>(boundary), crossed = forcing() != nullptr;
     if (is_wall && !crossed) wall_ghosts(q_, x_, side, wall_of(side), limited());
-    if (is<Inflow>(boundary) || (is_wall && crossed)) extrapolated_ghosts(q_, side, limited());
+    const bool given = is<Inflow>(boundary) || is<FarField>(boundary);
+    if (given || (is_wall && crossed)) extrapolated_ghosts(q_, side, limited());
     if (is<Outflow>(boundary))
       outflow_ghosts(q_, x_, side, component_.wall(side.side()).velocity, task_.options);
   }

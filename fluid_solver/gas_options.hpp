@@ -43,6 +43,10 @@ struct Inflow {
 };
 /// Nothing given: what leaves is extrapolated, what would enter is taken as undisturbed.
 struct Outflow {};
+/// A given state beyond the boundary: what comes in along characteristics is its, what goes out leaves.
+struct FarField {
+  StateField state;
+};
 /// All four values given on the boundary and behind it.
 struct Dirichlet {
   StateField state;
@@ -52,6 +56,7 @@ struct Periodic {};
 /// Nothing is done: no advanced point lies there (its points interpolate or are not used).
 struct Idle {};
 
-using Boundary = std::variant<Interface, SlipWall, Symmetry, Inflow, Outflow, Dirichlet, Periodic, Idle>;
+using Boundary =
+    std::variant<Interface, SlipWall, Symmetry, Inflow, Outflow, FarField, Dirichlet, Periodic, Idle>;
 
 }  // namespace fsi::fluid

@@ -186,6 +186,7 @@ class CaseData {
         return result;
       case BoundaryKind::inflow:
       case BoundaryKind::outflow:
+      case BoundaryKind::far_field:
         break;
     }
     throw UserMistake(

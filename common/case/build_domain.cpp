@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -16,11 +17,11 @@ using config::Node;
 
 BoundaryKind kind_of(const std::string& word) {
   static const std::map<std::string, BoundaryKind> kinds{
-      {"interface", BoundaryKind::interface},      {"slip_wall", BoundaryKind::slip_wall},
-      {"symmetry", BoundaryKind::symmetry},        {"inflow", BoundaryKind::inflow},
-      {"outflow", BoundaryKind::outflow},          {"dirichlet", BoundaryKind::dirichlet},
-      {"periodic", BoundaryKind::periodic},        {"traction", BoundaryKind::traction},
-      {"displacement", BoundaryKind::displacement}};
+      {"interface", BoundaryKind::interface}, {"slip_wall", BoundaryKind::slip_wall},
+      {"symmetry", BoundaryKind::symmetry},   {"inflow", BoundaryKind::inflow},
+      {"outflow", BoundaryKind::outflow},     {"far_field", BoundaryKind::far_field},
+      {"dirichlet", BoundaryKind::dirichlet}, {"periodic", BoundaryKind::periodic},
+      {"traction", BoundaryKind::traction},   {"displacement", BoundaryKind::displacement}};
   return kinds.at(word);
 }
 
@@ -70,9 +71,10 @@ BoundarySpec boundary_from_word(const Reader& reader, const Owner& owner, const 
     return result;
   }
   result.kind = kind_of(node.text);
-  const bool needs_data = result.kind == BoundaryKind::dirichlet || result.kind == BoundaryKind::inflow ||
-                          result.kind == BoundaryKind::traction || result.kind == BoundaryKind::displacement;
-  if (needs_data) result.from_reference = reader.from_reference(node, path);
+  constexpr std::array with_data{BoundaryKind::dirichlet, BoundaryKind::inflow, BoundaryKind::far_field,
+                                 BoundaryKind::traction, BoundaryKind::displacement};
+  if (std::ranges::find(with_data, result.kind) != with_data.end())
+    result.from_reference = reader.from_reference(node, path);
   if (result.kind == BoundaryKind::interface && owner.name == "fluid") {
     if (owner.partner.empty())
       fail(node.place, path, "write {kind: interface, solid: NAME}: the case has not one solid");

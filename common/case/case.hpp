@@ -62,6 +62,7 @@ enum class BoundaryKind {
   symmetry,
   inflow,
   outflow,
+  far_field,
   dirichlet,
   periodic,
   traction,
@@ -71,8 +72,8 @@ enum class BoundaryKind {
 struct BoundarySpec {
   BoundaryKind kind = BoundaryKind::symmetry;
   std::string solid = {};       ///< interface: the solid on the other side
-  bool from_reference = false;  ///< inflow, dirichlet, traction, displacement: data of `reference`
-  std::optional<GasExpressions> state = {};        ///< gas inflow, dirichlet
+  bool from_reference = false;  ///< inflow, far_field, dirichlet, traction, displacement: data of `reference`
+  std::optional<GasExpressions> state = {};        ///< gas inflow, far_field, dirichlet
   std::optional<VectorExpressions> vector = {};    ///< solid: traction per unit current area, or displacement
   std::optional<VectorExpressions> velocity = {};  ///< solid displacement: its time derivative, where given
   bool on_reference = false;                       ///< solid: the load belongs to the reference configuration

@@ -97,6 +97,8 @@ constexpr array gas_boundary_variants{
     Variant{"symmetry", "mirror images across a straight side", {}},
     Variant{"inflow", "the state is imposed", gas_boundary_state},
     Variant{"outflow", "extrapolation", {}},
+    Variant{"far_field", "what comes in along characteristics is that of the state, what goes out leaves",
+            gas_boundary_state},
     Variant{"dirichlet", "all values are imposed, ghost points too", gas_boundary_state},
     Variant{"periodic", "continues at the opposite side", {}},
 };

@@ -137,11 +137,11 @@ const Mistake values[] = {
     {"UnknownWord", "bottom: symmetry\n    top", "bottom: symetry\n    top",
      "case.yaml:13:13: fluid.boundary.bottom: unknown word `symetry`; did you mean `symmetry`? (a section of "
      "keys, or one of slip_wall, symmetry, inflow, "
-     "outflow, dirichlet, periodic)"},
+     "outflow, far_field, dirichlet, periodic)"},
     {"UnknownKind", "kind: interface", "kind: interfaec",
      "case.yaml:11:18: fluid.boundary.left.kind: unknown kind `interfaec`; did you mean `interface`? (one of "
      "interface, slip_wall, symmetry, inflow, outflow, "
-     "dirichlet, periodic)"},
+     "far_field, dirichlet, periodic)"},
     {"UnknownLaw", "law: neo_hookean", "law: neohooke",
      "case.yaml:18:10: solids.solid.law: `neohooke` does not exist here; did you mean `neo_hookean`? (one of "
      "linear_elastic, saint_venant_kirchhoff, "
