@@ -9,7 +9,7 @@ import numpy as np
 from running import ROOT
 
 sys.path.insert(0, str(ROOT / "launch"))
-from fsi_launch.plot import data, disk, mesh, scales, style  # noqa: E402
+from fsi_launch.plot import data, disk, mesh, scales, several, side_by_side, style  # noqa: E402
 
 HOLE, RIM, OUTER = 0.5, 0.55, 0.8  # radii: unused points, the ring's inside and outside
 
@@ -83,6 +83,33 @@ class Numbers(unittest.TestCase):
         self.assertEqual(size.of("force*length/depth"), size.of("force"))
         self.assertEqual(size.of("power"), size.of("force") * size.of("length/time"))
         self.assertEqual(size.floor("apples"), 0.0)
+
+
+class SideBySide(unittest.TestCase):
+    def lattice(self, points, hole=0.0):
+        x1, x2 = np.meshgrid(np.linspace(-1, 1, points), np.linspace(-1, 1, points))
+        kind = np.where(np.hypot(x1, x2) < hole, data.UNUSED, data.DISCRETISED)
+        return read({"x1": x1, "x2": x2, "kind": kind, "rho": np.where(kind == data.UNUSED, np.nan, 2 + x1 * x2)})
+
+    def test_densities_are_compared_where_both_backgrounds_have_points(self):
+        for pair in ((self.lattice(21), self.lattice(41, 0.3)), (self.lattice(41, 0.3), self.lattice(21))):
+            x1, x2, (a, b) = side_by_side.on_common_points(*pair)
+            self.assertEqual(x1.shape, (21, 21))
+            known = np.hypot(x1, x2) >= 0.3
+            self.assertTrue((np.isnan(a) == ~known).all() and (a[known] == b[known]).all())
+
+    def test_backgrounds_without_common_points_are_not_compared(self):
+        self.assertIsNone(side_by_side.on_common_points(self.lattice(21), self.lattice(31)))
+
+    def test_runs_are_called_by_what_is_different_about_them(self):
+        case = "grid: \n  factor: {j}\ninterface:\n  projection: {p}\n"
+        cases = [case.format(j=j, p="full") for j in (8, 16)]
+        self.assertEqual(several.labels(cases, ["a", "b"]), ["h = 1/80", "h = 1/160"])
+        self.assertEqual(several.labels([cases[0]] * 2, ["a", "b"]), ["a", "b"])
+
+    def test_few_times_are_spread_evenly_and_common_to_all_runs(self):
+        runs = [dict.fromkeys(times, "output") for times in ((0, 0.5, 1, 2, 3, 4), (0, 0.5, 1 + 1e-12, 2, 3, 4, 5))]
+        self.assertEqual(several.few(several.common_times(runs)), [0.5, 2, 4])
 
 
 class Disk(unittest.TestCase):

@@ -1,17 +1,16 @@
 """Centrelines of beams (the paper's figures 22 and 23): solids that stand on a wall with both ends of their outline."""
 
-import csv
 from dataclasses import dataclass
 
 import numpy as np
 from matplotlib import pyplot
 from matplotlib.tri import LinearTriInterpolator
 
-from fsi_launch.plot import mesh, style
+from fsi_launch.plot import mesh, several, style
 
+HEADING = ("beam", "coarse", "fine", "t", "largest distance")
 SLENDER = 3         # a beam is so many times longer than it is thick
 STATIONS = 201      # along a centreline
-SAME_TIME = 1e-9
 FINEST, COARSER = "-", ("--", ":", "-.")
 
 
@@ -89,23 +88,13 @@ def of(series):
 
 def run_of(series, case):
     """A run for comparison; `case`: the text of its case file."""
-    parameters, factor, section = {}, 0.0, ""
-    for line in case.splitlines():
-        if line and not line[0].isspace():
-            section = line.split(":")[0]
-        key, _, value = line.strip().partition(":")
-        if section == "parameters" and line.startswith("  "):
-            parameters[key] = value.strip()
-        if section == "grid" and key == "factor":
-            factor = float(value)
+    entries = several.entries(case)
+    parameters = {key.removeprefix("parameters."): value for key, value in entries.items() if key.startswith("parameters.")}
+    factor = float(entries.get("grid.factor", 0))
     return Run(parameters, factor, of(series))
 
 
 # --- comparison
-
-
-def _common_times(a, b):
-    return [(t, other) for t in a.lines for other in b.lines if abs(t - other) < SAME_TIME]
 
 
 def distances(a, b):
@@ -115,7 +104,8 @@ def distances(a, b):
     def at(beam, line):
         return np.array([np.interp(stations, beam.stations, x) for x in line.T])
 
-    return {t: np.hypot(*(at(a, a.lines[t]) - at(b, b.lines[other]))).max() for t, other in _common_times(a, b)}
+    return {t: np.hypot(*(at(a, a.lines[t]) - at(b, several.at(b.lines, t)))).max()
+            for t in several.common_times([a.lines, b.lines])}
 
 
 def _groups(runs):
@@ -147,13 +137,6 @@ def table(runs):
                 found = distances(beam, other) if other else {}
                 rows += [(_label(fine, runs) or beam.name, coarse.factor, fine.factor, t, d) for t, d in found.items()]
     return rows
-
-
-def write_table(rows, path):
-    with open(path, "w", encoding="utf-8", newline="") as file:
-        out = csv.writer(file)
-        out.writerow(["beam", "coarse", "fine", "t", "largest distance"])
-        out.writerows(rows)
 
 
 # --- pictures

@@ -1,7 +1,7 @@
 """What several runs have in common, drawn side by side."""
 
 from fsi_launch.failure import UserMistake
-from fsi_launch.plot import beams, data, outlines
+from fsi_launch.plot import beams, data, outlines, several, side_by_side
 
 
 def _case_of(directory):
@@ -16,7 +16,7 @@ def _beams(series, cases, out):
         return
     yield "centrelines_compared", beams.picture(runs)
     if rows := beams.table(runs):
-        beams.write_table(rows, out / "centrelines.csv")
+        several.write_table(beams.HEADING, rows, out / "centrelines.csv")
         for label, coarse, fine, t, distance in rows:
             print(f"{label}: j = {coarse:g} against {fine:g}, t = {t:g}: {distance:.2e}")
 
@@ -25,7 +25,9 @@ def pictures(directories, out):
     """(name, figure) for each kind of thing at least one of the runs holds."""
     out.mkdir(parents=True, exist_ok=True)
     series, cases = [data.all_series(one) for one in directories], [_case_of(one) for one in directories]
-    parts = [*_beams(series, cases, out), *outlines.pictures(series, cases, [one.name for one in directories], out)]
+    told = several.labels(cases, [one.name for one in directories])
+    parts = [*_beams(series, cases, out), *outlines.pictures(series, told, out), *side_by_side.pictures(series, told)]
     if not parts:
-        raise UserMistake("the runs hold nothing that can be compared: several runs are for beams and for outlines of solids")
+        raise UserMistake("the runs hold nothing that can be compared: several runs are for beams, outlines of solids and gas "
+                          "with shocks")
     yield from parts

@@ -1,0 +1,68 @@
+"""Several runs beside each other: what tells them apart, and which output times they share."""
+
+import csv
+
+import numpy as np
+
+SAME_TIME = 1e-9
+MOST_TIMES = 3
+TELLING = ("law", "factor", "projection", "multirate")
+
+
+def entries(case):
+    """{dotted key: value} of the text of a resolved case file."""
+    result, path = {}, []
+    for line in case.splitlines():
+        key, colon, value = line.strip().partition(":")
+        if not colon or line.strip().startswith(("#", "-")):
+            continue
+        depth = (len(line) - len(line.lstrip())) // 2
+        path = path[:depth] + [key]
+        if value.strip():
+            result[".".join(path)] = value.strip()
+    return result
+
+
+def _short(key, value):
+    last = key.rsplit(".", 1)[-1]
+    if key == "grid.factor":
+        return f"h = 1/{10 * float(value):g}"
+    return value.replace("_", " ") if last in ("law", "projection") else f"{last} = {value}"
+
+
+def different(cases):
+    """The keys in which cases differ, in their order. `cases`: what `entries` says of each."""
+    return [key for key in dict.fromkeys(key for one in cases for key in one) if len({one.get(key) for one in cases}) > 1]
+
+
+def labels(cases, names):
+    """What is different about each run, in few words; else the names of the folders. `cases`: texts of case files."""
+    found = [entries(case) for case in cases]
+    keys = [key for key in different(found) if key.startswith("parameters.") or key.rsplit(".", 1)[-1] in TELLING]
+    result = [", ".join(_short(key, one[key]) for key in keys if key in one) for one in found]
+    return result if len(set(result)) == len(result) else list(names)
+
+
+def at(values, t):
+    """The value of {time: value} at a time, or None."""
+    return next((value for other, value in values.items() if abs(other - t) < SAME_TIME), None)
+
+
+def common_times(runs):
+    """Times after the start at which each of the {time: value} has one."""
+    first, *others = runs
+    return [t for t in first if t > 0 and all(at(other, t) is not None for other in others)]
+
+
+def few(times):
+    """At most MOST_TIMES of them, spread evenly."""
+    if len(times) <= MOST_TIMES:
+        return times
+    return [times[round(k)] for k in np.linspace(0, len(times) - 1, MOST_TIMES)]
+
+
+def write_table(heading, rows, path):
+    with open(path, "w", encoding="utf-8", newline="") as file:
+        writer = csv.writer(file)
+        writer.writerow(heading)
+        writer.writerows(rows)
