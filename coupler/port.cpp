@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 #include <string_view>
 
 #include "common/core/log.hpp"
@@ -18,12 +19,7 @@ bus::CouplerSession join(const Setup& setup) {
   const Case& problem = setup.problem;
   std::vector<bus::Expected> who{{.role = "fluid", .name = "fluid"}};
   for (const SolidSpec& solid : problem.solids) who.push_back({.role = "solid", .name = solid.name});
-  return {bus::BusOptions{.run = setup.run,
-                          .key = setup.key,
-                          .peer_timeout_s = problem.time.peer_timeout,
-                          .step_timeout_s = problem.time.step_timeout,
-                          .throw_if_interrupted = throw_if_interrupted},
-          std::move(who), problem.digest};
+  return {bus_options(setup), std::move(who), problem.digest};
 }
 
 Path path_of(const InterfaceSpec& interface) {
@@ -77,7 +73,8 @@ CoupledRun::CoupledRun(const Setup& setup, io::Part& part)
       table_(setup.run_dir + "/interface.csv", columns_of(setup.problem), setup.opening()),
       progress_(setup.problem.time.end),
       checkpoints_(setup, part, [this](Archive& archive) { this->archive(archive); }),
-      clock_(setup.problem.output) {
+      due_(setup.problem.output),
+      clock_(part) {
   part_.points = coupler_.points();
   part_.interface = io::InterfaceExtremes{};
 }
@@ -88,21 +85,15 @@ void CoupledRun::archive(Archive& archive) {
 }
 
 void CoupledRun::run() {
-  try {
+  run_within(session_, [this] {
     loop();
     session_.leave();
-  } catch (const Failure& failure) {
-    session_.abort(failure.code(), failure.what());
-    throw;
-  } catch (const std::exception& error) {
-    session_.abort(ExitCode::expectation_missed, error.what());
-    throw;
-  }
+  });
 }
 
 void CoupledRun::loop() {
   at_ = checkpoints_.begin();
-  clock_.start(at_.step);
+  due_.start(at_.step);
   while (!coupler_.finished()) {
     obey_requests();
     exchange();
@@ -114,22 +105,27 @@ void CoupledRun::loop() {
 /// Whoever sends the state of a step has written its checkpoint of that step.
 void CoupledRun::exchange() {
   const auto predicted = session_.gather(at_.step);
-  part_.wait_s += watch_.lap();
+  clock_.lap(io::Work::waiting);
   if (checkpoint_ == at_.step) complete_checkpoint();
-  session_.scatter(coupler_.step(predicted));
+  clock_.lap(io::Work::output);
+  const std::span<const wire::ProjectedInterface> answers = coupler_.step(predicted);
+  clock_.lap(io::Work::advance);
+  session_.scatter(answers);
+  clock_.lap(io::Work::messages);
   write_results(setup_, part_, [&] { record(); });
   at_ = {.step = at_.step + 1, .t = coupler_.next().plan.t_next, .dt = coupler_.next().plan.dt};
   if (coupler_.checkpoint_asked()) {
     checkpoints_.save(at_);
     checkpoint_ = at_.step;
   }
-  part_.compute_s += watch_.lap();
+  clock_.lap(io::Work::output);
   show();
+  clock_.lap(io::Work::messages);
 }
 
 void CoupledRun::complete_checkpoint() {
   const bool complete = checkpoints_.complete(at_);
-  clock_.start(at_.step);
+  due_.start(at_.step);
   checkpoint_.reset();
   if (!end_.empty()) {
     if (complete) end_ += fmt::format(", after a checkpoint of step {}", at_.step);
@@ -143,7 +139,7 @@ void CoupledRun::complete_checkpoint() {
 
 /// A pause waits here; checkpoints, also those before an end, need an exchange or two.
 void CoupledRun::obey_requests() {
-  bool checkpoint = clock_.due(at_.step + 1);
+  bool checkpoint = due_.due(at_.step + 1);
   while (true) {
     for (const wire::Control& control : session_.controls()) {
       log_info(fmt::format("request: {}", control.command));

@@ -10,7 +10,7 @@
 #include "common/bus/coupler_session.hpp"
 #include "common/io/csv_writer.hpp"
 #include "common/program/checkpoints.hpp"
-#include "common/program/program.hpp"
+#include "common/program/session.hpp"
 #include "coupler/coupler.hpp"
 
 namespace fsi::coupler {
@@ -40,13 +40,13 @@ class CoupledRun {
   io::CsvWriter table_;
   ProgressLines progress_;
   Checkpoints checkpoints_;
-  CheckpointClock clock_;
+  CheckpointClock due_;
   io::Standing at_;                          ///< the exchange to come
   std::optional<std::uint64_t> checkpoint_;  ///< step of the set being written
   bool paused_ = false;
   bool stop_ = false;  ///< after a checkpoint
   std::string end_;    ///< who asked for the end, after a checkpoint
-  Stopwatch watch_;
+  WorkClock clock_;
   Patience patience_;
 };
 

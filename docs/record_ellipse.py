@@ -7,8 +7,10 @@ CASE = "shock_ellipse"
 SCHEME = "solids.ellipse.scheme"
 STABILISATION = {"tangential_stress": 0.5, "displacement": 0.5, "relaxation": 0.2}  # as in configs/shock_ellipse.yaml
 POSE = ("centre1", "centre2", "velocity1", "velocity2", "angle")
-COUNTS = ("steps", "participants.ellipse.substeps", "interface.max_gap", "counters.first_order_fallbacks", "counters.floors",
-          "status")
+COUNTS = ("steps", "participants.ellipse.substeps", "interface.max_gap", "counters.first_order_fallbacks",
+          "counters.first_order_fallbacks_outside_shocks", "counters.floors", "status")
+SHOCK = "definitions.behind=x < x_shock - 1e-6 ? 1 : 0"  # starts between the same points on every lattice
+WORK = ("advance", "time_step", "boundary", "grids", "messages", "output", "waiting")
 ROUND_OFF_GROWN = 1e-9  # larger differences come from a decision that fell otherwise
 
 # The set-up of configs/shock_ellipse.yaml turned by 90 degrees about the origin: (x, y) -> (-y, x).
@@ -81,18 +83,20 @@ def symmetry(tools, factor):
 
 
 def parts(tools, name, variants):
-    """Wall time of runs and what each program did with it."""
-    programs = ("fluid", "ellipse", "coupler")
-    lines = ["| | wall [s] | steps | " + " | ".join(f"{one} computes [s] | waits [s] | updates/s" for one in programs) + " |",
-             "|" + "---|" * (3 + 3 * len(programs))]
+    """Wall time of runs, what each program did with it, and its memory."""
+    heading = ["", "wall [s]", "steps", "program", "computes [s]", "updates/s", "memory [MiB]", *(f"{one} [%]" for one in WORK)]
+    lines = ["| " + " | ".join(heading) + " |", "|" + "---|" * len(heading)]
     for index, (label, settings, solids) in enumerate(variants):
         directory, _, _ = tools.run_once(f"{name}-{index}", CASE, settings, solids)
         summary = tools.summary_of(directory)
-        cells = [tools.shown(tools.value_at(summary, path)) for path in ("wall_s", "steps")]
-        for one in programs:
-            cells += [tools.shown(tools.value_at(summary, f"participants.{one}.{key}"))
-                      for key in ("compute_s", "wait_s", "point_updates_per_s")]
-        lines.append("| " + " | ".join([label, *cells]) + " |")
+        run = [label, *(tools.shown(tools.value_at(summary, path)) for path in ("wall_s", "steps"))]
+        for program, found in summary.get("participants", {}).items():
+            spent = found.get("time_s", {})
+            total = sum(spent.values()) or math.nan
+            cells = [program, *(tools.shown(found.get(key)) for key in ("compute_s", "point_updates_per_s")),
+                     f"{found.get('peak_memory_mib', math.nan):.0f}", *(f"{100 * spent.get(one, 0) / total:.1f}" for one in WORK)]
+            lines.append("| " + " | ".join(run + cells) + " |")
+            run = [""] * len(run)
     return "\n".join(lines) + "\n"
 
 
@@ -108,10 +112,11 @@ def variants():
         "multirate": [(f"multirate {word}", [f"time.multirate={word}"], []) for word in ("true", "false")],
         "stabilisation": [("as it is", [], []), *((f"half of {key}", [text], []) for key, text in half.items()),
                           ("half of all", list(half.values()), [])],
-        "left boundary": [("x = -4", [], []), ("x = -6", ["fluid.grid.x=[-6, 5]"], [])],
+        "left boundary": [(f"{kind}, x = {x}", [f"fluid.grid.x=[{x}, 5]", f"fluid.boundary.left.kind={kind}", SHOCK], [])
+                          for x in (-6, -4) for kind in ("inflow", "far_field")],
         "points of the gas": [(f"{part} times those of the solid",
                                [f"fluid.body_fitted.0.points=round({part} * 2 * pi * 0.875 / h) + 1"], [])
-                              for part in ("1", "0.25", "0.5", "2")]}
+                              for part in ("1", "0.25", "0.5", "2", "4")]}
 
 
 def studies(tools):

@@ -9,6 +9,7 @@
 #include "common/core/failure.hpp"
 #include "fluid_solver/ghost_lines.hpp"
 #include "fluid_solver/kernels/rates.hpp"
+#include "fluid_solver/shocks.hpp"
 
 namespace fsi::fluid {
 
@@ -183,6 +184,17 @@ void Component::add_source(double t, double dt) {
   has_source_ = true;
 }
 
+/// Shocks are looked for at these points only, in the state that made them fall back.
+void Component::count_fallbacks() {
+  const ShockField field{
+      .q = state_.view(), .valid = valid_, .periodic = {grid_.periodic(0), grid_.periodic(1)}};
+  for (const PointIndex& point : fallbacks_) {
+    counters_.first_order += 1;
+    if (!inside_shock(field, point.i, point.j)) counters_.first_order_outside_shocks += 1;
+  }
+  fallbacks_.clear();
+}
+
 void Component::advance(double t, double dt) {
   if (forcing_) {
     if (!has_source_) forcing_->evaluate(grid_.x_old(), t - dt, source_.view());
@@ -190,10 +202,10 @@ void Component::advance(double t, double dt) {
   }
   const SweepCounts counts =
       sweep({.q = state_.view(), .q_new = next_.view(), .grid = step_grid(), .runs = runs_, .dt = dt},
-            scheme_, {workspace_, row_rates_});
+            scheme_, {workspace_, row_rates_, fallbacks_});
+  count_fallbacks();
   std::swap(state_, next_);
   advanced_ = true;
-  counters_.first_order += counts.first_order;
   counters_.floors += counts.floors;
   counters_.steps += 1;
   if (counts.broken > 0) report_broken(t);
@@ -260,6 +272,7 @@ void Component::archive(Archive& archive) {
   archive.number("prescribed", prescribed_);
   archive.number("p_floor", scheme_.p_floor);
   archive.number("first_order", counters_.first_order);
+  archive.number("first_order_outside_shocks", counters_.first_order_outside_shocks);
   archive.number("floors", counters_.floors);
   archive.number("steps", counters_.steps);
   for (const Side side : all_sides) {

@@ -40,8 +40,9 @@ struct FastestPoint {
 
 /// Counted since the start.
 struct Counters {
-  double first_order = 0;  ///< points advanced with first-order states
-  double floors = 0;       ///< points whose pressure was lifted to the floor
+  double first_order = 0;                 ///< points advanced with first-order states
+  double first_order_outside_shocks = 0;  ///< of these, those without a shock near them
+  double floors = 0;                      ///< points whose pressure was lifted to the floor
   double steps = 0;
 };
 
@@ -104,6 +105,7 @@ class Component {
   bool prescribed_ = false;        ///< the grid's motion is known beforehand
   bool moved_ = false, advanced_ = false;  ///< in the step going on
   Counters counters_;
+  std::vector<PointIndex> fallbacks_;  ///< work memory: points of one sweep
   std::optional<Forcing> forcing_;
   Field source_;             ///< of the forcing, at the time and on the grid of the state
   bool has_source_ = false;  ///< it was evaluated
@@ -115,6 +117,7 @@ class Component {
   /// 1 / dt of (45) at the points of a row, in the workspace.
   double* step_rates(int j, Range range) const;
   void add_source(double t, double dt);
+  void count_fallbacks();
   [[noreturn]] void report_broken(double t) const;
 };
 

@@ -44,8 +44,9 @@ struct Totals {
 /// How well the numbers are.
 struct Health {
   double min_rho = 0, min_p = 0;
-  double min_cell_quality = 1;              ///< of the grids that move, grid::cell_quality
-  std::uint64_t first_order_fallbacks = 0;  ///< points advanced with first-order states, since the start
+  double min_cell_quality = 1;                   ///< of the grids that move, grid::cell_quality
+  std::uint64_t first_order_fallbacks = 0;       ///< points advanced with first-order states, since the start
+  std::uint64_t first_order_outside_shocks = 0;  ///< of these, those without a shock near them
   std::uint64_t floors = 0;  ///< points whose pressure was lifted to the floor, since the start
 };
 

@@ -139,7 +139,7 @@ Totals GasSolver::totals() const {
 Health GasSolver::health() const {
   constexpr double none = std::numeric_limits<double>::infinity();
   Health health{.min_rho = none, .min_p = none};
-  double first_order = 0, floors = 0;
+  double first_order = 0, outside_shocks = 0, floors = 0;
   for (const Component& component : components_) {
     const ConstFieldView q = component.state();
     for (int j = 0; j < q.layout.n2; ++j) {
@@ -152,9 +152,11 @@ Health GasSolver::health() const {
     if (component.grid().moves())
       health.min_cell_quality = std::min(health.min_cell_quality, grid::cell_quality(component.grid().x()));
     first_order += component.counters().first_order;
+    outside_shocks += component.counters().first_order_outside_shocks;
     floors += component.counters().floors;
   }
   health.first_order_fallbacks = static_cast<std::uint64_t>(first_order);
+  health.first_order_outside_shocks = static_cast<std::uint64_t>(outside_shocks);
   health.floors = static_cast<std::uint64_t>(floors);
   return health;
 }

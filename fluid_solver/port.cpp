@@ -56,6 +56,8 @@ Boundary boundary_of(const BoundarySpec& spec, Side side,
       return Inflow{data()};
     case BoundaryKind::outflow:
       return Outflow{};
+    case BoundaryKind::far_field:
+      return FarField{data()};
     case BoundaryKind::dirichlet:
       return Dirichlet{data()};
     case BoundaryKind::periodic:
@@ -244,6 +246,7 @@ void FluidParticipant::advance(double t, double dt, int /*substeps*/, ProjectedS
     const grid::MovingGrid& grid = solver_.grid(k);
     if (grid.moves()) worst_cells_ = std::min(worst_cells_, grid::cell_quality(grid.x()));
   }
+  lap(io::Work::grids);
   solver_.advance_fluid(t_next, dt);
 }
 
@@ -330,6 +333,8 @@ wire::Health FluidParticipant::health() const {
 void FluidParticipant::report(double t, io::Part& part) const {
   const Health health = solver_.health();
   part.counters["first_order_fallbacks"] = static_cast<double>(health.first_order_fallbacks);
+  part.counters["first_order_fallbacks_outside_shocks"] =
+      static_cast<double>(health.first_order_outside_shocks);
   part.counters["floors"] = static_cast<double>(health.floors);
   part.health["min_rho"] = health.min_rho;
   part.health["min_p"] = health.min_p;

@@ -97,7 +97,10 @@ class SolidParticipant final : public Participant {
     for (int k = 0; k < substeps; ++k) {
       const double t_k = t + k * dt_sub;
       solver_.advance_solid(t_k, dt_sub);
-      if (k + 1 < substeps) close_substep(t_k + dt_sub, *projected.front());
+      if (k + 1 == substeps) break;
+      lap(io::Work::advance);
+      close_substep(t_k + dt_sub, *projected.front());
+      lap(io::Work::boundary);
     }
   }
 

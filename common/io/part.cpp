@@ -7,6 +7,10 @@
 namespace fsi::io {
 
 std::string to_json(const Part& part) {
+  nlohmann::ordered_json times = nlohmann::ordered_json::object();
+  for (std::size_t k = 0; k < work_names.size(); ++k) {
+    if (part.time_s[k] > 0) times[work_names[k]] = part.time_s[k];
+  }
   nlohmann::ordered_json json{
       {"participant", part.participant},
       {"role", part.role},
@@ -21,7 +25,9 @@ std::string to_json(const Part& part) {
       {"substeps", part.substeps},
       {"compute_s", part.compute_s},
       {"wait_s", part.wait_s},
+      {"time_s", times},
       {"point_updates_per_s", part.point_updates_per_s},
+      {"peak_memory_mib", part.peak_memory_mib},
       {"errors", part.errors},
       {"counters", part.counters},
       {"health", part.health},

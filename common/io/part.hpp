@@ -2,6 +2,8 @@
 /// The part one program contributes to summary.json: DIR/parts/<participant>.json (format: docs/output.md).
 /// The launcher merges the parts.
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -10,6 +12,11 @@
 #include "common/core/failure.hpp"
 
 namespace fsi::io {
+
+/// What a program spends its time on.
+enum class Work { advance, time_step, boundary, grids, messages, output, waiting };
+inline constexpr std::array work_names{"advance",  "time_step", "boundary", "grids",
+                                       "messages", "output",    "waiting"};
 
 /// Largest jumps over an interface in a whole run.
 struct InterfaceExtremes {
@@ -30,7 +37,9 @@ struct Part {
   std::uint64_t points = 0;    ///< grid points, or interface points for the coupler
   std::uint64_t substeps = 0;  ///< steps the program itself took
   double compute_s = 0, wait_s = 0;
+  std::array<double, work_names.size()> time_s = {};  ///< the same by kinds of work
   double point_updates_per_s = 0;
+  double peak_memory_mib = 0;
   std::map<std::string, double> errors;        ///< maximum norms, where a reference exists
   std::map<std::string, double> counters;      ///< first_order_fallbacks, floors, ...
   std::map<std::string, double> health;        ///< min_rho, min_p, min_det_F

@@ -24,6 +24,7 @@ void archive_part(Archive& archive, io::Part& part) {
   archive.number("dt_max", part.dt_max);
   archive.number("compute_s", part.compute_s);
   archive.number("wait_s", part.wait_s);
+  archive.values("time_s", part.time_s);
   if (!part.interface) return;
   archive.number("max_velocity_jump", part.interface->max_velocity_jump);
   archive.number("max_traction_jump", part.interface->max_traction_jump);

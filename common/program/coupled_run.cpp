@@ -22,19 +22,16 @@ class CoupledRun {
         at_(checkpoints_.begin()),
         session_(options(), hello_),
         predicted_(hello_.interfaces.size()),
-        projected_(hello_.interfaces.size()) {}
+        projected_(hello_.interfaces.size()),
+        clock_(part) {
+    solver_.use(clock_);
+  }
 
   void run() {
-    try {
+    run_within(session_, [this] {
       with_last_state(part_, solver_, last_, [this] { loop(); });
       session_.leave();
-    } catch (const Failure& failure) {
-      session_.abort(failure.code(), failure.what());
-      throw;
-    } catch (const std::exception& error) {
-      session_.abort(ExitCode::expectation_missed, error.what());
-      throw;
-    }
+    });
   }
 
  private:
@@ -62,8 +59,9 @@ class CoupledRun {
       at_ = {.step = at_.step + 1, .t = answer.t_next, .dt = answer.dt_next};
       count_step(part_, at_.t, at_.dt);
       part_.substeps += static_cast<std::uint64_t>(answer.substeps_next);
-      part_.compute_s += watch_.lap();
+      clock_.lap(io::Work::advance);
       if (answer.write_checkpoint) checkpoints_.save(at_);
+      clock_.lap(io::Work::output);
       if (session_.telemetry_due())
         session_.publish(telemetry_of(setup_, part_, solver_, at_.dt, bid_.reason));
       take_time_to_end(patience_.of_step());
@@ -76,10 +74,12 @@ class CoupledRun {
     publish_predicted();
     receive_projected();
     solver_.apply_bcs(at_.t, projected_);
+    clock_.lap(io::Work::boundary);
     last_ = {.t = at_.t, .step = at_.step};
     const wire::ProjectedInterface& answer = *projected_.front();
     write_results(setup_, part_, [&] { solver_.write_tables(at_.t, at_.dt, projected_); });
     if (answer.write_output) write_results(setup_, part_, [&] { solver_.write_fields(at_.t, at_.step); });
+    clock_.lap(io::Work::output);
     if (!answer.stop) return true;
     if (!answer.stop_reason.empty()) part_.status = "stopped";
     part_.reason = answer.stop_reason;
@@ -91,6 +91,7 @@ class CoupledRun {
 
   void publish_predicted() {
     bid_ = solver_.compute_time_step();
+    clock_.lap(io::Work::time_step);
     for (std::size_t k = 0; k < predicted_.size(); ++k) {
       wire::PredictedInterface& message = predicted_[k];
       solver_.fill(k, message);
@@ -104,14 +105,14 @@ class CoupledRun {
       message.wait_s = part_.wait_s;
       session_.publish(message);
     }
-    part_.compute_s += watch_.lap();
+    clock_.lap(io::Work::messages);
   }
 
   void receive_projected() {
     for (std::size_t k = 0; k < projected_.size(); ++k) {
       projected_[k] = &session_.receive(hello_.interfaces[k].name, at_.step);
     }
-    part_.wait_s += watch_.lap();
+    clock_.lap(io::Work::waiting);
   }
 
   const Setup& setup_;
@@ -126,7 +127,7 @@ class CoupledRun {
   std::vector<wire::PredictedInterface> predicted_;
   std::vector<const wire::ProjectedInterface*> projected_;
   TimeStepBid bid_;
-  Stopwatch watch_;
+  WorkClock clock_;
   Patience patience_;
 };
 

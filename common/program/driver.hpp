@@ -5,10 +5,10 @@
 
 #include <string>
 
-#include "common/bus/options.hpp"
 #include "common/core/failure.hpp"
 #include "common/core/log.hpp"
 #include "common/program/participant.hpp"
+#include "common/program/session.hpp"
 
 namespace fsi {
 
@@ -17,7 +17,6 @@ void run_coupled(const Setup& setup, io::Part& part, Participant& solver);
 /// Solver without interfaces: chooses its own steps.
 void run_alone(const Setup& setup, io::Part& part, Participant& solver);
 
-bus::BusOptions bus_options(const Setup& setup);
 wire::Telemetry telemetry_of(const Setup& setup, const io::Part& part, const Participant& solver, double dt,
                              const std::string& reason);
 

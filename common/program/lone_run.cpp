@@ -24,15 +24,13 @@ class LoneRun {
                    .dt_max = setup.problem.time.dt.value_or(0)}),
         progress_(setup.problem.time.end),
         checkpoints_(setup, part, [this](Archive& archive) { this->archive(archive); }),
-        clock_(setup.problem.output) {}
+        due_(setup.problem.output),
+        clock_(part) {
+    solver_.use(clock_);
+  }
 
   void run() {
-    try {
-      with_last_state(part_, solver_, last_, [this] { loop(); });
-    } catch (const Failure& failure) {
-      session_.abort(failure.code(), failure.what());
-      throw;
-    }
+    run_within(session_, [this] { with_last_state(part_, solver_, last_, [this] { loop(); }); });
   }
 
  private:
@@ -43,7 +41,7 @@ class LoneRun {
 
   void loop() {
     at_ = checkpoints_.begin();
-    clock_.start(at_.step);
+    due_.start(at_.step);
     if (setup_.restart.empty()) {
       solver_.apply_bcs(0, {});
       write(schedule_.output_at_start());
@@ -57,17 +55,21 @@ class LoneRun {
 
   void advance() {
     const TimeStepBid bid = solver_.compute_time_step();
+    clock_.lap(io::Work::time_step);
     const PlannedStep step = schedule_.plan(at_.t, bid.dt, bid.reason);
     solver_.advance(at_.t, step.dt, 1, {});
+    clock_.lap(io::Work::advance);
     at_ = {.step = at_.step + 1, .t = step.t_next, .dt = step.dt};
     solver_.apply_bcs(at_.t, {});
+    clock_.lap(io::Work::boundary);
     count_step(part_, at_.t, at_.dt);
     ++part_.substeps;
     write(step.output);
-    part_.compute_s += watch_.lap();
+    clock_.lap(io::Work::output);
     progress_.show(part_.steps, at_.t, at_.dt, part_.participant);
     if (session_.telemetry_due() || step.end)
       session_.publish(telemetry_of(setup_, part_, solver_, at_.dt, bid.reason));
+    clock_.lap(io::Work::messages);
     end_ = step.end;
   }
 
@@ -80,7 +82,7 @@ class LoneRun {
   /// Obeys requests from outside; false when the run shall stop.
   bool go_on() {
     bool stop = false;
-    if (clock_.due(at_.step)) save();
+    if (due_.due(at_.step)) save();
     do {
       for (const wire::Control& control : session_.controls()) {
         if (control.command == "pause") paused_ = true;
@@ -89,7 +91,9 @@ class LoneRun {
         if (control.command == "stop") stop = true;
       }
       if (stop || asked_to_end()) break;
-      if (paused_) session_.idle(0.1);
+      if (!paused_) continue;
+      session_.idle(0.1);
+      clock_.lap(io::Work::waiting);
     } while (paused_);
     throw_if_interrupted();
     if (!stop && !asked_to_end()) return true;
@@ -106,7 +110,8 @@ class LoneRun {
   void save() {
     checkpoints_.save(at_);
     checkpoints_.complete(at_);
-    clock_.start(at_.step);
+    due_.start(at_.step);
+    clock_.lap(io::Work::output);
   }
 
   const Setup& setup_;
@@ -116,10 +121,10 @@ class LoneRun {
   TimeSchedule schedule_;
   ProgressLines progress_;
   Checkpoints checkpoints_;
-  CheckpointClock clock_;
+  CheckpointClock due_;
   io::Standing at_;
   LastState last_;
-  Stopwatch watch_;
+  WorkClock clock_;
   Patience patience_;
   bool end_ = false, fields_written_ = true, paused_ = false;
 };

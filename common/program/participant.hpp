@@ -31,6 +31,9 @@ class Participant {
   Participant& operator=(Participant&&) = delete;
   virtual ~Participant() = default;
 
+  /// From now on the solver may say on what it spent its time; the driver does so after each of its calls.
+  void use(WorkClock& clock) { clock_ = &clock; }
+
   /// Role, name, law, points and interfaces.
   virtual wire::Hello hello() const = 0;
   virtual TimeStepBid compute_time_step() const = 0;
@@ -51,6 +54,15 @@ class Participant {
   virtual wire::Health health() const = 0;
   /// Errors, counters and budgets at the end of the run.
   virtual void report(double t, io::Part& part) const = 0;
+
+ protected:
+  /// The time since the last lap, of the solver or its driver, went into `work`.
+  void lap(io::Work work) {
+    if (clock_ != nullptr) clock_->lap(work);
+  }
+
+ private:
+  WorkClock* clock_ = nullptr;
 };
 
 /// Runs a solver to the end of the case: with the coupler when it has interfaces, alone when it has none.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -58,8 +59,17 @@ ExitCode run_body(const std::function<void()>& body, io::Part& part) {
   }
 }
 
+/// Most memory the program ever had [MiB].
+double peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  constexpr double kib_per_mib = 1024;
+  return static_cast<double>(usage.ru_maxrss) / kib_per_mib;
+}
+
 ExitCode leave_part(const Setup& setup, io::Part& part, ExitCode code) {
   part.exit_code = code;
+  part.peak_memory_mib = peak_memory();
   const double updates = static_cast<double>(part.points) * static_cast<double>(part.substeps);
   part.point_updates_per_s = part.compute_s > 0 ? updates / part.compute_s : 0;
   try {
@@ -113,6 +123,12 @@ double Stopwatch::lap() {
   const double seconds = std::chrono::duration<double>(now - last_).count();
   last_ = now;
   return seconds;
+}
+
+void WorkClock::lap(io::Work work) {
+  const double seconds = watch_.lap();
+  part_.time_s[static_cast<std::size_t>(work)] += seconds;
+  (work == io::Work::waiting ? part_.wait_s : part_.compute_s) += seconds;
 }
 
 void ProgressLines::show(std::uint64_t step, double t, double dt, const std::string& limit) {

@@ -46,7 +46,7 @@ void take_time_to_end(double seconds);
 /// SIGTERM has come.
 bool asked_to_end();
 
-/// Wall-clock time split into computing and waiting.
+/// Wall-clock time.
 class Stopwatch {
  public:
   Stopwatch() : last_(std::chrono::steady_clock::now()) {}
@@ -55,6 +55,18 @@ class Stopwatch {
 
  private:
   std::chrono::steady_clock::time_point last_;
+};
+
+/// Wall-clock time of a program by kinds of work, added to its report.
+class WorkClock {
+ public:
+  explicit WorkClock(io::Part& part) : part_(part) {}
+  /// The time since the last lap went into `work`.
+  void lap(io::Work work);
+
+ private:
+  io::Part& part_;
+  Stopwatch watch_;
 };
 
 /// How long a program waits for an end in good order: a few seconds, more where steps take long.

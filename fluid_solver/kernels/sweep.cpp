@@ -46,6 +46,7 @@ class Sweep {
         solve_(solve),
         rows_(output.work),
         row_rates_(output.row_rates),
+        fallbacks_(output.fallbacks),
         viscous_(scheme.viscosity.any()),
         columns_(columns) {}
 
@@ -57,7 +58,7 @@ class Sweep {
       if (r > 0) each(task_.runs.advanced(r - 1), 0, [&](Range run) { update(r - 1, run); });
       if (r == n2) break;
       if constexpr (mapped) next_corners(r);
-      if (r > -1) each(task_.runs.advanced(r), 0, [&](Range run) { flux_along(run); });
+      if (r > -1) each(task_.runs.advanced(r), 0, [&](Range run) { flux_along(r, run); });
       std::swap(predicted_.upper, upper_before_);
       std::swap(kappa_, kappa_before_);
       std::swap(conserved_, conserved_before_);
@@ -72,6 +73,7 @@ class Sweep {
   Riemann solve_;
   Rows rows_;
   std::span<double> row_rates_;
+  std::vector<PointIndex>& fallbacks_;
   bool viscous_;
   Range columns_;
   PredictedRows predicted_{rows_.state(), rows_.state(), rows_.state(), rows_.state(), rows_.next()};
@@ -139,8 +141,8 @@ class Sweep {
   }
 
   /// Fluxes through the faces along that row on both sides of the points of a run.
-  void flux_along(Range run) {
-    counts_.first_order += sum(predicted_.first_order, run);
+  void flux_along(int r, Range run) {
+    if (sum(predicted_.first_order, run) > 0) list_fallbacks(r, run);
     const Range faces{run.first - 1, run.last};
     const StateRow<const double> after = predicted_.left;
     if constexpr (mapped) {
@@ -151,6 +153,12 @@ class Sweep {
     }
     if (viscous_)
       add_viscous_flux_row({conserved_, conserved_.shifted(1), kappa_, kappa_ + 1}, along_, faces);
+  }
+
+  void list_fallbacks(int r, Range run) {
+    for (int i = run.first; i < run.last; ++i) {
+      if (predicted_.first_order[i] > 0) fallbacks_.push_back({i, r});
+    }
   }
 
   void update(int r, Range run) {

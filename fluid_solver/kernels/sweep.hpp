@@ -8,6 +8,7 @@
 
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "fluid_solver/kernels/any_riemann.hpp"
 #include "fluid_solver/kernels/limiter.hpp"
@@ -39,12 +40,10 @@ struct Scheme {
 };
 
 struct SweepCounts {
-  double first_order = 0;  ///< points advanced with first-order states
-  double floors = 0;       ///< points whose pressure was lifted to the floor
-  double broken = 0;       ///< points whose density is not positive or whose state is not finite
+  double floors = 0;  ///< points whose pressure was lifted to the floor
+  double broken = 0;  ///< points whose density is not positive or whose state is not finite
 
   SweepCounts& operator+=(const SweepCounts& other) {
-    first_order += other.first_order;
     floors += other.floors;
     broken += other.broken;
     return *this;
@@ -54,11 +53,17 @@ struct SweepCounts {
 /// Rows of scratch memory a sweep needs.
 inline constexpr int sweep_rows = 68;
 
+/// A point of the grid.
+struct PointIndex {
+  int i, j;
+};
+
 /// What a sweep writes besides the new state.
 struct SweepOutput {
   Workspace& work;              ///< scratch, sweep_rows rows
   std::span<double> row_rates;  ///< n2: largest wave rate of the inner points of each row, for the next time
                                 ///< step; without viscosity only
+  std::vector<PointIndex>& fallbacks;  ///< points advanced with first-order states are added
 };
 
 /// What is advanced: the points of the runs, boundary points included, from q (with the points around them

@@ -6,7 +6,8 @@ import os
 from pathlib import Path
 
 ERROR_ORDER = ("rho", "v1", "v2", "T", "p", "u_bar", "v_bar", "P_bar")
-PARTICIPANT_KEYS = ("role", "status", "points", "substeps", "compute_s", "wait_s", "point_updates_per_s")
+PARTICIPANT_KEYS = ("role", "status", "points", "substeps", "compute_s", "wait_s", "time_s", "point_updates_per_s",
+                    "peak_memory_mib")
 
 
 def read_parts(directory, participants):
@@ -139,12 +140,12 @@ def _rate(value):
 
 
 def _participant_rows(summary):
-    rows = [["participant", "points", "steps", "computing", "waiting", "point updates"]]
+    rows = [["participant", "points", "steps", "computing", "waiting", "point updates", "memory"]]
     for name, part in summary["participants"].items():
         label = name if part["program"] == name else f"{name} ({part['program']})"
         rows.append([label, str(part.get("points", "-")), str(part.get("substeps", "-")),
                      _number(part.get("compute_s"), "{:.2f} s"), _number(part.get("wait_s"), "{:.2f} s"),
-                     _rate(part.get("point_updates_per_s"))])
+                     _rate(part.get("point_updates_per_s")), _number(part.get("peak_memory_mib"), "{:.0f} MiB")])
     return rows
 
 

@@ -15,6 +15,14 @@ class ElasticPiston(EndToEnd):
         self.assertTrue(all(entry["met"] for entry in summary["expectations"]) and summary["expectations"])
         self.assert_nothing_left(run)
 
+    def test_every_program_tells_its_memory_and_on_what_it_spent_its_time(self):
+        run = self.complete("elastic_piston", "--set", "grid.factor=2")
+        for name, one in run.summary()["participants"].items():
+            self.assertGreater(one["peak_memory_mib"], 1, name)
+            self.assertGreater(one["time_s"]["advance"], 0, name)
+            self.assertAlmostEqual(sum(one["time_s"].values()), one["compute_s"] + one["wait_s"], places=9)
+        self.assertGreater(run.summary()["participants"]["fluid"]["time_s"]["grids"], 0)
+
     def test_another_law_by_one_option(self):
         run = self.complete("elastic_piston", "--solid", "solid=neo_hookean", "--set", "grid.factor=2")
         self.assertEqual(run.summary()["participants"]["solid"]["program"], "solid_solver_neo_hookean")
