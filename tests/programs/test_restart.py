@@ -37,7 +37,7 @@ def numbers(summary):
     """What a summary says besides times of the clock."""
     summary = {key: value for key, value in summary.items() if key not in ("wall_s", "restart")}
     for part in summary["participants"].values():
-        for key in ("compute_s", "wait_s", "point_updates_per_s"):
+        for key in ("compute_s", "wait_s", "time_s", "point_updates_per_s", "peak_memory_mib"):
             part.pop(key, None)
     return summary
 
