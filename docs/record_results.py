@@ -184,6 +184,24 @@ def watched(name, repetitions=5):
     return f"`./launch/fsi {shlex.join(typed)}`, {repetitions} times each, medians\n\n" + "\n".join(lines) + "\n"
 
 
+def profile(name):
+    """Where the loops of the gas and the solid spend their time, from samples of the processor's clock."""
+    directory = fresh(name)
+    directory.mkdir(parents=True)
+    text = ""
+    for program, benchmark in (("bench_gas", "advance_fluid/n:512/moving:0/limiter:1/riemann:0$"),
+                               ("bench_gas", "advance_fluid/n:512/moving:1/limiter:1/riemann:0$"),
+                               ("bench_solid", "^cartesian_svk_centred$"), ("bench_solid", "^curvilinear_svk_dissipation$")):
+        samples = directory / "perf.data"
+        words = [f"./build/release/bin/{program}", f"--benchmark_filter={benchmark}", "--benchmark_min_time=3"]
+        subprocess.run(["perf", "record", "-q", "-F", "499", "-o", str(samples), *words], cwd=ROOT, capture_output=True, check=True)
+        report = subprocess.run(["perf", "report", "-q", "--stdio", "--sort", "symbol", "-i", str(samples)], cwd=ROOT,
+                                capture_output=True, text=True, check=True).stdout
+        shares = [line.strip() for line in report.splitlines() if line.strip() and float(line.split("%")[0]) >= 2]
+        text += f"`perf record -F 499 {shlex.join(words)}`\n\n```\n" + "\n".join(shares) + "\n```\n\n"
+    return text
+
+
 def bench(name):
     """All benchmarks: the table the command itself prints."""
     directory = fresh(name)
@@ -241,6 +259,7 @@ def ratios(projection, extra=()):
     return [(f"R = {r}", [f"parameters.density_ratio={r}", f"interface.projection={projection}", *extra], []) for r in RATIOS]
 
 
+POLAR_RING = "solids.disk.body_fitted.map=[(1 - 8 * h * s) * cos(2 * pi * r), (1 - 8 * h * s) * sin(2 * pi * r)]"
 # Grids and materials for the traditional scheme: (label, z_f / z_p, spacing across the interface, settings).
 STRIP = ["fluid.grid={x: [0, 1.5], y: [0, 1], points: [round(1.5 / h) + 1, 5]}",
          "solids.solid.grid={x: [-1, 0], y: [0, 1], points: [round(1 / h) + 1, 5]}"]
@@ -359,6 +378,8 @@ def disk_studies():
         yield f"Rotating disk, {law}", lambda l=law: converge(f"disk-{l}", "rotating_disk", "2,4,8,16", solids=[f"disk={l}"])
     yield ("Rotating disk, lambda = 2, mu = 0.5",
            lambda: converge("disk-stiff", "rotating_disk", "2,4,8,16", ["solids.disk.lambda=2", "solids.disk.mu=0.5"]))
+    yield ("Rotating disk, a ring of the solid by a formula instead of marching",
+           lambda: converge("disk-mapped", "rotating_disk", "2,4,8", [POLAR_RING, "solids.disk.body_fitted.lines=9"]))
     yield ("Rotating disk, without each stabilisation, h = 1/160",
            lambda: sweep("disk-without", "rotating_disk",
                          [("all", [], [])] + [(f"without {key}", [f"solids.disk.scheme.{key}.scaled=0"], [])
@@ -398,7 +419,8 @@ def main(words):
                *beam_studies.studies(sys.modules[__name__]),
                ("What watching costs", lambda: watched("watched")),
                ("Signals to every program at random moments", lambda: faults(200)), *record_faults.studies(sys.modules[__name__]),
-               ("Benchmarks", lambda: bench("bench"))]
+               ("Benchmarks", lambda: bench("bench")),
+               ("Benchmarks, where the time goes", lambda: profile("profile"))]
     head = ("# Results\n\nWhat the commands gave on two cores; `docs/record_results.py` repeats them all and writes this page. "
             "Errors are largest absolute differences over all points and components.\n\n")
     for title, study in studies:

@@ -46,7 +46,7 @@ struct WideRow {
 class MappedGradient4 {
  public:
   MappedGradient4(ConstFieldView x, const ReferenceMetrics& /*metrics*/, int j) : x_(x, 0, j), y_(x, 1, j) {}
-  [[gnu::always_inline]] Tensor2 operator()(int i, const Pair& d1, const Pair& d2) const {
+  [[gnu::always_inline]] Tensor2 operator()(int i, Pair d1, Pair d2) const {
     const Pair x = x_.first(i), y = y_.first(i);
     const double scale = 1.0 / (x.x * y.y - x.y * y.x);
     return {.a11 = scale * (d1.x * y.y - d1.y * y.x),
@@ -64,7 +64,7 @@ class CartesianGradient4 {
  public:
   CartesianGradient4(ConstFieldView /*x*/, const ReferenceMetrics& metrics, int /*j*/)
       : i1_(1.0 / metrics.h1()), i2_(1.0 / metrics.h2()) {}
-  [[gnu::always_inline]] Tensor2 operator()(int /*i*/, const Pair& d1, const Pair& d2) const {
+  [[gnu::always_inline]] Tensor2 operator()(int /*i*/, Pair d1, Pair d2) const {
     return {.a11 = d1.x * i1_, .a12 = d1.y * i2_, .a21 = d2.x * i1_, .a22 = d2.y * i2_};
   }
 
@@ -126,10 +126,8 @@ template <class Gradient, Law L>
          *next21 = next.row(plane::P21, run.j), *next22 = next.row(plane::P22, run.j);
 #pragma omp simd
   for (int i = run.begin; i < run.end; ++i) {
-    Tensor2 F = gradient(i, u1.first(i), u2.first(i));
-    F.a11 += 1.0;
-    F.a22 += 1.0;
-    const Tensor2 P = law.P(F);
+    const Tensor2 du = gradient(i, u1.first(i), u2.first(i));
+    const Tensor2 P = law.P({1.0 + du.a11, du.a12, du.a21, 1.0 + du.a22});
     next11[i] -= beta * (P11[i] - P.a11);
     next12[i] -= beta * (P12[i] - P.a12);
     next21[i] -= beta * (P21[i] - P.a21);

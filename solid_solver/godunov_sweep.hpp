@@ -136,28 +136,25 @@ SweepResult GodunovSweep<L, Row, limiter>::predict(RowRun run) const {
     const double J = determinant(F), scale = row.inverse_jacobian(i) * row.inverse_jacobian(i);
     const Pair phi1 = wave_eigenvalues(A1), phi2 = wave_eigenvalues(A2);
     const double fastest = scale * (phi1.x + phi2.x + 2.0 * std::sqrt(phi1.x * phi2.x));
-    const double slowest = scale * std::min(phi1.y, phi2.y);
-    rate = std::max(rate, fastest);
-    min_J = std::min(min_J, J);
-    min_phi = std::min(min_phi, slowest);
+    const double slowest = scale * (phi1.y < phi2.y ? phi1.y : phi2.y);
+    rate = rate < fastest ? fastest : rate;
+    min_J = J < min_J ? J : min_J;
+    min_phi = slowest < min_phi ? slowest : min_phi;
     broken += (J > 0.0 ? 0.0 : 1.0) + (slowest > 0.0 ? 0.0 : 1.0);
 
-    const Pair s1 = q.template half_slopes<limiter>(plane::v1, i),
-               s2 = q.template half_slopes<limiter>(plane::v2, i);
-    const Pair s11 = q.template half_slopes<limiter>(plane::P11, i),
-               s12 = q.template half_slopes<limiter>(plane::P12, i);
-    const Pair s21 = q.template half_slopes<limiter>(plane::P21, i),
-               s22 = q.template half_slopes<limiter>(plane::P22, i);
+    const Pair s1 = q.v1.template half_slopes<limiter>(i), s2 = q.v2.template half_slopes<limiter>(i);
+    const Pair s11 = q.P11.template half_slopes<limiter>(i), s12 = q.P12.template half_slopes<limiter>(i);
+    const Pair s21 = q.P21.template half_slopes<limiter>(i), s22 = q.P22.template half_slopes<limiter>(i);
     const Pair L1 = row.gradient(i, s1.x, s1.y), L2 = row.gradient(i, s2.x, s2.y);
     const Tensor2 dP = contract(K, {L1.x, L1.y, L2.x, L2.y});
-    const double v1 = q.here[plane::v1][i] + dt_rho * (row.gradient(i, s11.x, s11.y).x +
-                                                       row.gradient(i, s21.x, s21.y).y + 0.5 * b1[i]);
-    const double v2 = q.here[plane::v2][i] + dt_rho * (row.gradient(i, s12.x, s12.y).x +
-                                                       row.gradient(i, s22.x, s22.y).y + 0.5 * b2[i]);
-    const Tensor2 P = {q.here[plane::P11][i] + dt * dP.a11, q.here[plane::P12][i] + dt * dP.a12,
-                       q.here[plane::P21][i] + dt * dP.a21, q.here[plane::P22][i] + dt * dP.a22};
-    next1[i] = q.here[plane::u1][i] + dt * v1;
-    next2[i] = q.here[plane::u2][i] + dt * v2;
+    const double v1 =
+        q.v1[i] + dt_rho * (row.gradient(i, s11.x, s11.y).x + row.gradient(i, s21.x, s21.y).y + 0.5 * b1[i]);
+    const double v2 =
+        q.v2[i] + dt_rho * (row.gradient(i, s12.x, s12.y).x + row.gradient(i, s22.x, s22.y).y + 0.5 * b2[i]);
+    const Tensor2 P = {q.P11[i] + dt * dP.a11, q.P12[i] + dt * dP.a12, q.P21[i] + dt * dP.a21,
+                       q.P22[i] + dt * dP.a22};
+    next1[i] = q.u1[i] + dt * v1;
+    next2[i] = q.u2[i] + dt * v2;
     to_east.set(i, v1 + s1.x, v2 + s2.x,
                 row.force_east(i, {P.a11 + s11.x, P.a12 + s12.x, P.a21 + s21.x, P.a22 + s22.x}));
     to_west.set(i, v1 - s1.x, v2 - s2.x,

@@ -323,8 +323,8 @@ template <Law L>
 std::string SolidComponent<L>::trouble_at(int i, int j, double dt) const {
   const StateRows rows(q_.view(), j);
   const PointMetrics m = metrics_.at(i, j);
-  const Pair d1 = rows.displacement_difference(0, i, 0.5 * dt),
-             d2 = rows.displacement_difference(1, i, 0.5 * dt);
+  const Pair d1 = displacement_difference(rows.u1, rows.v1, i, 0.5 * dt),
+             d2 = displacement_difference(rows.u2, rows.v2, i, 0.5 * dt);
   const Tensor2 F = plus_dyad(plus_dyad({1.0, 0.0, 0.0, 1.0}, {d1.x, d2.x}, m.r1), {d1.y, d2.y}, m.r2);
   const Stiffness K = law_.K(F);
   const double J = determinant(F);

@@ -26,29 +26,41 @@ template <Limiter limiter>
   }
 }
 
+/// A row of one unknown with its two neighbours.
+struct StencilRow {
+  const double *below, *here, *above;
+
+  StencilRow(ConstFieldView q, int plane, int j)
+      : below(q.row(plane, j - 1)), here(q.row(plane, j)), above(q.row(plane, j + 1)) {}
+  [[gnu::always_inline]] double operator[](int i) const { return here[i]; }
+  /// Half slopes along r1 and r2.
+  template <Limiter limiter>
+  [[gnu::always_inline]] Pair half_slopes(int i) const {
+    return {half_slope<limiter>(here[i - 1], here[i], here[i + 1]),
+            half_slope<limiter>(below[i], here[i], above[i])};
+  }
+};
+
+/// Central differences of u + time * v over one index along r1 and r2.
+[[gnu::always_inline]] inline Pair displacement_difference(const StencilRow& u, const StencilRow& v, int i,
+                                                           double time) {
+  return {0.5 * ((u.here[i + 1] - u.here[i - 1]) + time * (v.here[i + 1] - v.here[i - 1])),
+          0.5 * ((u.above[i] - u.below[i]) + time * (v.above[i] - v.below[i]))};
+}
+
 /// Row j of all unknowns with its two neighbours.
 struct StateRows {
-  const double *here[plane::count], *below[plane::count], *above[plane::count];
+  StencilRow u1, u2, v1, v2, P11, P12, P21, P22;
 
-  StateRows(ConstFieldView q, int j) {
-    for (int k = 0; k < plane::count; ++k) {
-      here[k] = q.row(k, j);
-      below[k] = q.row(k, j - 1);
-      above[k] = q.row(k, j + 1);
-    }
-  }
-  /// Half slopes of unknown k along r1 and r2.
-  template <Limiter limiter>
-  [[gnu::always_inline]] Pair half_slopes(int k, int i) const {
-    return {half_slope<limiter>(here[k][i - 1], here[k][i], here[k][i + 1]),
-            half_slope<limiter>(below[k][i], here[k][i], above[k][i])};
-  }
-  /// Central differences of u_k + time * v_k over one index along r1 and r2, k = 0, 1.
-  [[gnu::always_inline]] Pair displacement_difference(int k, int i, double time) const {
-    const int u = plane::u1 + k, v = plane::v1 + k;
-    return {0.5 * ((here[u][i + 1] - here[u][i - 1]) + time * (here[v][i + 1] - here[v][i - 1])),
-            0.5 * ((above[u][i] - below[u][i]) + time * (above[v][i] - below[v][i]))};
-  }
+  StateRows(ConstFieldView q, int j)
+      : u1(q, plane::u1, j),
+        u2(q, plane::u2, j),
+        v1(q, plane::v1, j),
+        v2(q, plane::v2, j),
+        P11(q, plane::P11, j),
+        P12(q, plane::P12, j),
+        P21(q, plane::P21, j),
+        P22(q, plane::P22, j) {}
 };
 
 /// F at point i of a row for the displacement u + time * v by second-order differences, paper eq. (33), a
@@ -56,16 +68,18 @@ struct StateRows {
 template <class Row>
 [[gnu::always_inline]] inline Tensor2 deformation_gradient(const Row& row, const StateRows& q, int i,
                                                            double time) {
-  const Pair d1 = q.displacement_difference(0, i, time), d2 = q.displacement_difference(1, i, time);
+  const Pair d1 = displacement_difference(q.u1, q.v1, i, time),
+             d2 = displacement_difference(q.u2, q.v2, i, time);
   const Pair g1 = row.gradient(i, d1.x, d1.y), g2 = row.gradient(i, d2.x, d2.y);
   return {1.0 + g1.x, g1.y, g2.x, 1.0 + g2.y};
 }
 
-/// Velocities and forces along a row of faces.
+/// Velocities and forces along a row of faces. Temporaries go in by value: a reference to one has an address
+/// in every iteration, and the loop does not vectorise.
 struct FaceRows {
   double *v1, *v2, *f1, *f2;
 
-  [[gnu::always_inline]] void set(int i, double w1, double w2, const Pair& force) const {
+  [[gnu::always_inline]] void set(int i, double w1, double w2, Pair force) const {
     v1[i] = w1;
     v2[i] = w2;
     f1[i] = force.x;

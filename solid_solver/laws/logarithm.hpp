@@ -14,7 +14,7 @@ namespace fsi::solid {
 /// x = 2^k m with sqrt(1/2) <= m < sqrt(2), and ln m = 2 artanh s with s = (m - 1) / (m + 1), |s| < 0.172:
 /// eleven terms of the power series of artanh leave less than 1e-18. Near x = 1 (k = 0) the result keeps full
 /// relative accuracy.
-inline double logarithm(double x) {
+[[gnu::always_inline]] inline double logarithm(double x) {
   constexpr std::uint64_t bits_of_sqrt_half = 0x3fe6a09e667f3bcd;
   constexpr std::uint64_t mantissa = 0x000fffffffffffff;
   constexpr std::uint64_t bits_of_2_to_52 = 0x4330000000000000;

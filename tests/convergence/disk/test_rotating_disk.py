@@ -65,6 +65,15 @@ class RotatingDisk(unittest.TestCase):
     def test_four_times_the_points_on_the_gas_side_keep_the_order(self):
         self.check_ratio("round(8 * pi / h) + 1")
 
+    def test_a_mapped_ring_in_the_solid_gives_what_a_marched_one_gives(self):
+        polar = "[(1 - 8 * h * s) * cos(2 * pi * r), (1 - 8 * h * s) * sin(2 * pi * r)]"
+        _, marched = self.run_once("marched", "grid.factor=4")
+        answer, mapped = self.run_once("mapped", "grid.factor=4", f"solids.disk.body_fitted.map={polar}",
+                                       "solids.disk.body_fitted.lines=9")
+        self.assertEqual(answer.returncode, 0, answer.stderr)
+        for name in NAMES:
+            self.assertAlmostEqual(mapped["errors"][name] / marched["errors"][name], 1, delta=0.05, msg=name)
+
     def test_full_and_simplified_projection_agree_to_one_percent(self):
         _, simplified = self.run_once("simplified", "parameters.delta=0.1")
         _, full = self.run_once("full", "parameters.delta=0.1", "interface.projection=full")
