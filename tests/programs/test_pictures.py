@@ -106,6 +106,8 @@ class SideBySide(unittest.TestCase):
         cases = [case.format(j=j, p="full") for j in (8, 16)]
         self.assertEqual(several.labels(cases, ["a", "b"]), ["h = 1/80", "h = 1/160"])
         self.assertEqual(several.labels([cases[0]] * 2, ["a", "b"]), ["a", "b"])
+        unsaid = cases[0].replace("  projection: full\n", "")
+        self.assertEqual(several.labels([unsaid, cases[0]], ["a", "b"]), ["simplified", "full"])
 
     def test_few_times_are_spread_evenly_and_common_to_all_runs(self):
         runs = [dict.fromkeys(times, "output") for times in ((0, 0.5, 1, 2, 3, 4), (0, 0.5, 1 + 1e-12, 2, 3, 4, 5))]

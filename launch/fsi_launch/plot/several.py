@@ -7,6 +7,7 @@ import numpy as np
 SAME_TIME = 1e-9
 MOST_TIMES = 3
 TELLING = ("law", "factor", "projection", "multirate")
+UNSAID = {"interface.projection": "simplified", "time.multirate": "false"}  # what a case without the key has
 
 
 def entries(case):
@@ -37,7 +38,7 @@ def different(cases):
 
 def labels(cases, names):
     """What is different about each run, in few words; else the names of the folders. `cases`: texts of case files."""
-    found = [entries(case) for case in cases]
+    found = [UNSAID | entries(case) for case in cases]
     keys = [key for key in different(found) if key.startswith("parameters.") or key.rsplit(".", 1)[-1] in TELLING]
     result = [", ".join(_short(key, one[key]) for key in keys if key in one) for one in found]
     return result if len(set(result)) == len(result) else list(names)
