@@ -33,13 +33,14 @@ def _run(tools, name, case, settings):
 
 def _beams(tools, factor):
     """The four beams: how far they came, at what price, and how good the cells of the gas grid stayed."""
-    rows, typed = [], ""
+    rows, runs, typed = [], [], ""
     for beam in BEAMS:
         directory, found, typed = _run(tools, f"beam-{factor}-{beam[0]}-{beam[1]}", "beam",
                                        [f"grid.factor={factor}", *_parameters(beam)])
         part = directory / "parts" / "fluid.json"
         gas = json.loads(part.read_text(encoding="utf-8")) if part.is_file() else {}
         parts, steps = found.get("participants", {}), max(found.get("steps", 0), 1)
+        runs.append((f"({beam[0]}, {beam[1]})", directory))
         cost = [f"{1e3 * parts[name]['compute_s'] / steps:.2f}" if name in parts else "-"
                 for name in ("fluid", "beam", "coupler")]
         rows.append([f"({beam[0]}, {beam[1]})", found.get("status", "-"), f"{found.get('t', 0):g}", str(found.get("steps")),
@@ -50,7 +51,7 @@ def _beams(tools, factor):
                      str(tools.value_at(found, "counters.floors"))])
     heading = ["(rho_bar, stiffness)", "status", "t", "steps", "substeps of the solid", "gas [ms/step]", "solid [ms/step]",
                "coupler [ms/step]", "wall time [s]", "worst cell", "gap", "first order", "floors"]
-    return f"last row: `{typed}`\n\n" + _table(heading, rows)
+    return f"last row: `{typed}`\n\n" + _table(heading, rows) + "\n" + tools.costs(runs)
 
 
 def _centrelines(tools, beam):
@@ -66,7 +67,7 @@ def _centrelines(tools, beam):
     rows = [[f"{t:g}", *(f"{pair[t]:.1e}" for pair in pairs), f"({ends[t][-1][0]:.3f}, {ends[t][-1][1]:.3f})"]
             for t in sorted(ends) if t > 0 and all(t in pair for pair in pairs)]
     heading = ["t", "j = 8 against 16", "j = 16 against 32", "the end of the beam, j = 32"]
-    return f"`{typed}`\n\n" + _table(heading, rows)
+    return f"`{typed}`\n\n" + _table(heading, rows) + "\n" + tools.costs([("j = 32", directory)])
 
 
 # --- alone

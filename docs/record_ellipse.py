@@ -4,13 +4,13 @@ import csv
 import math
 
 CASE = "shock_ellipse"
+LAWS = ("neo_hookean", "linear_elastic", "rigid")
 SCHEME = "solids.ellipse.scheme"
 STABILISATION = {"tangential_stress": 0.5, "displacement": 0.5, "relaxation": 0.2}  # as in configs/shock_ellipse.yaml
 POSE = ("centre1", "centre2", "velocity1", "velocity2", "angle")
 COUNTS = ("steps", "participants.ellipse.substeps", "interface.max_gap", "counters.first_order_fallbacks",
           "counters.first_order_fallbacks_outside_shocks", "counters.floors", "status")
 SHOCK = "definitions.behind=x < x_shock - 1e-6 ? 1 : 0"  # starts between the same points on every lattice
-WORK = ("advance", "time_step", "boundary", "grids", "messages", "output", "waiting")
 ROUND_OFF_GROWN = 1e-9  # larger differences come from a decision that fell otherwise
 
 # The set-up of configs/shock_ellipse.yaml turned by 90 degrees about the origin: (x, y) -> (-y, x).
@@ -82,22 +82,10 @@ def symmetry(tools, factor):
     return "Largest difference of centre, velocity and angle, turned back:\n\n" + "\n".join(lines) + "\n"
 
 
-def parts(tools, name, variants):
-    """Wall time of runs, what each program did with it, and its memory."""
-    heading = ["", "wall [s]", "steps", "program", "computes [s]", "updates/s", "memory [MiB]", *(f"{one} [%]" for one in WORK)]
-    lines = ["| " + " | ".join(heading) + " |", "|" + "---|" * len(heading)]
-    for index, (label, settings, solids) in enumerate(variants):
-        directory, _, _ = tools.run_once(f"{name}-{index}", CASE, settings, solids)
-        summary = tools.summary_of(directory)
-        run = [label, *(tools.shown(tools.value_at(summary, path)) for path in ("wall_s", "steps"))]
-        for program, found in summary.get("participants", {}).items():
-            spent = found.get("time_s", {})
-            total = sum(spent.values()) or math.nan
-            cells = [program, *(tools.shown(found.get(key)) for key in ("compute_s", "point_updates_per_s")),
-                     f"{found.get('peak_memory_mib', math.nan):.0f}", *(f"{100 * spent.get(one, 0) / total:.1f}" for one in WORK)]
-            lines.append("| " + " | ".join(run + cells) + " |")
-            run = [""] * len(run)
-    return "\n".join(lines) + "\n"
+def parts(tools):
+    """What the runs of the studies from grid to grid cost."""
+    runs = [(f"{law}, h = 1/{10 * j}", tools.RUNS / f"ellipse-{law}" / f"level_{j}") for law in LAWS for j in (8, 16)]
+    return "The runs from grid to grid, see there.\n\n" + tools.costs(runs)
 
 
 def variants():
@@ -125,7 +113,7 @@ def studies(tools):
               for name, factor in (("1 : 1", 1), ("1 : 2", 0.5), ("1 : 4", 0.25), ("2 : 1", 2), ("4 : 1", 4))]
     yield ("Rotating disk, different numbers of points on the two sides, h = 1/80",
            lambda: tools.rates("disk-points", "rotating_disk", "2,4,8", ratios, tools.COLUMNS))
-    for law in ("neo_hookean", "linear_elastic", "rigid"):
+    for law in LAWS:
         yield (f"Shock and ellipse, {law}: from grid to grid",
                lambda l=law: tools.converge(f"ellipse-{l}", CASE, "4,8,16", solids=[f"ellipse={l}"])
                + "\n" + budget(tools, [tools.RUNS / f"ellipse-{l}" / f"level_{j}" for j in (4, 8, 16)]))
@@ -133,6 +121,4 @@ def studies(tools):
         yield (f"Shock and ellipse, {what}, h = 1/80",
                lambda w=what, r=runs: bodies(tools, "ellipse-" + w.replace(" ", "-"), r, ["grid.factor=8"]))
     yield "Shock and ellipse, mirrored and turned, h = 1/40", lambda: symmetry(tools, 4)
-    yield ("Shock and ellipse, time of each program",
-           lambda: parts(tools, "ellipse-parts", [(f"{law}, h = 1/{10 * j}", [f"grid.factor={j}"], [f"ellipse={law}"])
-                                                  for j in (8, 16) for law in ("neo_hookean", "rigid")]))
+    yield "Shock and ellipse, time of each program", lambda: parts(tools)

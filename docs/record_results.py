@@ -8,6 +8,7 @@ Studies that are not run keep the text they have in docs/results.md. Nothing in 
 
 import hashlib
 import json
+import math
 import os
 import re
 import shlex
@@ -65,6 +66,27 @@ def run_once(name, case, settings=(), solids=()):
 def summary_of(directory):
     path = directory / "summary.json"
     return json.loads(path.read_text(encoding="utf-8")) if path.is_file() else {}
+
+
+# Kinds of work a program's time goes into (docs/output.md).
+WORK = ("advance", "time_step", "boundary", "grids", "messages", "output", "waiting")
+
+
+def costs(runs):
+    """Wall time of runs (label, folder), and of each program: time, memory, and the share of each kind of work."""
+    heading = ["", "wall [s]", "steps", "program", "computes [s]", "updates/s", "memory [MiB]", *(f"{one} [%]" for one in WORK)]
+    lines = ["| " + " | ".join(heading) + " |", "|" + "---|" * len(heading)]
+    for label, directory in runs:
+        summary = summary_of(directory)
+        run = [label, *(shown(value_at(summary, path)) for path in ("wall_s", "steps"))]
+        for program, found in summary.get("participants", {}).items():
+            spent = found.get("time_s", {})
+            total = sum(spent.values()) or math.nan
+            cells = [program, *(shown(found.get(key)) for key in ("compute_s", "point_updates_per_s")),
+                     f"{found.get('peak_memory_mib', math.nan):.0f}", *(f"{100 * spent.get(one, 0) / total:.1f}" for one in WORK)]
+            lines.append("| " + " | ".join(run + cells) + " |")
+            run = [""] * len(run)
+    return "\n".join(lines) + "\n"
 
 
 def value_at(summary, path):
