@@ -9,7 +9,7 @@ SCHEME = "solids.ellipse.scheme"
 STABILISATION = {"tangential_stress": 0.5, "displacement": 0.5, "relaxation": 0.2}  # as in configs/shock_ellipse.yaml
 POSE = ("centre1", "centre2", "velocity1", "velocity2", "angle")
 COUNTS = ("steps", "participants.ellipse.substeps", "interface.max_gap", "counters.first_order_fallbacks",
-          "counters.first_order_fallbacks_outside_shocks", "counters.floors", "status")
+          "counters.first_order_fallbacks_outside_shocks", "counters.floors", "conservation.fluid.mass_defect", "status")
 SHOCK = "definitions.behind=x < x_shock - 1e-6 ? 1 : 0"  # starts between the same points on every lattice
 ROUND_OFF_GROWN = 1e-9  # larger differences come from a decision that fell otherwise
 
