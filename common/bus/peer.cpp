@@ -33,7 +33,7 @@ std::optional<Pulse> pulse_of(int pid) {
   fields >> user >> system;
   while (status >> word && word != "voluntary_ctxt_switches:") continue;
   if (!fields || !(status >> waited)) return {};
-  return Pulse{.computed = user + system, .waited = waited, .sleeping = state == "S"};
+  return Pulse{.computed = user + system, .waited = waited, .sleeping = state == "S", .ready = state == "R"};
 }
 
 double work_between(const Pulse& begin, const Pulse& end) {
@@ -87,7 +87,7 @@ void Peer::check(int matched, int alive, double timeout_s) {
     return;
   }
   const auto now = std::chrono::steady_clock::now();
-  if (!silent_since_) silent_since_ = now;
+  if (!silent_since_ || goes_on()) silent_since_ = now;
   if (std::chrono::duration<double>(now - *silent_since_).count() > timeout_s) {
     throw PeerLost(fmt::format("{} (pid {}) has been silent for {} s (time.peer_timeout); is it stopped?",
                                label_, pid_, timeout_s));
@@ -127,6 +127,14 @@ void Peer::check_endless(double step_timeout_s) {
   throw PeerLost(
       fmt::format("{} (pid {}) hangs: it computes without end, for {:g} s (time.step_timeout) by now", label_,
                   pid_, step_timeout_s));
+}
+
+bool Peer::goes_on() {
+  const std::optional<Pulse> now = born_ != 0 ? pulse_of(pid_) : std::nullopt;
+  if (!now) return false;
+  const bool moved = now->computed != pulse_.computed || now->waited != pulse_.waited;
+  pulse_ = *now;
+  return moved || pulse_.ready;
 }
 
 void Peer::check_pulse(double timeout_s) {

@@ -16,11 +16,13 @@ struct Pulse {
   std::uint64_t computed = 0;  ///< clock ticks
   std::uint64_t waited = 0;
   bool sleeping = false;  ///< neither computing nor stopped nor waiting for a disk
+  bool ready = false;     ///< computing, or waiting for a processor that others have
 };
 
 /// Watches one program. A dead process counts at once; an expired liveliness lease only starts a clock,
-/// because a busy machine or a Ctrl-Z recovers from it. A program that lives but sleeps without end (a
-/// deadlock) is lost too: ours wake up ten times a second whatever they wait for.
+/// because a Ctrl-Z recovers from it, and not even that as long as the system shows that the program goes on
+/// or would if it had a processor: a busy machine is no failure. A program that lives but sleeps without end
+/// (a deadlock) is lost too: ours wake up ten times a second whatever they wait for.
 class Peer {
  public:
   /// `label` names it in messages: solid 'beam'.
@@ -52,6 +54,8 @@ class Peer {
   std::optional<std::chrono::steady_clock::time_point> owes_since_;
   double work_s_ = 0, longest_work_s_ = 0;  ///< processor time of this step and of the longest one [s]
 
+  /// The process has computed or woken up since the last call, or is ready to.
+  bool goes_on();
   void check_pulse(double timeout_s);
 };
 
