@@ -47,7 +47,7 @@ std::string list_of(const std::vector<RunEntry>& runs) {
 
 /// The run that is meant; asks when several may be and a person is there to answer. None when they leave.
 std::optional<RunEntry> choose_run(const Wishes& wishes) {
-  const auto running = running_runs(registry_folders());
+  const auto running = running_runs(registry_folder());
   const auto runs = matching(running, wishes.run);
   if (runs.size() == 1) return runs.front();
   if (runs.empty()) {

@@ -46,24 +46,21 @@ std::optional<RunEntry> read_entry(const fs::path& path) {
 
 }  // namespace
 
-std::vector<fs::path> registry_folders() {
-  std::vector<fs::path> folders;
+fs::path registry_folder() {
   const char* runtime = std::getenv("XDG_RUNTIME_DIR");  // NOLINT(concurrency-mt-unsafe): nobody sets it here
-  if (runtime != nullptr && *runtime != '\0') folders.push_back(fs::path(runtime) / "amp-fsi");
-  folders.emplace_back(fmt::format("/tmp/amp-fsi-{}", getuid()));
-  return folders;
+  if (runtime != nullptr && *runtime != '\0' && access(runtime, W_OK) == 0)
+    return fs::path(runtime) / "amp-fsi";
+  return fmt::format("/tmp/amp-fsi-{}", getuid());
 }
 
-std::vector<RunEntry> running_runs(const std::vector<fs::path>& folders) {
+std::vector<RunEntry> running_runs(const fs::path& folder) {
   std::vector<RunEntry> entries;
-  for (const fs::path& folder : folders) {
-    if (!is_ours(folder)) continue;
-    std::error_code none;
-    for (const auto& file : fs::directory_iterator(folder, none)) {
-      if (file.path().extension() != ".json") continue;
-      const auto entry = read_entry(file.path());
-      if (entry && lives(entry->pid)) entries.push_back(*entry);
-    }
+  if (!is_ours(folder)) return entries;
+  std::error_code none;
+  for (const auto& file : fs::directory_iterator(folder, none)) {
+    if (file.path().extension() != ".json") continue;
+    const auto entry = read_entry(file.path());
+    if (entry && lives(entry->pid)) entries.push_back(*entry);
   }
   std::ranges::sort(entries, {}, &RunEntry::run);
   return entries;

@@ -15,12 +15,13 @@ struct RunEntry {
   std::string key{};  ///< of requests to the run; never shown, never recorded
 };
 
-/// Where the entries lie: $XDG_RUNTIME_DIR/amp-fsi when there is one, else /tmp/amp-fsi-UID.
-std::vector<std::filesystem::path> registry_folders();
+/// Where the launcher puts the entries: $XDG_RUNTIME_DIR/amp-fsi when it can write there, else
+/// /tmp/amp-fsi-UID.
+std::filesystem::path registry_folder();
 
-/// Entries in these folders whose launcher lives, in the order of their names. Unreadable files are passed
-/// over, and folders of somebody else.
-std::vector<RunEntry> running_runs(const std::vector<std::filesystem::path>& folders);
+/// Entries in this folder whose launcher lives, in the order of their names. Unreadable files are passed
+/// over, and a folder of somebody else.
+std::vector<RunEntry> running_runs(const std::filesystem::path& folder);
 
 /// The entries that `wanted` may mean: all for "", else those with this identity, folder, case, or else those
 /// whose identity begins so.
