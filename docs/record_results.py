@@ -219,7 +219,8 @@ def profile(name):
         subprocess.run(["perf", "record", "-q", "-F", "499", "-o", str(samples), *words], cwd=ROOT, capture_output=True, check=True)
         report = subprocess.run(["perf", "report", "-q", "--stdio", "--sort", "symbol", "-i", str(samples)], cwd=ROOT,
                                 capture_output=True, text=True, check=True).stdout
-        shares = [line.strip() for line in report.splitlines() if line.strip() and float(line.split("%")[0]) >= 2]
+        shares = [re.sub(r"[ -]+$", "", line.strip()) for line in report.splitlines()
+                  if line.strip() and float(line.split("%")[0]) >= 2]
         text += f"`perf record -F 499 {shlex.join(words)}`\n\n```\n" + "\n".join(shares) + "\n```\n\n"
     return text
 
