@@ -1,0 +1,71 @@
+/// What the system tells of a program that the bus does not hear.
+
+#include "common/bus/peer.hpp"
+
+#include <gtest/gtest.h>
+#include <signal.h>  // NOLINT(modernize-deprecated-headers): kill
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cmath>
+#include <thread>
+
+#include "common/core/failure.hpp"
+
+namespace fsi::bus {
+namespace {
+
+constexpr double timeout = 0.3;
+
+/// A child that computes until it is ended.
+class BusyChild {
+ public:
+  BusyChild() : pid_(fork()) {
+    if (pid_ == 0) {
+      volatile double work = 0;
+      while (true) work = std::sqrt(work + 1);
+    }
+  }
+  BusyChild(const BusyChild&) = delete;
+  BusyChild& operator=(const BusyChild&) = delete;
+  ~BusyChild() {
+    kill(pid_, SIGKILL);
+    waitpid(pid_, nullptr, 0);
+  }
+  pid_t pid() const { return pid_; }
+
+ private:
+  pid_t pid_;
+};
+
+/// Looks after a silent program for three times as long as it may be silent.
+void watch_in_silence(Peer& peer) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(3 * timeout);
+  while (std::chrono::steady_clock::now() < end) {
+    peer.check(1, 0, timeout);
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+}
+
+TEST(SilentPeer, IsNotLostWhileItComputes) {
+  const BusyChild child;
+  Peer peer("solid 'beam'", host_name(), child.pid());
+  EXPECT_NO_THROW(watch_in_silence(peer));
+}
+
+TEST(SilentPeer, IsLostWhenItIsStopped) {
+  const BusyChild child;
+  Peer peer("solid 'beam'", host_name(), child.pid());
+  kill(child.pid(), SIGSTOP);
+  EXPECT_THROW(watch_in_silence(peer), PeerLost);
+}
+
+TEST(SilentPeer, OfAnotherMachineIsLostWhateverRunsHereUnderItsNumber) {
+  const BusyChild child;
+  Peer peer("solid 'beam'", "another-machine", child.pid());
+  EXPECT_THROW(watch_in_silence(peer), PeerLost);
+}
+
+}  // namespace
+}  // namespace fsi::bus
