@@ -167,11 +167,25 @@ def _loads(tools):
     return f"last row: `{typed}`\n\n" + _table(heading, rows)
 
 
+VARIANTS = (("twice as thick", ["parameters.thickness=0.2"]), ("half as high", ["parameters.height=0.5"]),
+            ("Mach 1.3", ["parameters.mach=1.3"]), ("Mach 1.3, softer", ["parameters.mach=1.3", *_parameters(("10", "10"))]))
+
+
+def _variants(tools):
+    """What a user may change by YAML alone: how far each comes, and why it ends."""
+    rows, typed = [], ""
+    for index, (label, settings) in enumerate(VARIANTS):
+        _, found, typed = _run(tools, f"beam-variant-{index}", "beam", settings)
+        rows.append([label, found.get("status", "-"), f"{found.get('t', 0):g}", found.get("reason", "")])
+    return f"last row: `{typed}`\n\n" + _table(["", "status", "t", "reason"], rows)
+
+
 def studies(tools):
     """(title, function) of each study; `tools`: the functions of record_results."""
     yield "Beam: the four of the paper, h = 1/160", lambda: _beams(tools, 16)
     for beam in (("100", "100"), ("10", "10")):
         yield (f"Beam ({beam[0]}, {beam[1]}): largest distance between the centrelines of two grids",
                lambda b=beam: _centrelines(tools, b))
+    yield "Beam: variants, h = 1/80", lambda: _variants(tools)
     yield "Clamped beam alone: frequencies of its first two bending modes", lambda: _swings(tools)
     yield "Clamped beam alone: deflection under an end load, h = 1/80", lambda: _loads(tools)

@@ -413,6 +413,8 @@ def disk_studies():
                          [(f"multirate {m}", [f"time.multirate={m}"], []) for m in ("false", "true")],
                          [("steps", "steps"), *[(name, f"errors.{name}") for name in COLUMNS]],
                          ["grid.factor=8", "parameters.stiffness=16", "parameters.delta=0.1"]))
+    yield ("Rotating disk, time of each program",
+           lambda: costs([("h = 1/160", run_once("disk-time", "rotating_disk", ["grid.factor=16"])[0])]))
     yield ("Rotating disk inside a wall, t = 10",
            lambda: converge("disk-wall", "rotating_disk_walled", "2,4,8,16")
            + "\n" + sweep("disk-budget", "rotating_disk_walled", [(f"h = 1/{10 * j}", [f"grid.factor={j}"], []) for j in (2, 4, 8)],
