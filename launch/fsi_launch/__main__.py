@@ -1,16 +1,16 @@
 """Entry: `python3 -m fsi_launch VERB ...`. `launch/fsi` blocks SIGINT and SIGTERM until `main` is ready for them."""
 
-import signal
 import sys
 
+from fsi_launch import interrupts
 from fsi_launch.cli import main
-from fsi_launch.failure import Failure
+from fsi_launch.failure import INTERRUPTED, TERMINATED
 
 try:
     code = main(sys.argv[1:])
 except KeyboardInterrupt:  # behind all handlers
-    code = 130
-except Failure as failure:  # SIGTERM there
-    code = failure.code
-signal.signal(signal.SIGINT, signal.SIG_IGN)  # nothing is left to interrupt
+    code = INTERRUPTED
+except interrupts.Terminated:
+    code = TERMINATED
+interrupts.ignore_terminal()
 sys.exit(code)

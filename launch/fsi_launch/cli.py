@@ -2,10 +2,9 @@
 
 import argparse
 import os
-import signal
 import sys
 
-from fsi_launch import paths
+from fsi_launch import interrupts, paths
 from fsi_launch.failure import DONE, Failure, INTERRUPTED, OUTPUT_FAILED, TERMINATED, UserMistake
 
 REQUESTS = ("pause", "resume", "checkpoint", "stop")
@@ -189,19 +188,13 @@ def _parser():
     return parser
 
 
-def _terminated(*_):
-    raise Failure(TERMINATED, "ended on request (SIGTERM)")
-
-
 def main(arguments):
     """Returns the exit code."""
     if not arguments or arguments[0] in ("-h", "--help", "help"):
         print(USAGE, end="")
         return DONE
-    signal.signal(signal.SIGTERM, _terminated)
-    signal.signal(signal.SIGINT, signal.default_int_handler)  # also in the background of a script
     try:
-        signal.pthread_sigmask(signal.SIG_UNBLOCK, (signal.SIGINT, signal.SIGTERM))
+        interrupts.listen()
         options = _parser().parse_args(arguments)
         return options.act(options)
     except Failure as failure:
@@ -210,8 +203,9 @@ def main(arguments):
     except KeyboardInterrupt:
         print("fsi: interrupted (Ctrl-C)", file=sys.stderr)
         return INTERRUPTED
+    except interrupts.Terminated:
+        print("fsi: ended on request (SIGTERM)", file=sys.stderr)
+        return TERMINATED
     except OSError as error:
         print(f"fsi: {error.filename or 'output'}: {error.strerror}", file=sys.stderr)
         return OUTPUT_FAILED
-    finally:
-        signal.signal(signal.SIGTERM, signal.SIG_DFL)

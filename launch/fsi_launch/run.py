@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from fsi_launch import case as cases
-from fsi_launch import paths, probes, registry, restart, summary
+from fsi_launch import interrupts, paths, probes, registry, restart, summary
 from fsi_launch.failure import (DONE, EXPECTATION_MISSED, Failure, INTERRUPTED, OUTPUT_FAILED,
                                 PEER_LOST, TERMINATED, UserMistake)
 from fsi_launch.progress import Progress
@@ -257,7 +257,7 @@ def run(request):
     say(f"{case.name}: {', '.join(case.programs.values())}")
 
     start = time.monotonic()
-    with registry.Entry(identity, directory.resolve(), case.name) as entry:
+    with interrupts.held(), registry.Entry(identity, directory.resolve(), case.name) as entry, interrupts.heard():
         outcome = _watched(case, directory, entry, checkpoint, request, say)
     code, status, reason = _judge(outcome, case, directory)
     result = summary.merge(directory, case, status, reason, time.monotonic() - start)

@@ -14,6 +14,8 @@ import subprocess
 import time
 from dataclasses import dataclass, field
 
+from fsi_launch import interrupts
+
 GRACE = 4.0         # [s] from a program's failure to SIGTERM for the others: they should have ended by then
 KILL_AFTER = 1.0    # [s] from that SIGTERM to SIGKILL
 STOP_GRACE = 40.0   # [s] from Ctrl-C or SIGTERM to SIGKILL: a checkpoint is written, which may take a long step
@@ -87,6 +89,9 @@ class Supervisor:
     def run(self, programs):
         """Starts all, returns the Outcome when none is left."""
         with self._signals_caught():
+            if number := interrupts.asked():  # and yet we came here: its exception got lost
+                self._outcome.signal = number
+                return self._outcome
             try:
                 for program in programs:
                     self._start(program)

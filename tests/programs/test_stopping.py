@@ -2,11 +2,13 @@
 """A run that is asked to end does so at once and in order, and leaves nothing behind, whatever way it is asked."""
 
 import os
+import shutil
 import signal
+import subprocess
 import time
 import unittest
 
-from running import EndToEnd, until
+from running import BIN, EndToEnd, ROOT, WATCHDOG, processes, until
 from test_lost_programs import LONG
 
 
@@ -27,6 +29,58 @@ class Beginning(EndToEnd):
 
     def test_terminate(self):
         self.ask(signal.SIGTERM, 143)
+
+
+class AtTheWorstMoment(EndToEnd):
+    """The launcher sends itself the signal in the middle of something."""
+
+    def ask(self, number, trap):
+        """Exit code of a launcher with `trap` in it, a few lines of Python that have `strike()` called."""
+        environment = os.environ | {"FSI_BIN": str(BIN), "XDG_RUNTIME_DIR": str(self.folder), "PYTHONPATH": str(ROOT / "launch")}
+        script = "\n".join(("import os, sys", "from fsi_launch import cli, registry, run",
+                            f"strike = lambda: os.kill(os.getpid(), {int(number)})", trap, "sys.exit(cli.main(sys.argv[1:]))"))
+        return subprocess.run(["/usr/bin/python3", "-c", script, "run", *LONG, "--out", "run"], cwd=self.folder,
+                              env=environment, capture_output=True, check=False, timeout=WATCHDOG)
+
+    def assert_ended(self, ended, code):
+        self.assertEqual(ended.returncode, code, ended.stderr)
+        self.assertEqual([path.name for path in self.folder.glob("amp-fsi/*.json")], [])
+        self.assertEqual(processes.programs_of(self.folder / "run"), [])
+
+    def test_while_the_entry_of_the_run_is_written(self):
+        trap = """
+write = registry.json.dumps
+def dumps(content):
+    strike()
+    return write(content)
+registry.json.dumps = dumps
+enter = registry.Entry.__enter__
+def entered(entry):
+    result = enter(entry)
+    strike()
+    return result
+registry.Entry.__enter__ = entered
+"""
+        for number, code in ((signal.SIGINT, 130), (signal.SIGTERM, 143)):
+            self.assert_ended(self.ask(number, trap), code)
+            shutil.rmtree(self.folder / "run")
+
+    def test_where_exceptions_get_lost(self):
+        trap = """
+class Destroyed:
+    def __del__(self):
+        strike()
+prepare = run._programs
+def programs(*arguments):
+    Destroyed()
+    return prepare(*arguments)
+run._programs = programs
+"""
+        for number, code in ((signal.SIGINT, 130), (signal.SIGTERM, 143)):
+            ended = self.ask(number, trap)
+            self.assertIn(b"Exception ignored", ended.stderr)
+            self.assert_ended(ended, code)
+            shutil.rmtree(self.folder / "run")
 
 
 class Stopping(EndToEnd):
