@@ -206,34 +206,19 @@ bool CompositeGrid::cut_away(const Vec2& x) const {
 }
 
 void CompositeGrid::interpolate(std::span<const FieldView> fields) const {
-  const auto apply_list = [&](const InterpolationList& list) {
-    return apply(list, fields[static_cast<std::size_t>(list.target_grid)],
-                 fields[static_cast<std::size_t>(list.donor_grid)]);
-  };
   for (const InterpolationList& list : interpolation_) {
-    if (!list.implicit) apply_list(list);
+    if (!list.implicit) apply(list, fields);
   }
-  if (counts_.implicit == 0) return;
-  // Implicit points are donors of each other; their weights on one another are small and a few sweeps settle
-  // them.
-  constexpr int most_sweeps = 50;
-  constexpr double settled = 1e-13;
-  double first_change = 0;
-  for (int sweep = 0; sweep < most_sweeps; ++sweep) {
-    double change = 0;
-    for (const InterpolationList& list : interpolation_) {
-      if (list.implicit) change = std::max(change, apply_list(list));
-    }
-    first_change = std::max(first_change, change);
-    if (!(change > settled * first_change)) break;
-  }
+  if (counts_.implicit == 0 || settle_implicit(interpolation_, fields)) return;
+  const auto first = std::ranges::find_if(interpolation_, &InterpolationList::implicit);
+  throw NumbersBroke(fmt::format(
+      "grids \"{}\" and \"{}\": points that are interpolated from each other find no common values; "
+      "let the grids overlap more (more lines, or closer ones)",
+      name(first->target_grid), name(first->donor_grid)));
 }
 
 void CompositeGrid::fill_exposed(std::span<const FieldView> fields) const {
-  for (const InterpolationList& list : exposed_) {
-    apply(list, fields[static_cast<std::size_t>(list.target_grid)],
-          fields[static_cast<std::size_t>(list.donor_grid)]);
-  }
+  for (const InterpolationList& list : exposed_) apply(list, fields);
 }
 
 }  // namespace fsi::grid

@@ -86,7 +86,8 @@ class CompositeGrid {
   const RowSets& valid(int grid) const { return part(grid).now.valid; }
   PointKind kind(int grid, int i, int j) const;
 
-  /// Interpolates all planes of all fields, one per grid.
+  /// Interpolates all planes of all fields, one per grid. @throws NumbersBroke where points that are donors
+  /// of each other find no common values
   void interpolate(std::span<const FieldView> fields) const;
   /// Gives the points that were unused before the last update values of the time before it: `fields` hold
   /// that time.

@@ -27,6 +27,19 @@ double apply_width(const InterpolationList& list, FieldView target, ConstFieldVi
   return change;
 }
 
+/// Largest magnitude at the points of the implicit lists.
+double largest_value(std::span<const InterpolationList> lists, std::span<const FieldView> fields) {
+  double most = 0;
+  for (const InterpolationList& list : lists) {
+    if (!list.implicit) continue;
+    const FieldView field = fields[static_cast<std::size_t>(list.target_grid)];
+    for (int plane = 0; plane < field.planes; ++plane) {
+      for (const std::int32_t at : list.target) most = std::max(most, std::abs(field.plane(plane)[at]));
+    }
+  }
+  return most;
+}
+
 }  // namespace
 
 std::array<double, 3> lagrange_weights(double r, int width) {
@@ -59,6 +72,27 @@ void InterpolationList::append(std::ptrdiff_t at, std::ptrdiff_t donor_at, const
 
 double apply(const InterpolationList& list, FieldView target, ConstFieldView donor) {
   return list.width == 3 ? apply_width<3>(list, target, donor) : apply_width<2>(list, target, donor);
+}
+
+double apply(const InterpolationList& list, std::span<const FieldView> fields) {
+  return apply(list, fields[static_cast<std::size_t>(list.target_grid)],
+               fields[static_cast<std::size_t>(list.donor_grid)]);
+}
+
+bool settle_implicit(std::span<const InterpolationList> lists, std::span<const FieldView> fields) {
+  constexpr int most_sweeps = 50;
+  constexpr double settled = 1e-13, tolerable = 1e-9;
+  double first_change = 0, change = 0;
+  for (int sweep = 0; sweep < most_sweeps; ++sweep) {
+    change = 0;
+    for (const InterpolationList& list : lists) {
+      if (list.implicit) change = std::max(change, apply(list, fields));
+    }
+    first_change = std::max(first_change, change);
+    if (!(change > settled * first_change)) return true;
+  }
+  // Where hardly anything changed to begin with, round-off alone keeps it from settling.
+  return change <= tolerable * largest_value(lists, fields);
 }
 
 }  // namespace fsi::grid

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "common/core/field.hpp"
@@ -40,5 +41,12 @@ struct InterpolationList {
 
 /// Sets the points of a list in all planes. @returns the largest change of a value
 double apply(const InterpolationList& list, FieldView target, ConstFieldView donor);
+/// The same with one field per grid.
+double apply(const InterpolationList& list, std::span<const FieldView> fields);
+
+/// Sets the points of the implicit lists, which are donors of each other, to their common solution: sweeps
+/// over the lists until nothing changes but the last digits. Weights on one another are small in a sound
+/// overlap, and a few sweeps do. @returns whether they settled within 50 sweeps
+bool settle_implicit(std::span<const InterpolationList> lists, std::span<const FieldView> fields);
 
 }  // namespace fsi::grid
