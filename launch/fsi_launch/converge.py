@@ -52,10 +52,15 @@ def table(levels, summaries, names):
     }
 
 
-def too_low(result, bound):
-    """{name: fitted rate} of the errors that fall more slowly than `bound`; those at round-off fall no more."""
+def fitted(result):
+    """{name: fitted rate} of a table's errors, but for those at round-off, which fall no more."""
     return {name: rate for name, rate in result["fitted"].items()
-            if (rate is None or rate < bound) and any(e is None or _has_rate(e) for e in result["errors"][name])}
+            if any(error is None or _has_rate(error) for error in result["errors"][name])}
+
+
+def too_low(rates, bound):
+    """Those of {name: rate} that are below `bound` or unknown."""
+    return {name: rate for name, rate in rates.items() if rate is None or rate < bound}
 
 
 def _rows(result):
@@ -110,12 +115,24 @@ def _compare_levels(options, case, directory):
                             ("json", self_convergence.as_json(options.levels, rows))):
         (directory / f"converge.{suffix}").write_text(content, encoding="utf-8")
     print(f"tables in {directory}", file=sys.stderr)
-    return DONE
+    return _judge({f"{row.quantity} of {row.solid} at t = {row.t:g}": row.orders[-1] for row in rows
+                   if any(_has_rate(difference) for difference in row.differences)}, options.min_rate)
+
+
+def _judge(rates, least):
+    """The exit code, after a line for every rate below `least`; None: nothing is asked."""
+    low = {} if least is None else too_low(rates, least)
+    for name, rate in low.items():
+        print(f"fsi: rate of {name} is {'unknown' if rate is None else f'{rate:.2f}'}, must be at least {least:g}",
+              file=sys.stderr)
+    return EXPECTATION_MISSED if low else DONE
 
 
 def main(options):
     """Prints the table and writes converge.{txt,md,json}."""
     case = cases.resolve(options.case, options.overrides, options.laws)
+    if case.reference == "none" and options.min_rate is not None and len(options.levels) < 3:
+        raise UserMistake("--min-rate: without a reference solution a rate takes three grids, --levels J,J,J")
     name = case.name
     directory = Path(options.out or f"runs/converge-{name}-{time.strftime('%Y%m%d-%H%M%S')}")
     summaries = _run_levels(options, directory)
@@ -131,8 +148,4 @@ def main(options):
     for suffix, content in (("txt", text), ("md", as_markdown(result)), ("json", json.dumps(result, indent=2) + "\n")):
         (directory / f"converge.{suffix}").write_text(content, encoding="utf-8")
     print(f"tables in {directory}", file=sys.stderr)
-    low = {} if options.min_rate is None else too_low(result, options.min_rate)
-    for key, rate in low.items():
-        print(f"fsi: rate of {key} is {'unknown' if rate is None else f'{rate:.2f}'}, must be at least "
-              f"{options.min_rate:g}", file=sys.stderr)
-    return EXPECTATION_MISSED if low else DONE
+    return _judge(fitted(result), options.min_rate)

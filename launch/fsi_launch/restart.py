@@ -62,15 +62,19 @@ def latest(directory, say=lambda text: None):
     return None
 
 
+def expect_over(directory, option):
+    """Nobody may touch the folder of a run that lives. `option`: what the user typed."""
+    if run := registry.running_in(directory):
+        raise UserMistake(f"{option}: the run is still going on (launcher {run})")
+    if left := processes.programs_of(directory):
+        raise UserMistake(f"{option}: {left[0].name} of the former run is still alive (pid {left[0].pid}); wait for its end")
+
+
 def choose(directory, say):
     """The Set that a restart of the run in `directory` goes on from."""
     if not (directory / "case.yaml").is_file():
         raise UserMistake(f"--restart {directory} holds no run; name the folder of a run")
-    if run := registry.running_in(directory):
-        raise UserMistake(f"--restart {directory}: the run is still going on (launcher {run})")
-    if left := processes.programs_of(directory):
-        raise UserMistake(f"--restart {directory}: {left[0].name} of the former run is still alive (pid {left[0].pid}); "
-                          "wait for its end")
+    expect_over(directory, f"--restart {directory}")
     if not _folders(directory):
         raise UserMistake(f"--restart {directory} has no checkpoint; begin anew, with --set output.checkpoint_every=N")
     if (found := latest(directory, say)) is None:

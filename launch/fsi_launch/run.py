@@ -1,6 +1,7 @@
 """`fsi run`: one case from its file to its summary."""
 
 import contextlib
+import shutil
 import signal
 import subprocess
 import sys
@@ -18,6 +19,8 @@ from fsi_launch.watch import Monitor
 
 
 FRAMES = 60     # of a movie
+OF_A_RUN = ("case.yaml", "summary.json", "log", "parts", "fields", "checkpoints", "last_state", "plots", "*.csv", "run.xmf",
+            "fluid.h5", "solid_*.h5", "reference.h5")
 
 
 @dataclass
@@ -58,10 +61,14 @@ def _free_name(name, stamp):
 
 
 def _remove_former_run(directory):
-    """Only what a run wrote; anything else stays, and makes the folder unusable."""
-    for path in sorted(directory.rglob("*"), key=lambda p: len(p.parts), reverse=True):
+    """Everything a run and its pictures leave (docs/output.md). Throws UserMistake if there is anything else."""
+    found = sorted(path for path in directory.iterdir() if not path.name.endswith((".part", ".tmp")))
+    if strangers := [path.name for path in found if not any(path.match(pattern) for pattern in OF_A_RUN)]:
+        raise UserMistake(f"--out {directory} also holds {', '.join(strangers[:3])}, which no run wrote; name a new folder, "
+                          "or move it away")
+    for path in directory.iterdir():
         if path.is_dir() and not path.is_symlink():
-            path.rmdir()
+            shutil.rmtree(path)
         else:
             path.unlink()
 
@@ -76,6 +83,7 @@ def _make_directory(request, name):
             raise UserMistake(f"--out {directory} is not empty and holds no run; name a new folder")
         if not request.overwrite:
             raise UserMistake(f"--out {directory} holds the results of a run; name a new folder or add --overwrite")
+        restart.expect_over(directory, f"--out {directory} --overwrite")
         _remove_former_run(directory)
     try:
         (directory / "log").mkdir(parents=True, exist_ok=True)
@@ -244,6 +252,9 @@ def _begin(request, say):
         checkpoint = restart.choose(directory, say)
         former = str(directory / "case.yaml")
         case = _resolved(request, request.case or former, former)
+        if case.end < checkpoint.t:
+            raise UserMistake(f"time.end = {case.end:g} lies before the checkpoint's t = {checkpoint.t:.6g}; "
+                              "a restart can only go on")
         restart.prepare(directory)
     (directory / "case.yaml").write_text(case.text, encoding="utf-8")
     return case, directory, checkpoint

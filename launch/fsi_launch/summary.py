@@ -89,10 +89,19 @@ def value_at(summary, quantity):
     return value
 
 
+def _as_number(text):
+    """The number a text stands for, or None."""
+    try:
+        return float(text)
+    except ValueError:
+        return None
+
+
 def _is_met(value, entry):
-    if entry.get("equals") is not None:
-        return str(value) == str(entry["equals"])
-    if not isinstance(value, (int, float)) or not math.isfinite(value):
+    is_number = isinstance(value, (int, float))
+    if (wanted := entry.get("equals")) is not None:
+        return value == _as_number(wanted) if is_number else str(value) == str(wanted)
+    if not is_number or not math.isfinite(value):
         return False
     return not ((entry.get("max") is not None and value > entry["max"])
                 or (entry.get("min") is not None and value < entry["min"]))

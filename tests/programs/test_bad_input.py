@@ -1,10 +1,12 @@
 #!/usr/bin/python3
 """The user's mistakes: exit 2, one line that says where and what to write, nothing started, nothing made."""
 
+import os
 import subprocess
 import unittest
 
 from running import BIN, EndToEnd, FSI, ROOT
+from test_lost_programs import LONG
 
 PISTON = (ROOT / "configs" / "elastic_piston.yaml").read_text(encoding="utf-8")
 
@@ -79,6 +81,38 @@ class BadInput(EndToEnd):
         self.assertIn("--overwrite", again.stderr)
         self.assertEqual(run.summary()["status"], "completed")
         self.complete("elastic_piston", "--set", "grid.factor=1", "--set", "expect={}", "--overwrite")
+
+    def test_overwriting_takes_nothing_else_and_no_living_run(self):
+        short = ("elastic_piston", "--set", "grid.factor=1", "--set", "expect={}")
+        run = self.complete(*short)
+        notes = run.directory / "notes.txt"
+        notes.write_text("mine", encoding="utf-8")
+        refused = self.launch(*short, "--overwrite")
+        self.assertEqual(refused.wait(), 2)
+        self.assertIn("notes.txt", refused.stderr)
+        self.assertEqual(notes.read_text(encoding="utf-8"), "mine")
+        self.assertEqual(run.summary()["status"], "completed")
+        living = self.launch(*LONG, out="long")
+        living.until_stepping()
+        refused = self.launch(*short, "--overwrite", out="long")
+        self.assertEqual(refused.wait(), 2)
+        self.assertIn("still going on", refused.stderr)
+        self.assertEqual(len(living.programs()), 3)
+
+    def test_a_restart_goes_on_not_back(self):
+        run = self.complete("elastic_piston", "--set", "grid.factor=2", "--set", "expect={}", "--set", "output.checkpoint_every=10")
+        back = self.launch("--restart", str(run.directory), "--set", "time.end=0.1", out=None)
+        self.assertEqual(back.wait(), 2)
+        self.assertIn("time.end", back.stderr)
+
+    def test_a_rate_between_grids_takes_three(self):
+        answer = subprocess.run([FSI, "converge", "rigid_piston", "--levels", "1,2", "--min-rate", "5"], cwd=self.folder,
+                                env=os.environ | {"FSI_BIN": str(BIN)}, capture_output=True, text=True, check=False)
+        self.assertEqual(answer.returncode, 2, answer.stderr)
+        answer = subprocess.run([FSI, "converge", "rigid_piston", "--levels", "1,2,4", "--min-rate", "5"], cwd=self.folder,
+                                env=os.environ | {"FSI_BIN": str(BIN)}, capture_output=True, text=True, check=False)
+        self.assertEqual(answer.returncode, 1, answer.stderr)
+        self.assertIn("must be at least 5", answer.stderr)
 
 
 if __name__ == "__main__":

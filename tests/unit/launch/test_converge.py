@@ -27,7 +27,7 @@ class Rates(unittest.TestCase):
 
     def test_error_at_round_off_needs_no_rate(self):
         runs = [{"errors": {"rho": j**-1.0, "v2": 1e-16}, "steps": 1, "wall_s": 1.0} for j in (2, 4)]
-        self.assertEqual(list(converge.too_low(converge.table([2, 4], runs, ["rho", "v2"]), 1.9)), ["rho"])
+        self.assertEqual(list(converge.too_low(converge.fitted(converge.table([2, 4], runs, ["rho", "v2"])), 1.9)), ["rho"])
 
     def test_table_as_text_and_markdown(self):
         runs = [{"errors": {"rho": j**-2.0}, "steps": 10 * j, "wall_s": 1.0} for j in (2, 4)]

@@ -88,6 +88,10 @@ class Expectations(unittest.TestCase):
         self.assertEqual(self.missed({"quantity": "status", "equals": "completed"}, status="completed"), [])
         self.assertEqual(len(self.missed({"quantity": "status", "equals": "completed"}, status="failed")), 1)
 
+    def test_equal_numbers_however_they_are_written(self):
+        for wanted, missed in (("0", 0), ("0.0", 0), ("1", 1), ("none", 1)):
+            self.assertEqual(len(self.missed({"quantity": "counters.floors", "equals": wanted}, counters={"floors": 0.0})), missed)
+
     def test_missing_or_not_finite_is_missed(self):
         self.assertEqual(len(self.missed({"quantity": "errors.rho", "max": 1})), 1)
         self.assertEqual(len(self.missed({"quantity": "errors.rho", "max": 1}, errors={"rho": None})), 1)
