@@ -100,11 +100,18 @@ void replay(const Wishes& wishes) {
   print(wishes, state, source.now());
 }
 
+void send(const std::string& request, const RunEntry& run) {
+  bus::send_control(run.run, run.key, request);
+  fmt::print("{} has heard: {}\n", run.run, request);
+  if (request == "checkpoint" || request == "stop")
+    fmt::print("the checkpoint goes to {}/checkpoints\n", run.dir);
+}
+
 void act(const Wishes& wishes) {
   if (!wishes.replay.empty()) return replay(wishes);
   const auto run = choose_run(wishes);
   if (!run) return;
-  if (!wishes.send.empty()) return bus::send_control(run->run, run->key, wishes.send);
+  if (!wishes.send.empty()) return send(wishes.send, *run);
   Live live(*run, wishes.record);
   RunState state(*run);
   if (wishes.once) return show_once(wishes, live, state);

@@ -15,13 +15,14 @@ class _Parser(argparse.ArgumentParser):
     """Reports a mistake in one line; exit code 2."""
 
     def error(self, message):
-        raise UserMistake(f"{self.prog.split()[-1]}: {message}; --help says more")
+        verb = self.prog.split()[1:]
+        raise UserMistake(f"{''.join(f'{word}: ' for word in verb)}{message}; --help says more")
 
 
 def _add_case(parser, **options):
     parser.add_argument("case", metavar="CASE", help="a case file, or a name in configs/", **options)
     parser.add_argument("--set", dest="overrides", metavar="KEY=VALUE", action="append", default=[],
-                        help="override an entry of the case, e.g. --set time.end=0.4 (repeatable)")
+                        help="override an entry of the case, e.g. --set grid.factor=8 (repeatable)")
     parser.add_argument("--solid", dest="laws", metavar="NAME=LAW", action="append", default=[],
                         help="give a solid another law, e.g. --solid solid=neo_hookean (repeatable)")
 
@@ -91,10 +92,16 @@ def _become(name, *words):
 
 
 def _levels(text):
-    levels = [int(word) for word in text.split(",")]
-    if not levels or min(levels) < 1:
-        raise ValueError
-    return levels
+    words = text.split(",")
+    if not all(word.isdecimal() and int(word) > 0 for word in words):
+        raise argparse.ArgumentTypeError(f"'{text}' is no list of whole numbers like 2,4,8")
+    return [int(word) for word in words]
+
+
+def _port(text):
+    if not text.isdecimal() or int(text) > 65535:
+        raise argparse.ArgumentTypeError(f"'{text}' is no port: 0 to 65535")
+    return int(text)
 
 
 def _words(text):
@@ -110,8 +117,8 @@ def _parser():
     _add_case(verb, nargs="?")
     verb.add_argument("--out", metavar="DIR", help="folder of the results (default: runs/CASE-TIME)")
     verb.add_argument("--restart", metavar="DIR", help="go on with the run in DIR from its last checkpoint; the numbers "
-                      "are those of a run that was never interrupted. CASE may be left out; only time.end, output and "
-                      "expect may be changed")
+                      "are those of a run that was never interrupted. CASE may be left out; only time.end and "
+                      "the time-outs, output but for its probes, and expect may be changed")
     verb.add_argument("--overwrite", action="store_true", help="replace the results of a former run in DIR")
     verb.add_argument("--no-progress", dest="progress", action="store_false", help="no progress bar")
     verb.add_argument("--monitor", action="store_true", help="show the run on the whole terminal, as fsi monitor does; "
@@ -148,7 +155,7 @@ def _parser():
     verb.add_argument("--plain", action="store_true", help="a line per second instead of the whole terminal")
     verb.add_argument("--once", action="store_true", help="show the state once and exit")
     verb.add_argument("--json", action="store_true", help="JSON, one object per line")
-    verb.add_argument("--web", metavar="PORT", type=int, help="serve a page for browsers, on this machine only; 0 finds a "
+    verb.add_argument("--web", metavar="PORT", type=_port, help="serve a page for browsers, on this machine only; 0 finds a "
                       "free port")
     verb.add_argument("--host", metavar="ADDRESS", help="address of the page (default: 127.0.0.1)")
     verb.add_argument("--record", metavar="FILE", help="write everything that is heard to this HDF5 file")

@@ -89,6 +89,12 @@ def as_markdown(result):
     return "\n".join([lines[0], "|" + "---|" * len(rows[0]), *lines[1:]]) + "\n"
 
 
+def _expect_errors(names, errors):
+    if unknown := set(names) - set(errors):
+        raise UserMistake(f"--rates: no error {', '.join(sorted(unknown))}; there are: "
+                          + (", ".join(errors) or "none, for want of a reference solution"))
+
+
 def _run_levels(options, directory):
     """Summaries of the runs, one per level. Throws the Failure of the first run that fails."""
     summaries = []
@@ -100,6 +106,7 @@ def _run_levels(options, directory):
                              out=str(directory / f"level_{j}")))
         if result.code != DONE:
             raise Failure(result.code, f"level {j} failed; no table")
+        _expect_errors(options.rates, result.summary["errors"])
         summaries.append(result.summary)
     return summaries
 
@@ -135,11 +142,10 @@ def main(options):
         raise UserMistake("--min-rate: without a reference solution a rate takes three grids, --levels J,J,J")
     name = case.name
     directory = Path(options.out or f"runs/converge-{name}-{time.strftime('%Y%m%d-%H%M%S')}")
+    if directory.exists() and (not directory.is_dir() or any(directory.iterdir())):
+        raise UserMistake(f"--out {directory} is not empty; name a new folder")
     summaries = _run_levels(options, directory)
     names = [key for key in summaries[0]["errors"] if not options.rates or key in options.rates]
-    if unknown := set(options.rates) - set(names):
-        raise UserMistake(f"--rates: no error {', '.join(sorted(unknown))}; there are: "
-                          + (", ".join(summaries[0]["errors"]) or "none, for want of a reference solution"))
     if not names:
         return _compare_levels(options, case, directory)
     result = table(options.levels, summaries, names) | {"case": name, "overrides": options.overrides}

@@ -34,7 +34,7 @@ PROGRAMS = {"fluid": "fluid_solver", "solid": "solid_solver_linear_elastic", "co
 FAULTS = {
     "kill a program": ("SIGKILL", PROGRAMS, 4, END_WITHIN),
     "kill the launcher": ("SIGKILL", ["launcher"], -signal.SIGKILL, END_WITHIN),
-    "stop a program": ("SIGSTOP", PROGRAMS, 4, END_WITHIN + PEER_TIMEOUT),
+    "stop a program": ("SIGSTOP", PROGRAMS, 4, PEER_TIMEOUT + 2),
     "stop and continue a program": ("SIGCONT", PROGRAMS, 0, None),
     "stop and continue the launcher": ("SIGCONT", ["launcher"], 0, None),
     "terminate a program": ("SIGTERM", PROGRAMS, 4, END_WITHIN),
@@ -233,7 +233,7 @@ def table(trials):
         mine = [trial for trial in trials if trial.fault == fault and not trial.late]
         ends = [trial.seconds for trial in mine if within]
         rows.append((fault, str(len(mine)), str(sum(not trial.flaws for trial in mine)),
-                     f"{max(ends):.1f}" if ends else "goes on",
+                     f"{max(ends):.1f}" if ends else "-" if within else "goes on",
                      str(sum(trial.restarted == "yes" and not trial.flaws for trial in mine)) if within else "-"))
     widths = [max(len(row[k]) for row in rows) for k in range(len(rows[0]))]
     return ["  ".join(cell.ljust(w) if k == 0 else cell.rjust(w) for k, (cell, w) in enumerate(zip(row, widths)))

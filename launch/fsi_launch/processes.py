@@ -21,6 +21,11 @@ def _option(words, option):
     return words[place] if place < len(words) else None
 
 
+def state_of(pid):
+    """The letter the system shows for a process: R, S, D, T (stopped), Z (ended) ... Throws OSError when there is none."""
+    return Path(f"/proc/{pid}/stat").read_text(encoding="utf-8").rsplit(")", 1)[1].split()[0]
+
+
 def programs_of(directory):
     """The programs that work for the run in `directory`."""
     wanted = Path(directory).resolve()
@@ -32,8 +37,7 @@ def programs_of(directory):
             words = [os.fsdecode(word) for word in (entry / "cmdline").read_bytes().split(b"\0")]
             if (folder := _option(words, "--run-dir")) is None:
                 continue
-            ended = (entry / "stat").read_text().rsplit(")", 1)[1].split()[0] in "ZX"
-            if not ended and (Path(os.readlink(entry / "cwd")) / folder).resolve() == wanted:
+            if state_of(entry.name) not in "ZX" and (Path(os.readlink(entry / "cwd")) / folder).resolve() == wanted:
                 found.append(Living(_option(words, "--name") or "reference", os.path.basename(words[0]), int(entry.name)))
         except (OSError, IndexError):  # it has just ended, or is somebody else's
             continue

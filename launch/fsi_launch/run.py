@@ -37,7 +37,7 @@ class Request:
     monitor: bool = False   # in front, on a terminal
     quiet: bool = False
     judge: bool = True      # hold the results against the case's expectations
-    frames: bool = False    # output times for a movie, unless the overrides say some
+    frames: bool = False    # output times for a movie besides those of the case, unless the overrides say how many
 
 
 @dataclass
@@ -230,7 +230,7 @@ def _applicable(case, request, say):
 def _resolved(request, path, former=None):
     """The checked Case, all of whose programs are there."""
     case = cases.resolve(path, request.overrides, request.laws, former)
-    if request.frames and not any(entry.startswith("output.") for entry in request.overrides):
+    if request.frames and not any(entry.startswith("output.every") for entry in request.overrides):
         overrides = [*request.overrides, f"output.every={case.end / FRAMES:.17g}"]
         case = cases.resolve(path, overrides, request.laws, former)
     for program in case.programs.values():
@@ -282,7 +282,12 @@ def run(request):
             code, result["status"], result["reason"] = failure.code, "failed", str(failure)
     expect = _applicable(case, request, say) if request.judge and status == "completed" else []
     missed = summary.missed_expectations(result, expect)
-    summary.write(directory, result)
+    try:
+        summary.write(directory, result)
+    except OSError as error:
+        _report(result, directory, missed, request.quiet)
+        raise Failure(OUTPUT_FAILED, f"cannot write {directory / 'summary.json'}: {error.strerror}; the run itself {status} at "
+                                     f"t = {result['t']:g}{f': {reason}' if reason else ''}") from None
     _report(result, directory, missed, request.quiet)
     return Result(EXPECTATION_MISSED if code == DONE and missed else code, directory, result)
 

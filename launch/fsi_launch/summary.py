@@ -132,6 +132,8 @@ def missed_expectations(summary, expect):
 
 # --- for people
 
+ERRORS_IN_A_ROW = 7     # of a terminal 80 wide
+
 
 def _table(rows):
     """Rows of text as aligned columns: the first to the left, the others to the right."""
@@ -149,9 +151,10 @@ def _rate(value):
 
 
 def _participant_rows(summary):
-    rows = [["participant", "points", "steps", "computing", "waiting", "point updates", "memory"]]
+    rows = [["participant", "points", "steps", "computing", "waiting", "updates", "memory"]]
     for name, part in summary["participants"].items():
-        label = name if part["program"] == name else f"{name} ({part['program']})"
+        program = part["program"].removeprefix("solid_solver_")
+        label = name if program in (name, f"{name}_solver") else f"{name} ({program})"
         rows.append([label, str(part.get("points", "-")), str(part.get("substeps", "-")),
                      _number(part.get("compute_s"), "{:.2f} s"), _number(part.get("wait_s"), "{:.2f} s"),
                      _rate(part.get("point_updates_per_s")), _number(part.get("peak_memory_mib"), "{:.0f} MiB")])
@@ -168,7 +171,8 @@ def describe(summary, directory):
     if summary["errors"]:
         lines.append("  errors (maximum norm)")
         names = list(summary["errors"])
-        lines += _table([[""] + names, [""] + [_number(summary["errors"][name], "{:.2e}") for name in names]])
+        for part in (names[k:k + ERRORS_IN_A_ROW] for k in range(0, len(names), ERRORS_IN_A_ROW)):
+            lines += _table([part, [_number(summary["errors"][name], "{:.2e}") for name in part]])
     if interface := summary["interface"]:
         lines.append("  interface: " + ", ".join(f"{key.replace('_', ' ')} {_number(value, '{:.2e}')}"
                                                  for key, value in interface.items()))

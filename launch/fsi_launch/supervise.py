@@ -1,7 +1,7 @@
 """Runs the programs of one run side by side, each in a session of its own, and sees to it that all of them end.
 
 When one fails, the others notice on the bus and end by themselves; whoever has not done so after `GRACE` seconds is
-terminated, then killed. Ctrl-C and SIGTERM end all of them the same way.
+terminated, then killed; one that is stopped (SIGSTOP) cannot, and is killed at once. Ctrl-C and SIGTERM end all of them the same way.
 """
 
 import contextlib
@@ -14,7 +14,7 @@ import subprocess
 import time
 from dataclasses import dataclass, field
 
-from fsi_launch import interrupts
+from fsi_launch import interrupts, processes
 
 GRACE = 4.0         # [s] from a program's failure to SIGTERM for the others: they should have ended by then
 KILL_AFTER = 1.0    # [s] from that SIGTERM to SIGKILL
@@ -160,14 +160,26 @@ class Supervisor:
 
     def _keep_deadlines(self):
         now = time.monotonic()
+        if any(ending.code != 0 for ending in self._outcome.endings) and not self._outcome.signal:
+            self._send(signal.SIGKILL, self._stopped())
         if now >= self._kill_at:
             self._send(signal.SIGKILL)
         elif now >= self._terminate_at:
             self._terminate_at = float("inf")
             self._send(signal.SIGTERM)
 
-    def _send(self, number):
+    def _stopped(self):
+        """Names of programs that somebody has stopped."""
+        found = []
         for name, process in self._processes.items():
+            with contextlib.suppress(OSError):
+                found += [name] if processes.state_of(process.pid) == "T" else []
+        return found
+
+    def _send(self, number, names=None):
+        """To all, or to those named."""
+        for name in list(self._processes) if names is None else names:
+            process = self._processes[name]
             self._signalled.add(name)
             with contextlib.suppress(ProcessLookupError):
                 process.send_signal(number)

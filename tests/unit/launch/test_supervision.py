@@ -64,6 +64,13 @@ class Supervision(InScratch):
         self.assertEqual(endings["c"].code, -signal.SIGKILL)
         self.assertLess(seconds, supervise.GRACE + supervise.KILL_AFTER + 1)  # 1 s for a busy machine
 
+    def test_stopped_program_is_ended_at_once_when_another_has_failed(self):
+        stopped = "import os, signal; os.kill(os.getpid(), signal.SIGSTOP)"
+        endings, _, seconds = self.supervise(a=exits(4, 0.3), b=stopped)
+        self.assertEqual(endings["b"].code, -signal.SIGKILL)
+        self.assertTrue(endings["b"].ours)
+        self.assertLess(seconds, supervise.GRACE)
+
     def test_lines_reach_the_listener_and_the_rest_the_log(self):
         self.supervise(listen="a", a="import sys; print('x\\ny'); print('words', file=sys.stderr)", b="print('z')")
         self.assertEqual(self.heard, ["x", "y"])
