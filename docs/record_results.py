@@ -438,6 +438,40 @@ def kept_sections():
     return dict(zip(parts[1::2], parts[2::2]))
 
 
+HEAD = """# Results
+
+What the commands gave on two cores; `docs/record_results.py` repeats them all and writes this page. The same by figures of the paper:
+[figures.md](figures.md).
+
+How to read it:
+
+- Errors are largest absolute differences over all points and components, from the exact solution or a fine one-dimensional run. A `rate` is the observed
+  order between two grids; `fit` the least-squares one over all of them. Round-off has no rate.
+- Where a table has several runs, the command of the last row is given; rows differ in what their first cell says.
+- `exit` is the exit code of the run: 0; 1 an expectation of the case was missed (cases hold their own errors to bounds for their own parameters, which a
+  variant may well exceed); 3 the numbers broke.
+- `AMP` and `traditional` are the interface projection of this project and the scheme it replaces, in which the solid gives its velocity and the gas its
+  stress. `product` is (c_p dt / spacing) (z_f / z_p), what decides about the latter ([theory](theory_coupler.md)).
+- Without a reference, grids are compared with each other: a negative order means that the difference grew. The elastic ellipse sheds vortices that
+  differ from grid to grid from about t = 2 on, so its later differences have no order.
+- Defects of mass, momentum and energy: [what they hold](output.md#budgets).
+- Times in seconds come from a machine with two cores and AVX2; those of single runs vary by some per cent.
+
+"""
+
+
+def anchor(title):
+    """GitHub's name of a heading."""
+    return "".join(letter for letter in title.lower() if letter.isalnum() or letter in " -_").replace(" ", "-")
+
+
+def write(sections, titles):
+    """docs/results.md: how to read it, what is in it, and the sections."""
+    contents = "".join(f"- [{title}](#{anchor(title)})\n" for title in titles)
+    text = HEAD + contents + "\n" + "".join(f"## {title}\n{sections[title]}" for title in titles)
+    RESULTS.write_text(text.rstrip() + "\n", encoding="utf-8")
+
+
 def main(words):
     sections = kept_sections()
     studies = [*piston_studies(), *chosen_studies(), *other_studies(), *disk_studies(), *record_ellipse.studies(sys.modules[__name__]),
@@ -446,14 +480,11 @@ def main(words):
                ("Signals to every program at random moments", lambda: faults(200)), *record_faults.studies(sys.modules[__name__]),
                ("Benchmarks", lambda: bench("bench")),
                ("Benchmarks, where the time goes", lambda: profile("profile"))]
-    head = ("# Results\n\nWhat the commands gave on two cores; `docs/record_results.py` repeats them all and writes this page. "
-            "Errors are largest absolute differences over all points and components.\n\n")
     for title, study in studies:
         if not words or any(word in title for word in words):
             print(title, flush=True)
             sections[title] = "\n" + study().strip() + "\n\n"
-            text = head + "".join(f"## {name}\n{sections[name]}" for name, _ in studies if name in sections)
-            RESULTS.write_text(text.rstrip() + "\n", encoding="utf-8")
+            write(sections, [name for name, _ in studies if name in sections])
 
 
 if __name__ == "__main__":

@@ -24,6 +24,7 @@ class Case:
     expect: list        # of {quantity, max, min, equals}
     end: float = 0.0    # time.end
     times: tuple = ()   # of output
+    projection: str = ""    # of the interface
 
     def speaker(self):
         """The participant that reports progress: the coupler, or the lone solver."""
@@ -53,4 +54,5 @@ def resolve(case, overrides, laws, former=None):
     return Case(name=answer["name"], text=answer["resolved"],
                 programs={entry["name"]: entry["executable"] for entry in answer["participants"]},
                 reference=answer["reference"]["kind"], expect=answer["expect"],
-                end=answer["time"]["end"], times=tuple(answer["output_times"]))
+                end=answer["time"]["end"], times=tuple(answer["output_times"]),
+                projection=answer["projection"])

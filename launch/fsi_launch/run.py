@@ -11,7 +11,7 @@ from pathlib import Path
 
 from fsi_launch import case as cases
 from fsi_launch import interrupts, paths, probes, registry, restart, summary
-from fsi_launch.failure import (DONE, EXPECTATION_MISSED, Failure, INTERRUPTED, OUTPUT_FAILED,
+from fsi_launch.failure import (DONE, EXPECTATION_MISSED, Failure, INTERRUPTED, NUMBERS_BROKE, OUTPUT_FAILED,
                                 PEER_LOST, TERMINATED, UserMistake)
 from fsi_launch.progress import Progress
 from fsi_launch.supervise import Outcome, Program, Supervisor
@@ -289,6 +289,9 @@ def run(request):
         raise Failure(OUTPUT_FAILED, f"cannot write {directory / 'summary.json'}: {error.strerror}; the run itself {status} at "
                                      f"t = {result['t']:g}{f': {reason}' if reason else ''}") from None
     _report(result, directory, missed, request.quiet)
+    if code == NUMBERS_BROKE and case.projection == "traditional":
+        print("fsi: the traditional scheme breaks where the solid is light (docs/theory_coupler.md); "
+              "--set interface.projection=simplified does not", file=sys.stderr)
     return Result(EXPECTATION_MISSED if code == DONE and missed else code, directory, result)
 
 
