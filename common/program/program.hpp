@@ -9,6 +9,7 @@
 #include <string>
 
 #include "common/case/case.hpp"
+#include "common/core/failure.hpp"
 #include "common/io/csv_writer.hpp"
 #include "common/io/part.hpp"
 
@@ -33,6 +34,9 @@ void count_step(io::Part& part, double t, double dt);
 /// reason. `default_name` is the participant's name when --name is not given.
 int run_program(int argc, char** argv, const std::string& default_name, const std::string& role,
                 const std::function<void(const Setup&, io::Part&)>& body);
+
+/// Ends the program at once, from whatever thread; its report says why.
+[[noreturn]] void end_program(const Setup& setup, io::Part part, const Failure& failure);
 
 /// Writes results. Where that fails and the case says to go on without them, the loss is told and counted.
 /// @throws OutputFailed
