@@ -120,6 +120,12 @@ void write_results(const Setup& setup, io::Part& part, const std::function<void(
   }
 }
 
+const SolidSpec& solid_of(const Setup& setup) {
+  const auto found = std::ranges::find(setup.problem.solids, setup.name, &SolidSpec::name);
+  if (found != setup.problem.solids.end()) return *found;
+  throw UserMistake(fmt::format("the case has no solid \"{}\"; --name must be one of solids", setup.name));
+}
+
 void count_step(io::Part& part, double t, double dt) {
   part.dt_min = part.steps == 0 ? dt : std::min(part.dt_min, dt);
   part.dt_max = part.steps == 0 ? dt : std::max(part.dt_max, dt);

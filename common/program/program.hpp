@@ -27,6 +27,9 @@ struct Setup {
   io::Opening opening() const { return restart.empty() ? io::Opening::fresh : io::Opening::continued; }
 };
 
+/// The solid of the case this program stands for. @throws UserMistake
+const SolidSpec& solid_of(const Setup& setup);
+
 /// Counts one finished macro step of size dt that ended at time `t`.
 void count_step(io::Part& part, double t, double dt);
 
