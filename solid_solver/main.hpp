@@ -2,7 +2,6 @@
 /// The solid solver as a program of a run; each law instantiates it once.
 
 #include "common/program/program.hpp"
-#include "solid_solver/case_solid.hpp"
 #include "solid_solver/port.hpp"
 
 namespace fsi::solid {

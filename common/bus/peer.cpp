@@ -15,9 +15,7 @@ namespace fsi::bus {
 namespace {
 
 constexpr int between_state_and_user_time = 10;
-/// A step may need so many times the longest one so far.
-constexpr double slower_than_longest = 20;
-/// And so many times its processor time on the clock: others compute too, disks are slow.
+/// And so many times that on the clock: others compute too, disks are slow.
 constexpr double clock_over_work = 10;
 
 /// Of a process' first thread. Nothing where the system does not tell.

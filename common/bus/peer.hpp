@@ -11,6 +11,9 @@ namespace fsi::bus {
 /// Name of this machine.
 std::string host_name();
 
+/// A step may need so many times the processor time of the longest one so far.
+inline constexpr double slower_than_longest = 20;
+
 /// How much a program's first thread has computed and how often it has waited.
 struct Pulse {
   std::uint64_t computed = 0;  ///< clock ticks

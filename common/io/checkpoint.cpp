@@ -25,6 +25,15 @@ std::string file_of(const std::string& folder, const std::string& participant) {
   return fmt::format("{}/{}.h5", folder, participant);
 }
 
+/// Name of the file a participant left in a set: of ours, or of a program with a format of its own. Empty:
+/// none.
+std::string name_of_file(const std::string& folder, const std::string& participant) {
+  for (const char* suffix : {".h5", ".state"}) {
+    if (files::exists(files::path(folder) / (participant + suffix))) return participant + suffix;
+  }
+  return "";
+}
+
 nlohmann::json manifest_of(const std::string& folder) {
   const std::string path = fmt::format("{}/{}", folder, manifest_name);
   std::ifstream file(path);
@@ -136,12 +145,13 @@ std::vector<std::string> complete_checkpoint(const std::string& run_dir, const S
   nlohmann::ordered_json entries = nlohmann::ordered_json::object();
   std::vector<std::string> missing;
   for (const std::string& participant : participants) {
-    if (!files::exists(file_of(folder, participant))) {
+    const std::string name = name_of_file(folder, participant);
+    if (name.empty()) {
       missing.push_back(participant);
       continue;
     }
-    const Checksum sum = checksum_of(file_of(folder, participant));
-    entries[participant] = {{"bytes", sum.bytes}, {"crc32", sum.crc32}};
+    const Checksum sum = checksum_of(fmt::format("{}/{}", folder, name));
+    entries[participant] = {{"file", name}, {"bytes", sum.bytes}, {"crc32", sum.crc32}};
   }
   if (!missing.empty()) {
     std::error_code error;  // what cannot be removed does no harm

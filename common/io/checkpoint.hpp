@@ -1,7 +1,8 @@
 #pragma once
 /// Checkpoints: everything a run needs to go on as if it had never ended.
 ///
-///   DIR/checkpoints/00000400/fluid.h5 ...     one file per program, all of the same step
+///   DIR/checkpoints/00000400/fluid.h5 ...     one file per program, all of the same step; a program of
+///                                             somebody else's may leave NAME.state, in a format of its own
 ///   DIR/checkpoints/00000400/manifest.json    written last: the set is complete, and these are its checksums
 ///
 /// Files are written aside, synced and renamed. The last two complete sets are kept.

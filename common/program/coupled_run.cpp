@@ -94,12 +94,12 @@ class CoupledRun {
     clock_.lap(io::Work::time_step);
     for (std::size_t k = 0; k < predicted_.size(); ++k) {
       wire::PredictedInterface& message = predicted_[k];
-      solver_.fill(k, message);
       message.interface = hello_.interfaces[k].name;
       message.step = at_.step;
       message.t = at_.t;
       message.dt_bid = bid_.dt;
       message.dt_reason = bid_.reason;
+      solver_.fill(k, message);
       message.health = solver_.health();
       message.compute_s = part_.compute_s;
       message.wait_s = part_.wait_s;

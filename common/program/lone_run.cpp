@@ -6,6 +6,7 @@
 #include "common/core/time_schedule.hpp"
 #include "common/program/checkpoints.hpp"
 #include "common/program/driver.hpp"
+#include "common/program/lone_watch.hpp"
 
 namespace fsi {
 
@@ -25,7 +26,8 @@ class LoneRun {
         progress_(setup.problem.time.end),
         checkpoints_(setup, part, [this](Archive& archive) { this->archive(archive); }),
         due_(setup.problem.output),
-        clock_(part) {
+        clock_(part),
+        watch_(setup, part) {
     solver_.use(clock_);
   }
 
@@ -50,6 +52,7 @@ class LoneRun {
       advance();
       last_ = {.t = at_.t, .step = at_.step};
       take_time_to_end(patience_.of_step());
+      watch_.end_step();
     }
   }
 
@@ -93,6 +96,7 @@ class LoneRun {
       if (stop || asked_to_end()) break;
       if (!paused_) continue;
       session_.idle(0.1);
+      watch_.begin_step();
       clock_.lap(io::Work::waiting);
     } while (paused_);
     throw_if_interrupted();
@@ -127,6 +131,7 @@ class LoneRun {
   WorkClock clock_;
   Patience patience_;
   bool end_ = false, fields_written_ = true, paused_ = false;
+  LoneWatch watch_;
 };
 
 }  // namespace

@@ -37,23 +37,28 @@ class Participant {
   /// Role, name, law, points and interfaces.
   virtual wire::Hello hello() const = 0;
   virtual TimeStepBid compute_time_step() const = 0;
-  /// Predicted state of interface number k of the hello; the driver adds step, time, bid and waiting times.
+  /// Predicted state of interface number k of the hello. The driver has filled in interface, step, time and
+  /// bid, and adds health and times.
   virtual void fill(std::size_t k, wire::PredictedInterface& predicted) const = 0;
   /// Boundary and interface conditions at t.
   virtual void apply_bcs(double t, ProjectedStates projected) = 0;
   /// From t to t + dt in `substeps` equal steps, without interface conditions at the end.
   virtual void advance(double t, double dt, int substeps, ProjectedStates projected) = 0;
-  /// Fields at t.
-  virtual void write_fields(double t, std::uint64_t step) = 0;
-  /// Lines of the tables, once a step.
-  virtual void write_tables(double t, double dt, ProjectedStates projected) = 0;
-  /// Fields at the last time t at which boundary conditions held, apart from the series: the numbers broke.
-  virtual void write_last_state(double t, std::uint64_t step) = 0;
   /// Saves or loads all that the next steps depend on, tables and series of fields included.
   virtual void archive(Archive& archive) = 0;
-  virtual wire::Health health() const = 0;
+
+  // What follows nobody needs to have.
+
+  /// Fields at t.
+  virtual void write_fields(double /*t*/, std::uint64_t /*step*/) {}
+  /// Lines of the tables, once a step.
+  virtual void write_tables(double /*t*/, double /*dt*/, ProjectedStates /*projected*/) {}
+  /// Fields at the last time t at which boundary conditions held, apart from the series: the numbers broke.
+  virtual void write_last_state(double /*t*/, std::uint64_t /*step*/) {}
+  /// By default that of a body that does not deform.
+  virtual wire::Health health() const { return {.min_det_F = 1}; }
   /// Errors, counters and budgets at the end of the run.
-  virtual void report(double t, io::Part& part) const = 0;
+  virtual void report(double /*t*/, io::Part& /*part*/) const {}
 
  protected:
   /// The time since the last lap, of the solver or its driver, went into `work`.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -42,6 +43,12 @@ void catch_signals() {
   prctl(PR_SET_PDEATHSIG, SIGTERM);  // the launcher's death ends the run
 }
 
+ExitCode note(const Failure& failure, io::Part& part) {
+  part.status = "failed";
+  part.reason = failure.what();
+  return failure.code();
+}
+
 /// Runs the body; a failure becomes a code and the report's reason.
 ExitCode run_body(const std::function<void()>& body, io::Part& part) {
   try {
@@ -49,13 +56,9 @@ ExitCode run_body(const std::function<void()>& body, io::Part& part) {
     if (part.status == "running") part.status = "completed";
     return ExitCode::done;
   } catch (const Failure& failure) {
-    part.status = "failed";
-    part.reason = failure.what();
-    return failure.code();
+    return note(failure, part);
   } catch (const std::exception& error) {
-    part.status = "failed";
-    part.reason = fmt::format("internal error: {}", error.what());
-    return ExitCode::expectation_missed;
+    return note({ExitCode::expectation_missed, fmt::format("internal error: {}", error.what())}, part);
   }
 }
 
@@ -98,6 +101,12 @@ bool asked_to_end() {
   return caught_signal == SIGTERM;
 }
 
+void end_program(const Setup& setup, io::Part part, const Failure& failure) {
+  const ExitCode code = note(failure, part);
+  log_error(part.reason);
+  _exit(static_cast<int>(leave_part(setup, part, code)));
+}
+
 void write_results(const Setup& setup, io::Part& part, const std::function<void()>& write) {
   try {
     write();
@@ -109,6 +118,12 @@ void write_results(const Setup& setup, io::Part& part, const std::function<void(
       log_warning(fmt::format("{}; the run goes on without (output.on_failure)", failure.what()));
     ++lost;
   }
+}
+
+const SolidSpec& solid_of(const Setup& setup) {
+  const auto found = std::ranges::find(setup.problem.solids, setup.name, &SolidSpec::name);
+  if (found != setup.problem.solids.end()) return *found;
+  throw UserMistake(fmt::format("the case has no solid \"{}\"; --name must be one of solids", setup.name));
 }
 
 void count_step(io::Part& part, double t, double dt) {

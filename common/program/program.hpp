@@ -9,6 +9,7 @@
 #include <string>
 
 #include "common/case/case.hpp"
+#include "common/core/failure.hpp"
 #include "common/io/csv_writer.hpp"
 #include "common/io/part.hpp"
 
@@ -26,6 +27,9 @@ struct Setup {
   io::Opening opening() const { return restart.empty() ? io::Opening::fresh : io::Opening::continued; }
 };
 
+/// The solid of the case this program stands for. @throws UserMistake
+const SolidSpec& solid_of(const Setup& setup);
+
 /// Counts one finished macro step of size dt that ended at time `t`.
 void count_step(io::Part& part, double t, double dt);
 
@@ -33,6 +37,9 @@ void count_step(io::Part& part, double t, double dt);
 /// reason. `default_name` is the participant's name when --name is not given.
 int run_program(int argc, char** argv, const std::string& default_name, const std::string& role,
                 const std::function<void(const Setup&, io::Part&)>& body);
+
+/// Ends the program at once, from whatever thread; its report says why.
+[[noreturn]] void end_program(const Setup& setup, io::Part part, const Failure& failure);
 
 /// Writes results. Where that fails and the case says to go on without them, the loss is told and counted.
 /// @throws OutputFailed

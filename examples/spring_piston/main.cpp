@@ -5,8 +5,8 @@
 ///                     |######|
 ///                        --> e, q
 ///
-/// It shows what a solver of your own needs: a hello, one message out and one in per step, and an ending that
-/// everybody hears. docs/bring_your_own_solid.md goes through it line by line.
+/// It shows what a solver of your own needs: a hello, a state to publish, what to do with the answer, and the
+/// numbers a restart needs. docs/bring_your_own_solid.md goes through it line by line.
 
 #include <fmt/format.h>
 
@@ -14,13 +14,15 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "common/bus/solver_session.hpp"
 #include "common/case/grid_points.hpp"
+#include "common/core/archive.hpp"
 #include "common/core/failure.hpp"
 #include "common/grid/interface_geometry.hpp"
 #include "common/io/csv_writer.hpp"
+#include "common/program/participant.hpp"
 #include "common/program/program.hpp"
 #include "common/wire/messages.hpp"
 
@@ -58,65 +60,107 @@ struct Oscillator {
     dt_before = dt;
   }
 
+  /// All that the next steps depend on.
+  void archive(fsi::Archive& archive) {
+    for (const auto& [name, value] : {std::pair{"q", &q},
+                                      {"q_dot", &q_dot},
+                                      {"q_old", &q_old},
+                                      {"q_dot_old", &q_dot_old},
+                                      {"a", &a},
+                                      {"mean_before", &mean_before},
+                                      {"dt", &dt},
+                                      {"dt_before", &dt_before}})
+      archive.number(name, *value);
+  }
+
   double q_old = 0, q_dot_old = 0, a = 0, mean_before = 0, dt = 0, dt_before = 0;
 };
 
-/// The piston in the plane: where its face is, and how it speaks of it.
-class Piston {
+/// The side of the piston that meets the gas.
+fsi::Side face_of(const fsi::SolidSpec& spec) {
+  const auto side = std::ranges::find(spec.boundary, fsi::BoundaryKind::interface, &fsi::BoundarySpec::kind);
+  if (side == spec.boundary.end()) throw fsi::UserMistake("no side of the piston is an interface");
+  return fsi::all_sides[side - spec.boundary.begin()];
+}
+
+/// The piston in the plane: where its face is, how it speaks of it, and what it hears.
+class Piston final : public fsi::Participant {
  public:
-  Piston(const fsi::SolidSpec& spec, fsi::Side face) : spec_(spec) {
-    x_0_ = fsi::points_on_side(spec.grid, face, points);
+  explicit Piston(const fsi::Setup& setup)
+      : digest_(setup.problem.digest),
+        spec_(fsi::solid_of(setup)),
+        table_(fmt::format("{}/forces_{}.csv", setup.run_dir, setup.name),
+               {"t [time]", "force1 [force/depth]", "force2 [force/depth]", "power [power/depth]",
+                "centre1 [length]", "centre2 [length]", "velocity1 [length/time]", "velocity2 [length/time]"},
+               setup.opening()) {
+    const fsi::Side face = face_of(spec_);
+    x_0_ = fsi::points_on_side(spec_.grid, face, points);
     n_ = fsi::grid::normals(x_0_, fsi::grid::Curve::open, fsi::grid::outward(face));
     e_ = {n_[0], n_[points]};
     width_ = Vec2(x_0_[points - 1] - x_0_[0], x_0_[2 * points - 1] - x_0_[points]).norm();
     const double depth =
-        fsi::direction_of(face) == 0 ? spec.grid.x_b - spec.grid.x_a : spec.grid.y_b - spec.grid.y_a;
-    motion = {
-        .mass = spec.rho * width_ * depth, .stiffness = number("stiffness"), .damping = number("damping")};
+        fsi::direction_of(face) == 0 ? spec_.grid.x_b - spec_.grid.x_a : spec_.grid.y_b - spec_.grid.y_a;
+    motion_ = {
+        .mass = spec_.rho * width_ * depth, .stiffness = number("stiffness"), .damping = number("damping")};
   }
 
-  fsi::wire::Hello hello(const std::string& digest) const {
+  fsi::wire::Hello hello() const override {
     fsi::wire::Hello hello;
     hello.role = "solid";
     hello.name = spec_.name;
     hello.law = "spring and damper";
-    hello.config_digest = digest;
+    hello.config_digest = digest_;
     hello.points = points;
     hello.interfaces.push_back({.name = spec_.name, .dimension = 2, .x = x_0_, .n = n_});
     return hello;
   }
 
-  /// The state at t as the coupler wants it: face, and response of the one mode, n . dx/dq = 1.
-  fsi::wire::PredictedInterface state(std::uint64_t step, double t) const {
-    fsi::wire::PredictedInterface state;
-    state.interface = spec_.name;
-    state.step = step;
-    state.t = t;
-    state.dt_bid = largest_step();
-    state.dt_reason = "spring and damper";
+  fsi::TimeStepBid compute_time_step() const override {
+    const double never = std::numeric_limits<double>::infinity();
+    const double spring = motion_.stiffness > 0 ? std::sqrt(motion_.mass / motion_.stiffness) : never;
+    const double damper = motion_.damping > 0 ? motion_.mass / motion_.damping : never;
+    return {.dt = std::min(spring, damper) / steps_in_time, .reason = "spring and damper"};
+  }
+
+  /// The predicted state as the coupler wants it: face, and response of the one mode, n . dx/dq = 1.
+  void fill(std::size_t /*interface*/, fsi::wire::PredictedInterface& state) const override {
+    state.x.clear();
+    state.v.clear();
     for (int c = 0; c < 2; ++c) {
       for (int k = 0; k < points; ++k) {
-        state.x.push_back(x_0_[static_cast<std::size_t>(c * points + k)] + motion.q * e_[c]);
-        state.v.push_back(motion.q_dot * e_[c]);
+        state.x.push_back(x_0_[static_cast<std::size_t>(c * points + k)] + motion_.q * e_[c]);
+        state.v.push_back(motion_.q_dot * e_[c]);
       }
     }
     state.modal = {.modes = 1,
-                   .M = {motion.mass},
+                   .M = {motion_.mass},
                    .N = std::vector<double>(points, 1.0),
-                   .q_dot = {motion.q_dot},
-                   .f_own = {motion.own_load() + pull(t)}};
-    return state;
+                   .q_dot = {motion_.q_dot},
+                   .f_own = {motion_.own_load() + pull(state.t)}};
   }
 
-  /// Force of the gas along e, from the projected traction.
-  double force(const fsi::wire::ProjectedInterface& gas) const { return width_ * gas.w_n[points / 2]; }
-  Vec2 centre() const {
-    return {0.5 * (x_0_[0] + x_0_[points - 1]) + motion.q * e_[0],
-            0.5 * (x_0_[points] + x_0_[2 * points - 1]) + motion.q * e_[1]};
+  /// The answer: velocity of the face, and by the traction the force of the gas along e.
+  void apply_bcs(double /*t*/, fsi::ProjectedStates gas) override {
+    motion_.correct(gas.front()->v_n[points / 2]);
+    force_ = width_ * gas.front()->w_n[points / 2];
   }
-  const Vec2& direction() const { return e_; }
 
-  Oscillator motion;
+  void write_tables(double t, double /*dt*/, fsi::ProjectedStates /*gas*/) override {
+    const Vec2 force = force_ * e_, velocity = motion_.q_dot * e_;
+    const Vec2 centre(0.5 * (x_0_[0] + x_0_[points - 1]) + motion_.q * e_[0],
+                      0.5 * (x_0_[points] + x_0_[2 * points - 1]) + motion_.q * e_[1]);
+    table_.row(
+        {t, force[0], force[1], force_ * motion_.q_dot, centre[0], centre[1], velocity[0], velocity[1]});
+  }
+
+  void advance(double /*t*/, double dt, int /*substeps*/, fsi::ProjectedStates /*gas*/) override {
+    motion_.predict(dt);
+  }
+
+  void archive(fsi::Archive& archive) override {
+    archive.inside("motion", [&] { motion_.archive(archive); });
+    archive.inside("table", [&] { table_.archive(archive); });
+  }
 
  private:
   double number(const std::string& name) const {
@@ -125,76 +169,27 @@ class Piston {
     throw fsi::UserMistake(fmt::format("solids.{}.data: write `{}: NUMBER`, not negative", spec_.name, name));
   }
 
-  double largest_step() const {
-    const double never = std::numeric_limits<double>::infinity();
-    const double spring = motion.stiffness > 0 ? std::sqrt(motion.mass / motion.stiffness) : never;
-    const double damper = motion.damping > 0 ? motion.mass / motion.damping : never;
-    return std::min(spring, damper) / steps_in_time;
-  }
-
   /// The case's body force on the whole piston.
   double pull(double t) const {
     if (!spec_.body_force) return 0;
-    return motion.mass / spec_.rho *
+    return motion_.mass / spec_.rho *
            e_.dot(Vec2(spec_.body_force->c1(0, 0, t), spec_.body_force->c2(0, 0, t)));
   }
 
+  const std::string& digest_;
   const fsi::SolidSpec& spec_;
+  fsi::io::CsvWriter table_;
   std::vector<double> x_0_, n_;
   Vec2 e_;
-  double width_ = 0;
+  double width_ = 0, force_ = 0;
+  Oscillator motion_;
 };
-
-/// Steps until the coupler says stop.
-void loop(fsi::bus::SolverSession& session, Piston& piston, fsi::io::CsvWriter& table, fsi::io::Part& part) {
-  double t = 0;
-  for (std::uint64_t step = 0;; ++step) {
-    const fsi::wire::PredictedInterface predicted = piston.state(step, t);
-    session.publish(predicted);
-    const fsi::wire::ProjectedInterface& answer = session.receive(predicted.interface, step);
-    piston.motion.correct(answer.v_n[points / 2]);
-    const Vec2 force = piston.force(answer) * piston.direction();
-    const Vec2 centre = piston.centre(), velocity = piston.motion.q_dot * piston.direction();
-    table.row({t, force[0], force[1], piston.force(answer) * piston.motion.q_dot, centre[0], centre[1],
-               velocity[0], velocity[1]});
-    if (answer.stop) return;
-    piston.motion.predict(answer.dt_next);
-    t = answer.t_next;
-    fsi::count_step(part, t, answer.dt_next);
-    ++part.substeps;
-    fsi::throw_if_interrupted();
-  }
-}
-
-void run(const fsi::Setup& setup, fsi::io::Part& part) {
-  const auto spec = std::ranges::find(setup.problem.solids, setup.name, &fsi::SolidSpec::name);
-  if (spec == setup.problem.solids.end()) throw fsi::UserMistake("the case has no solid " + setup.name);
-  const auto side = std::ranges::find(spec->boundary, fsi::BoundaryKind::interface, &fsi::BoundarySpec::kind);
-  if (side == spec->boundary.end()) throw fsi::UserMistake("no side of the piston is an interface");
-  if (!setup.restart.empty()) throw fsi::UserMistake("the spring piston keeps no checkpoints: start anew");
-  Piston piston(*spec, fsi::all_sides[side - spec->boundary.begin()]);
-  part.points = points;
-  fsi::io::CsvWriter table(
-      fmt::format("{}/forces_{}.csv", setup.run_dir, setup.name),
-      {"t [time]", "force1 [force/depth]", "force2 [force/depth]", "power [power/depth]", "centre1 [length]",
-       "centre2 [length]", "velocity1 [length/time]", "velocity2 [length/time]"});
-  fsi::bus::SolverSession session({.run = setup.run,
-                                   .key = setup.key,
-                                   .peer_timeout_s = setup.problem.time.peer_timeout,
-                                   .step_timeout_s = setup.problem.time.step_timeout,
-                                   .throw_if_interrupted = fsi::throw_if_interrupted},
-                                  piston.hello(setup.problem.digest));
-  try {
-    loop(session, piston, table, part);
-    session.leave();
-  } catch (const fsi::Failure& failure) {
-    session.abort(failure.code(), failure.what());
-    throw;
-  }
-}
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  return fsi::run_program(argc, argv, "piston", "solid", run);
+  return fsi::run_program(argc, argv, "piston", "solid", [](const fsi::Setup& setup, fsi::io::Part& part) {
+    Piston piston(setup);
+    participate(setup, part, piston);
+  });
 }

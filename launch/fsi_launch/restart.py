@@ -33,7 +33,7 @@ def _opened(path):
     try:
         manifest = json.loads((path / "manifest.json").read_text(encoding="utf-8"))
         found = Set(path, int(manifest["step"]), float(manifest["t"]))
-        files = {path / f"{name}.h5": entry for name, entry in manifest["files"].items()}
+        files = {path / entry["file"]: entry for entry in manifest["files"].values()}
     except OSError:
         raise ValueError("is not complete") from None
     except (ValueError, KeyError, TypeError, AttributeError):

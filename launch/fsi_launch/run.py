@@ -156,7 +156,10 @@ def _explain(ending, case, directory):
     code = ending.code if ending.code in range(1, 6) else PEER_LOST
     if _is_echo(reason, ending.name, case.programs):
         return code, reason
-    return code, f"{ending.name}: {reason or f'exit code {ending.code}'}"
+    reason = reason or f"exit code {ending.code}"
+    if code == PEER_LOST and len(case.programs) == 1:  # it had nobody to lose but itself
+        return code, f"lost {label}: {reason}"
+    return code, f"{ending.name}: {reason}"
 
 
 def _reasons(case, directory):

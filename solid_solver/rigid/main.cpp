@@ -1,12 +1,11 @@
 /// The program solid_solver_rigid.
 
 #include "common/program/program.hpp"
-#include "solid_solver/case_solid.hpp"
 #include "solid_solver/rigid/port.hpp"
 
 int main(int argc, char** argv) {
   return fsi::run_program(argc, argv, "solid", "solid", [](const fsi::Setup& setup, fsi::io::Part& part) {
-    fsi::rigid::RigidParticipant solver(setup, fsi::solid::solid_of(setup));
+    fsi::rigid::RigidParticipant solver(setup, fsi::solid_of(setup));
     participate(setup, part, solver);
   });
 }

@@ -142,15 +142,6 @@ void RigidParticipant::write_tables(double t, double /*dt*/, ProjectedStates /*p
   probe_table_->row(row);
 }
 
-wire::Health RigidParticipant::health() const {
-  return {.min_rho = 0,
-          .min_p = 0,
-          .min_det_F = 1,
-          .min_cell_quality = 1,
-          .first_order_fallbacks = 0,
-          .floors = 0};
-}
-
 void RigidParticipant::report(double /*t*/, io::Part& part) const {
   const Totals now = totals();
   const GasLoad& impulse = impulse_.sum();

@@ -27,7 +27,6 @@ class RigidParticipant final : public Participant {
   void write_tables(double t, double dt, ProjectedStates projected) override;
   void write_last_state(double t, std::uint64_t step) override;
   void archive(Archive& archive) override;
-  wire::Health health() const override;
   void report(double t, io::Part& part) const override;
 
  private:

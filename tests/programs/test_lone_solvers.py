@@ -1,9 +1,12 @@
 #!/usr/bin/python3
 """A case with a gas only, or one solid only, runs by the same command without a coupler."""
 
+import os
+import signal
+import time
 import unittest
 
-from running import EndToEnd
+from running import EndToEnd, until
 
 
 class LoneSolvers(EndToEnd):
@@ -23,6 +26,27 @@ class LoneSolvers(EndToEnd):
 
     def test_solid(self):
         self.alone("solid_manufactured", "solid", "--set", "grid.factor=2", "--set", "expect={}")
+
+    def test_one_that_does_not_end_its_step_is_lost_by_name(self):
+        """A step on so fine a grid computes for much longer than a tenth of a millisecond."""
+        for case, name, program in (("free_stream", "fluid", "fluid_solver"),
+                                    ("solid_manufactured", "solid", "solid_solver_neo_hookean")):
+            run = self.launch(case, "--set", "grid.factor=16", "--set", "time.step_timeout=1e-4", "--set", "expect={}", out=name)
+            self.assertEqual(run.wait(), 4, run.stderr)
+            self.assertRegex(run.stderr, rf"lost {name} \({program}\): no step for .* s, .*time\.step_timeout")
+            self.assertEqual(run.summary()["status"], "failed")
+            self.assertIn(f"lost {name}", run.summary()["reason"])
+            self.assert_nothing_left(run)
+
+    def test_one_that_is_stopped_for_longer_than_a_step_may_compute_goes_on(self):
+        run = self.launch("sod_tube", "--set", "time.dt=1e-4", "--set", "time.step_timeout=0.5", "--set", "expect={}",
+                          "--set", "output.checkpoint_every=20")
+        self.assertTrue(until(lambda: list(run.directory.glob("checkpoints/*/manifest.json"))))
+        pid = run.programs()["fluid_solver"]
+        os.kill(pid, signal.SIGSTOP)
+        time.sleep(2)
+        os.kill(pid, signal.SIGCONT)
+        self.assertEqual(run.wait(), 0, run.stderr)
 
 
 if __name__ == "__main__":

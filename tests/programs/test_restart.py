@@ -19,6 +19,7 @@ CASES = {  # with the number of steps between checkpoints
     "rigid_piston": (10, "--set", "time.end=0.4", "--set", "output.times=[0.2, 0.4]"),
     "manufactured_piston": (6, "--set", "grid.factor=1"),
     "sod_tube": (10, "--set", "grid.factor=2"),
+    "spring_piston": (20, "--set", "grid.factor=2"),
 }
 NO_NUMBERS = {"case.yaml", "summary.json"}  # text of the case, times
 
@@ -42,7 +43,7 @@ def numbers(summary):
     return summary
 
 
-class Restart(EndToEnd):
+class Restarting(EndToEnd):
     def case(self, name, *more):
         every, *options = CASES[name]
         return (name, *options, "--set", f"output.checkpoint_every={every}", "--set", "expect={}", *more)
@@ -70,6 +71,8 @@ class Restart(EndToEnd):
         self.assert_same(whole, run)
         return whole
 
+
+class Restart(Restarting):
     def test_piston(self):
         self.assert_goes_on("elastic_piston", "--solid", "solid=neo_hookean")
 
@@ -94,18 +97,18 @@ class Restart(EndToEnd):
     def test_gas_alone(self):
         self.assert_goes_on("sod_tube")
 
+    def test_program_of_somebody_elses(self):
+        self.assert_goes_on("spring_piston")
 
-class AfterAnEnd(Restart):
+
+class Interrupted(Restarting):
     """The same, where the run did end: by a signal, a request or a kill."""
 
+    NAME = "elastic_piston"
     LONG = ("--set", "time.dt=5e-4", "--set", "output.checkpoint_every=100")
 
-    def setUp(self):
-        super().setUp()
-        self.whole = None
-
     def begin(self, *more, out="run"):
-        run = self.launch(*self.case("elastic_piston", *self.LONG, *more), out=out)
+        run = self.launch(*self.case(self.NAME, *self.LONG, *more), out=out)
         self.assertTrue(until(lambda: list(run.directory.glob("checkpoints/*/manifest.json"))))
         return run
 
@@ -118,22 +121,44 @@ class AfterAnEnd(Restart):
         self.assertIn(f"--restart {run.directory}", run.stderr)
         again = self.restart(run)
         self.assertEqual(again.wait(), 0, again.stderr)
-        whole = self.complete(*self.case("elastic_piston", *self.LONG), out="whole")
+        whole = self.complete(*self.case(self.NAME, *self.LONG), out="whole")
         self.assert_same(whole, again)
 
-    def test_killed_program(self):
+    def kill_and_restart(self, program):
         run = self.begin()
-        os.kill(run.programs()["fluid_solver"], signal.SIGKILL)
+        os.kill(run.programs()[program], signal.SIGKILL)
         self.assertEqual(run.wait(), 4, run.stderr)
         self.assert_restarts(run)
 
-    def test_sigterm_writes_a_checkpoint(self):
+    def terminate_and_restart(self):
         run = self.begin("--set", "output.checkpoint_every=100000", "--set", "output.checkpoint_seconds=0.5")
         run.process.send_signal(signal.SIGTERM)
         self.assertEqual(run.wait(), 143, run.stderr)
         newest = json.loads(sorted(run.directory.glob("checkpoints/*/manifest.json"))[-1].read_text())
         self.assertEqual(newest["step"], run.summary()["steps"] + 1)
         self.assert_restarts(run)
+
+
+class ProgramOfSomebodyElses(Interrupted):
+    NAME = "spring_piston"
+    LONG = ("--set", "grid.factor=2", "--set", "time.dt=1e-3", "--set", "output.checkpoint_every=100")
+
+    def test_killed_program(self):
+        self.kill_and_restart("spring_piston")
+
+    def test_killed_coupler(self):
+        self.kill_and_restart("coupler")
+
+    def test_sigterm_writes_a_checkpoint(self):
+        self.terminate_and_restart()
+
+
+class AfterAnEnd(Interrupted):
+    def test_killed_program(self):
+        self.kill_and_restart("fluid_solver")
+
+    def test_sigterm_writes_a_checkpoint(self):
+        self.terminate_and_restart()
 
     def test_damaged_checkpoint_is_not_used(self):
         run = self.begin()

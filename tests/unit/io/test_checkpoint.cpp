@@ -109,6 +109,18 @@ TEST_F(Checkpoint, IsNotUsedBeforeEverybodyHasWritten) {
   EXPECT_THROW(read_checkpoint(checkpoint_folder(dir, 1), gas), OutputFailed);
 }
 
+TEST_F(Checkpoint, FileOfAnotherProgramsOwnFormatMakesTheSetWholeToo) {
+  const std::string folder = checkpoint_folder(dir, 1);
+  std::filesystem::create_directories(folder);
+  std::ofstream(folder + "/beam.state") << "q = 0.5\n";
+  write(1, {"fluid", "beam"});
+  EXPECT_TRUE(missing.empty());
+  EXPECT_NO_THROW(read_checkpoint(folder, gas));
+  std::ifstream manifest(folder + "/manifest.json");
+  const std::string text{std::istreambuf_iterator<char>(manifest), {}};
+  EXPECT_NE(text.find("\"beam.state\""), std::string::npos) << text;
+}
+
 TEST_F(Checkpoint, TheLastTwoCompleteSetsAreKept) {
   for (const std::uint64_t step : {10U, 20U}) write(step);
   write(25, {"fluid", "beam"});
