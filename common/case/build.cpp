@@ -11,6 +11,7 @@
 #include "common/case/build_shape.hpp"
 #include "common/case/laws.hpp"
 #include "common/case/reader.hpp"
+#include "common/core/time_schedule.hpp"
 
 namespace fsi {
 
@@ -181,8 +182,7 @@ OutputSpec output_of(const Node* node, double end) {
   }
   if (every != nullptr) add_multiples(*every, end, result.times);
   if (times == nullptr && every == nullptr) result.times = {end};
-  std::sort(result.times.begin(), result.times.end());
-  result.times.erase(std::unique(result.times.begin(), result.times.end()), result.times.end());
+  result.times = distinct_times(std::move(result.times), end);
   if (const Node* probes = node->find("probes")) {
     for (const Node& item : probes->items) {
       result.probes.push_back(
