@@ -40,6 +40,15 @@ bool TimeSchedule::output_at_start() const {
   return options_.output_times.front() <= 0;
 }
 
+bool TimeSchedule::is_output(double t) const {
+  return std::ranges::any_of(options_.output_times,
+                             [&](double wanted) { return std::abs(t - wanted) <= same_time * options_.end; });
+}
+
+bool TimeSchedule::is_end(double t) const {
+  return t >= options_.end * (1 - same_time);
+}
+
 PlannedStep TimeSchedule::plan(double t, double bid, const std::string& reason) {
   if (std::isinf(bid) && bid > 0) bid = options_.end;
   if (!(bid > smallest_part * options_.end) || std::isnan(bid)) {

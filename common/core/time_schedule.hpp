@@ -36,6 +36,10 @@ class TimeSchedule {
   /// wanted time is divided evenly, so that no sliver of a step is left over.
   /// @throws NumbersBroke when the bid is not a positive number or vanishes against the length of the run
   PlannedStep plan(double t, double bid, const std::string& reason);
+  /// Whether t, planned by another schedule, is an output time or the end of this one: that of a run that
+  /// goes on with another end.
+  bool is_output(double t) const;
+  bool is_end(double t) const;
   void archive(Archive& archive) { archive.number("previous", previous_); }
 
  private:
