@@ -3,6 +3,7 @@
 
 import json
 import os
+import re
 import shutil
 import signal
 import unittest
@@ -134,6 +135,19 @@ class AfterAnEnd(Restart):
         newest = json.loads(sorted(run.directory.glob("checkpoints/*/manifest.json"))[-1].read_text())
         self.assertEqual(newest["step"], run.summary()["steps"] + 1)
         self.assert_restarts(run)
+
+    def test_checkpoints_by_the_clock_are_written_once_each(self):
+        run = self.launch(*self.case("elastic_piston", "--set", "time.dt=2e-4", "--set", "output.checkpoint_every=100000",
+                                     "--set", "output.checkpoint_seconds=0.3"))
+
+        def steps():
+            log = run.directory / "log" / "coupler.log"
+            return [int(step) for step in re.findall(r" checkpoint of step (\d+)", log.read_text() if log.exists() else "")]
+        self.assertTrue(until(lambda: len(steps()) >= 4))
+        run.process.send_signal(signal.SIGTERM)
+        self.assertEqual(run.wait(), 143, run.stderr)
+        successive = [b for a, b in zip(steps()[:4], steps()[1:4]) if b == a + 1]
+        self.assertLess(len(successive), 2, f"checkpoints of steps {steps()}")  # one step may take so long
 
     def test_damaged_checkpoint_is_not_used(self):
         run = self.begin()
