@@ -24,6 +24,22 @@ class LoneSolvers(EndToEnd):
     def test_solid(self):
         self.alone("solid_manufactured", "solid", "--set", "grid.factor=2", "--set", "expect={}")
 
+    def test_state_before_a_break_has_its_time_also_after_a_restart(self):
+        import h5py
+        run = self.launch("sod_tube", "--set", "grid.factor=2", "--set", "expect={}", "--set", "output.checkpoint_every=1",
+                          "--set", "fluid.boundary.left={kind: dirichlet, state: {rho: 1, v: [0, 0], p: 't < 0.1 ? 1 : -1'}}")
+        self.assertEqual(run.wait(), 3, run.stderr)
+
+        def labels():
+            with h5py.File(run.directory / "last_state" / "fluid.h5") as file:
+                return int(file.attrs["step"]), float(file.attrs["t"])
+        before = labels()
+        self.assertGreater(before[1], 0.1)
+        again = self.launch("--restart", str(run.directory), out=None)
+        self.assertEqual(again.wait(), 3, again.stderr)
+        self.assertIn(f"goes on from the checkpoint of step {before[0]}", again.stderr)
+        self.assertEqual(labels(), before)
+
 
 if __name__ == "__main__":
     unittest.main()
