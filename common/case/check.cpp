@@ -190,7 +190,24 @@ void check_interfaces(const Case& problem, const Node& root) {
   }
 }
 
+/// Whether the reference describes the gas, or the solids.
+bool describes(const ReferenceSpec& reference, bool gas) {
+  if (reference.kind != "expressions" && reference.kind != "manufactured") return true;
+  return gas ? reference.fluid.has_value() : reference.u.has_value();
+}
+
+/// A body that starts from the reference is described there.
+void check_start(const ReferenceSpec& reference, bool gas, const std::string& owner, const Node& node) {
+  if (describes(reference, gas)) return;
+  fail(node.place, owner + ".initial",
+       fmt::format("takes its data from `reference`, which has no `{}`; add it there, or give the state here",
+                   gas ? "fluid" : "u"));
+}
+
 void check_reference(const Case& problem, const Node& root) {
+  if (problem.reference.kind == "riemann" && !problem.solids.empty())
+    fail(at(root, {"reference", "kind"}).place, "reference",
+         "`riemann` is a solution for a gas alone; leave it out");
   if (!problem.reference.u) {
     for (const auto& [key, is_there] :
          {std::pair{"v", problem.reference.v.has_value()}, std::pair{"P", problem.reference.P.has_value()}}) {
@@ -208,13 +225,17 @@ void check_reference(const Case& problem, const Node& root) {
            fmt::format("reference `{}` is known at output times only; give the boundary data here",
                        problem.reference.kind));
     }
-    const bool is_formula =
-        problem.reference.kind == "expressions" || problem.reference.kind == "manufactured";
-    const bool has_data = is_gas ? problem.reference.fluid.has_value() : problem.reference.u.has_value();
-    if (is_formula && !has_data)
+    if (!describes(problem.reference, is_gas))
       fail(node.place, path,
            fmt::format("takes its data from `reference`, which has no `{}`", is_gas ? "fluid" : "u"));
   };
+  if (problem.fluid && problem.fluid->initial_from_reference)
+    check_start(problem.reference, true, "fluid", at(root, {"fluid", "initial"}));
+  for (const SolidSpec& solid : problem.solids) {
+    if (solid.initial_from_reference)
+      check_start(problem.reference, false, "solids." + solid.name,
+                  at(root, {"solids", solid.name, "initial"}));
+  }
   for (const Side side : all_sides) {
     const auto index = static_cast<std::size_t>(side);
     if (problem.fluid)

@@ -211,6 +211,23 @@ const Mistake partners[] = {
     {"DataFromNoReference", "right: outflow", "right: dirichlet",
      "case.yaml:12:12: fluid.boundary.right: takes its data from `reference`, but the case has no reference "
      "solution; give the data here"},
+    {"SolidThatStartsFromAReferenceWithoutIt", "      top: symmetry\noutput:",
+     "      top: symmetry\n    initial: reference\nreference: {kind: expressions, fluid: {rho: 1, v: [0, 0], "
+     "p: "
+     "1}}\noutput:",
+     "case.yaml:28:14: solids.solid.initial: takes its data from `reference`, which has no `u`; add it "
+     "there, or "
+     "give the state here"},
+    {"GasThatStartsFromAReferenceWithoutIt", "initial: {rho: 1, v: [0, 0], p: 1}\n",
+     "initial: reference\nreference: {kind: expressions, u: [0, 0]}\n",
+     "case.yaml:15:12: fluid.initial: takes its data from `reference`, which has no `fluid`; add it there, "
+     "or "
+     "give the state here"},
+    {"SolidInAShockTube", "output:",
+     "reference: {kind: riemann, x_0: 0, rho_left: 1, v_left: 0, p_left: 1, rho_right: 1, v_right: 0, "
+     "p_right: "
+     "1}\noutput:",
+     "case.yaml:28:19: reference: `riemann` is a solution for a gas alone; leave it out"},
     {"ProbeNowhere", "times: [0.5]", "probes: [{name: a, in: fluidd, x: 0, y: 0}]",
      "case.yaml:28:33: output.probes[0].in: `fluidd` is neither `fluid` nor a solid; did you mean `fluid`?"},
     {"SolidNamedLikeAProgram", "\n  solid:\n", "\n  coupler:\n",
