@@ -335,6 +335,19 @@ void check_expectations(const Case& problem, const Node& root) {
   }
 }
 
+/// The grid of a solid is its reference configuration.
+void check_solid_grid(const SolidSpec& solid, const Node& node) {
+  const std::string path = fmt::format("solids.{}.grid", solid.name);
+  for (const char* key : {"shake", "shake_seed"}) {
+    if (const Node* own = node.find(key))
+      fail(own->place, fmt::format("{}.{}", path, key), "the grid of a solid lies still; leave it out");
+  }
+  if (solid.grid.moving)
+    fail(at(node, {"map"}).place, path + ".map",
+         "must not depend on t: the grid of a solid is its reference configuration");
+  check_grid(solid.grid, node, path);
+}
+
 }  // namespace
 
 void check_case(const Case& problem, const Node& root) {
@@ -352,8 +365,7 @@ void check_case(const Case& problem, const Node& root) {
       fail(at(root, {"solids"}).entries[k].place, "solids",
            fmt::format("`{}` is the name of another program; choose another", solid.name));
     }
-    check_grid(solid.grid, at(root, {"solids", solid.name, "grid"}),
-               fmt::format("solids.{}.grid", solid.name));
+    check_solid_grid(solid, at(root, {"solids", solid.name, "grid"}));
     if (solid.law == "rigid" || solid.law == external_law) continue;  // need their outline only
     check_overlap({.background = solid.grid,
                    .body_fitted = solid.body_fitted,
