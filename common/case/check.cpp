@@ -303,6 +303,10 @@ void check_probes(const Case& problem, const Node& root) {
            fmt::format("{} is neither `fluid` nor a solid{}", in_ticks(probe.in),
                        did_you_mean(probe.in, places)));
     }
+    const auto before = problem.output.probes.begin() + static_cast<std::ptrdiff_t>(k);
+    if (std::ranges::find(problem.output.probes.begin(), before, probe.name, &ProbeSpec::name) != before)
+      fail(node.find("name")->place, fmt::format("output.probes[{}].name", k),
+           fmt::format("there are two probes {}; choose another name", in_ticks(probe.name)));
   }
 }
 

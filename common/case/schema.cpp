@@ -260,7 +260,10 @@ constexpr Key expectation_element{.name = "expectation",
                                   .section = &expectation_section};
 
 constexpr array case_keys{
-    Key{.name = "name", .type = Type::text, .meaning = "name of the case", .fallback = "name of the file"},
+    Key{.name = "name",
+        .type = Type::text,
+        .meaning = "name of the case, part of the names of files: letters, digits, _ . -",
+        .fallback = "name of the file"},
     Key{.name = "title", .type = Type::text, .meaning = "one line about it", .fallback = "none"},
     Key{.name = "parameters",
         .type = Type::named,

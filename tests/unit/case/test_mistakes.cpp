@@ -92,6 +92,12 @@ const Mistake keys[] = {
     {"MissingSide", "    right: outflow\n", "",
      "case.yaml:11:5: fluid.boundary: `right` is missing (a side of the gas; a bare word is its kind, with "
      "data from the reference solution)"},
+    {"NameThatLeavesTheFolder", "parameters:", "name: ../above\nparameters:",
+     "case.yaml:1:7: name: `../above` cannot name files; use letters, digits, _, - and ., not first"},
+    {"NameOfAHiddenFile", "parameters:", "name: .hidden\nparameters:",
+     "case.yaml:1:7: name: `.hidden` cannot name files; use letters, digits, _, - and ., not first"},
+    {"EmptyName", "parameters:", "name: ''\nparameters:",
+     "case.yaml:1:7: name: `` cannot name files; use letters, digits, _, - and ., not first"},
     {"RepeatedKey", "cfl: 0.9", "end: 2", "case.yaml:5:16: key `end` is there twice, first at 5:8; keep one"},
     {"TwoSolidsOfOneName", "solids:\n", "solids:\n  solid: {law: neo_hookean}\n",
      "case.yaml:18:3: key `solid` is there twice, first at 17:3; keep one"},
@@ -238,6 +244,9 @@ const Mistake partners[] = {
      "case.yaml:28:19: reference: `riemann` is a solution for a gas alone; leave it out"},
     {"ProbeNowhere", "times: [0.5]", "probes: [{name: a, in: fluidd, x: 0, y: 0}]",
      "case.yaml:28:33: output.probes[0].in: `fluidd` is neither `fluid` nor a solid; did you mean `fluid`?"},
+    {"TwoProbesOfOneName", "times: [0.5]",
+     "probes: [{name: a, in: fluid, x: 0, y: 0}, {name: a, in: solid, x: 0, y: 0}]",
+     "case.yaml:28:60: output.probes[1].name: there are two probes `a`; choose another name"},
     {"SolidNamedLikeAProgram", "\n  solid:\n", "\n  coupler:\n",
      "case.yaml:17:3: solids: `coupler` is the name of another program; choose another"},
 };

@@ -94,6 +94,7 @@ TEST(CaseShape, MistakesSayWhereAndWhatToWrite) {
       {disk_case(circle, "{name: ring}"), "give `solid` or `shape`, one of them"},
       {disk_case(circle, "{name: ring, solid: disk}, {name: ring, solid: disk}"),
        "there are two grids `ring`"},
+      {disk_case(circle, "{name: fluid, solid: disk}"), "fluid.grid: there are two grids `fluid`"},
       {disk_case(circle, "{name: wall, shape: {kind: circle, radius: 1.5}}"), "meets no gas"},
       {disk_case(circle, "{name: ring, solid: disk}", "{boundary: free}"), "must be an interface"},
       {disk_case(circle, "{name: ring, solid: disk}", "{boundary: periodic}"), "no opposite side"},
@@ -118,6 +119,12 @@ TEST(CaseShape, MistakesSayWhereAndWhatToWrite) {
     EXPECT_TRUE(message.starts_with("case.yaml:")) << message;
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;
   }
+}
+
+TEST(CaseShape, GridOfASolidHasAnotherNameThanTheOneAlongItsOutline) {
+  EXPECT_EQ(mistake_in(disk_case(circle), {"solids.disk.grid.name=inner"}), "");
+  const std::string message = mistake_in(disk_case(circle), {"solids.disk.grid.name=outline"});
+  EXPECT_NE(message.find("solids.disk.grid: there are two grids `outline`"), std::string::npos) << message;
 }
 
 }  // namespace
