@@ -9,6 +9,7 @@ namespace {
 using std::array;
 using std::string_view;
 constexpr Range fraction{.low = 0, .high = 1, .low_open = true};
+constexpr Range at_most_a_day{.low = 0, .high = 86400, .low_open = true};  ///< [s]
 
 // ---- reference solutions
 
@@ -170,13 +171,13 @@ constexpr array time_keys{
         .meaning = "a program silent for so long is lost",
         .unit = "s",
         .fallback = "4",
-        .range = positive},
+        .range = at_most_a_day},
     Key{.name = "step_timeout",
         .meaning = "a program that computes for so long without ending its step is stuck, unless it needed a "
                    "twentieth of that before",
         .unit = "s",
         .fallback = "120",
-        .range = positive},
+        .range = at_most_a_day},
 };
 constexpr Section time_section{.title = "Time", .keys = time_keys};
 

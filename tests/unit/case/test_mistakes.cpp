@@ -164,6 +164,8 @@ const Mistake values[] = {
      "case.yaml:29:20: expect: summary.json has no `eror.rho` (status, reason, t, steps, dt, wall_s, "
      "participants, errors, interface, counters, "
      "conservation); did you mean `errors`?"},
+    {"TimeoutWithoutEnd", "cfl: 0.9", "peer_timeout: 1e12",
+     "case.yaml:5:30: time.peer_timeout: must be > 0 and <= 86400 [s], is 1000000000000"},
     {"EmptyExpectation", "status: completed", "errors.rho: {}",
      "case.yaml:29:10: expect.errors.rho: expects nothing; write {max: ..}, {min: ..} or a word"},
 };
