@@ -34,6 +34,9 @@ void count_step(io::Part& part, double t, double dt);
 int run_program(int argc, char** argv, const std::string& default_name, const std::string& role,
                 const std::function<void(const Setup&, io::Part&)>& body);
 
+/// Counter of the report: results that could not be written.
+inline constexpr const char* lost_outputs = "lost_outputs";
+
 /// Writes results. Where that fails and the case says to go on without them, the loss is told and counted.
 /// @throws OutputFailed
 void write_results(const Setup& setup, io::Part& part, const std::function<void()>& write);

@@ -39,6 +39,9 @@ class LoneSolvers(EndToEnd):
         self.assertEqual(again.wait(), 3, again.stderr)
         self.assertIn(f"goes on from the checkpoint of step {before[0]}", again.stderr)
         self.assertEqual(labels(), before)
+        log = (run.directory / "log" / "fluid.log").read_text(encoding="utf-8")
+        self.assertEqual(log.count(f" error step {before[0] + 1}, "), 2, log)
+        self.assertLess(log.index(" error "), log.index("goes on from the checkpoint"))
 
 
 if __name__ == "__main__":
