@@ -35,7 +35,7 @@ std::span<const wire::ProjectedInterface> Coupler::step(std::span<const wire::Pr
     output_ = next_.plan.output;
     at_end_ = next_.plan.end;
   } else {
-    output_ = agreement_.output_at_start();
+    output_ = agreement_.schedule().output_at_start();
   }
   begun_ = true;
   project_interface(predicted);
@@ -120,9 +120,11 @@ void Coupler::archive(Archive& archive) {
   archive.number("dt", moment_.dt);
   archive.number("next_dt", next_.plan.dt);
   archive.number("next_t", next_.plan.t_next);
-  archive.number("next_output", next_.plan.output);
-  archive.number("next_end", next_.plan.end);
   archive.inside("agreement", [&] { agreement_.archive(archive); });
+  if (archive.loading()) {  // the run that goes on may have another end and other output times
+    next_.plan.output = agreement_.schedule().is_output(next_.plan.t_next);
+    next_.plan.end = agreement_.schedule().is_end(next_.plan.t_next);
+  }
   for (std::size_t k = 0; k < interfaces_.size(); ++k) {
     archive.inside(fmt::format("interface{}", k), [&] { interfaces_[k].archive(archive); });
   }

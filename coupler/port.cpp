@@ -125,7 +125,6 @@ void CoupledRun::exchange() {
 
 void CoupledRun::complete_checkpoint() {
   const bool complete = checkpoints_.complete(at_);
-  due_.start(at_.step);
   checkpoint_.reset();
   if (!end_.empty()) {
     if (complete) end_ += fmt::format(", after a checkpoint of step {}", at_.step);
@@ -155,7 +154,9 @@ void CoupledRun::obey_requests() {
     if (!paused_ || checkpoint || checkpoint_) break;
     session_.idle(0.1);
   }
-  if (checkpoint) coupler_.request_checkpoint();
+  if (!checkpoint) return;
+  coupler_.request_checkpoint();
+  due_.start(at_.step + 1);  // asked for, not complete: that takes another exchange
 }
 
 void CoupledRun::record() {

@@ -36,7 +36,7 @@ class TimeStepAgreement {
   /// @throws NumbersBroke when a bid is no positive number, vanishes, or needs more than 10000 substeps
   AgreedStep agree(std::span<const Bid> bids);
   double t() const { return t_; }
-  bool output_at_start() const { return schedule_.output_at_start(); }
+  const TimeSchedule& schedule() const { return schedule_; }
   void archive(Archive& archive);
 
  private:

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "common/core/raise_to.hpp"
 #include "common/grid/partition.hpp"
 #include "common/grid/quality.hpp"
 #include "fluid_solver/gas_solver.hpp"
@@ -163,19 +164,16 @@ Health GasSolver::health() const {
 
 GasErrors GasSolver::errors(const StateField& exact, double t) const {
   GasErrors errors;
-  const auto raise = [](double& most, double value) {
-    if (!(value <= most)) most = value;
-  };
   for (const Component& component : components_) {
     const ConstFieldView q = component.state(), x = component.grid().x();
     for (int j = 0; j < q.layout.n2; ++j) {
       for (const grid::Interval& run : component.valid().row(j)) {
         for (int i = run.begin; i < run.end; ++i) {
           const State s = exact(x(0, i, j), x(1, i, j), t);
-          raise(errors.rho, std::fabs(q(0, i, j) - s.rho));
-          raise(errors.v1, std::fabs(q(1, i, j) - s.v1));
-          raise(errors.v2, std::fabs(q(2, i, j) - s.v2));
-          raise(errors.T, std::fabs(q(3, i, j) / q(0, i, j) - s.p / s.rho));
+          raise_to(errors.rho, std::fabs(q(0, i, j) - s.rho));
+          raise_to(errors.v1, std::fabs(q(1, i, j) - s.v1));
+          raise_to(errors.v2, std::fabs(q(2, i, j) - s.v2));
+          raise_to(errors.T, std::fabs(q(3, i, j) / q(0, i, j) - s.p / s.rho));
         }
       }
     }

@@ -276,6 +276,7 @@ void FluidParticipant::write_last_state(double t, std::uint64_t step) {
 
 void FluidParticipant::archive(Archive& archive) {
   solver_.archive(archive);
+  archive.number("worst_cells", worst_cells_);
   archive.inside("fields", [&] { fields_.archive(archive); });
   if (probe_table_) archive.inside("probes", [&] { probe_table_->archive(archive); });
   if (budget_) archive.inside("budget", [&] { budget_->archive(archive); });

@@ -3,10 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "common/core/failure.hpp"
+#include "common/core/raise_to.hpp"
 #include "solid_solver/interface.hpp"
 #include "solid_solver/solid_component.hpp"
 
@@ -98,7 +98,7 @@ void add_totals(const SolidComponent<L>& component, const PointMeasures& measure
   }
 }
 
-/// At all points with a value.
+/// At all points with a value. Where a value is no number, neither is its error.
 template <Law L>
 void add_errors(const SolidComponent<L>& component, const StateFunction& exact, double t, Errors& errors) {
   const Layout layout = component.layout();
@@ -107,10 +107,13 @@ void add_errors(const SolidComponent<L>& component, const StateFunction& exact, 
     for (const auto& [begin, end] : component.points().valid(j)) {
       for (int i = begin; i < end; ++i) {
         const SolidState s = load(component.q(), layout.at(i, j)), e = exact(x(0, i, j), x(1, i, j), t);
-        errors.u = std::max(errors.u, (s.u - e.u).lpNorm<Eigen::Infinity>());
-        errors.v = std::max(errors.v, (s.v - e.v).lpNorm<Eigen::Infinity>());
+        for (const int axis : {0, 1}) {
+          raise_to(errors.u, std::abs(s.u[axis] - e.u[axis]));
+          raise_to(errors.v, std::abs(s.v[axis] - e.v[axis]));
+        }
         const Tensor2 d = minus(s.P, e.P);
-        errors.P = std::max({errors.P, std::abs(d.a11), std::abs(d.a12), std::abs(d.a21), std::abs(d.a22)});
+        for (const double component_of_P : {d.a11, d.a12, d.a21, d.a22})
+          raise_to(errors.P, std::abs(component_of_P));
       }
     }
   }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -11,6 +12,8 @@
 #include "common/case/build_shape.hpp"
 #include "common/case/laws.hpp"
 #include "common/case/reader.hpp"
+#include "common/core/suggest.hpp"
+#include "common/core/time_schedule.hpp"
 
 namespace fsi {
 
@@ -181,8 +184,7 @@ OutputSpec output_of(const Node* node, double end) {
   }
   if (every != nullptr) add_multiples(*every, end, result.times);
   if (times == nullptr && every == nullptr) result.times = {end};
-  std::sort(result.times.begin(), result.times.end());
-  result.times.erase(std::unique(result.times.begin(), result.times.end()), result.times.end());
+  result.times = distinct_times(std::move(result.times), end);
   if (const Node* probes = node->find("probes")) {
     for (const Node& item : probes->items) {
       result.probes.push_back(
@@ -207,12 +209,26 @@ Expectation expectation_of(const config::Entry& entry) {
   return result;
 }
 
+/// The name of a case becomes part of the names of files.
+std::string case_name_of(const Node& root) {
+  const Node& node = *root.find("name");
+  if (node.text.empty() || node.text.front() == '.' || !std::ranges::all_of(node.text, fits_case_name))
+    fail(
+        node.place, "name",
+        fmt::format("{} cannot name files; use letters, digits, _, - and ., not first", in_ticks(node.text)));
+  return node.text;
+}
+
 }  // namespace
+
+bool fits_case_name(char c) {
+  return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '.' || c == '-';
+}
 
 Case build_case(const Node& root, const Scope& scope) {
   const Reader reader(root, scope);
   Case result;
-  Reader::assign(root, "name", result.name);
+  result.name = case_name_of(root);
   Reader::assign(root, "title", result.title);
   result.parameters = numbers_of(root, "parameters");
   result.grid_factor = scope.constants.at("j");

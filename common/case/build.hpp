@@ -7,6 +7,9 @@
 
 namespace fsi {
 
+/// Whether the name of a case, a part of the names of files, may hold it: letters, digits and _ . -
+bool fits_case_name(char c);
+
 /// Fills a Case from a tree that `validate` has passed. @throws UserMistake where two keys do not fit
 /// together
 Case build_case(const config::Node& root, const Scope& scope);

@@ -151,11 +151,18 @@ void assign_boundaries(BodyFittedSpec& grid, const BoundarySpec& on_curve,
   }
 }
 
+/// What holds on the curve.
 BoundarySpec boundary_or(const Reader& reader, const Owner& owner, const Node* node, const std::string& path,
                          BoundaryKind fallback) {
   const Node* boundary = node == nullptr ? nullptr : node->find("boundary");
   if (boundary == nullptr) return {.kind = fallback};
-  return build_boundary(reader, owner, *boundary, path + ".boundary");
+  BoundarySpec spec = build_boundary(reader, owner, *boundary, path + ".boundary");
+  if (spec.kind == BoundaryKind::periodic)
+    fail(boundary->place, path + ".boundary", "a curve has no opposite side with which it could be periodic");
+  if (spec.kind == BoundaryKind::interface && owner.name == "fluid")
+    fail(boundary->place, path + ".boundary",
+         "the gas meets a solid along that solid's outline; write `solid: NAME` in place of `shape`");
+  return spec;
 }
 
 const SolidSpec& solid_named(const std::vector<SolidSpec>& solids, const Node& name,

@@ -94,12 +94,16 @@ void apply_options(Node& root, const std::vector<std::string>& overrides,
   }
 }
 
+/// Where the file gives no name, its own: characters that a name may not have become _.
 void put_name(Node& root, const std::string& path) {
   if (root.find("name") != nullptr) return;
   Node name;
   name.kind = Node::Kind::scalar;
   name.place = path;
   name.text = std::filesystem::path(path).stem().string();
+  std::ranges::replace_if(
+      name.text, [](char c) { return !fits_case_name(c); }, '_');
+  if (name.text.starts_with('.')) name.text.front() = '_';
   root.entries.insert(root.entries.begin(), {"name", path, name});
 }
 

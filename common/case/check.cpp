@@ -190,7 +190,24 @@ void check_interfaces(const Case& problem, const Node& root) {
   }
 }
 
+/// Whether the reference describes the gas, or the solids.
+bool describes(const ReferenceSpec& reference, bool gas) {
+  if (reference.kind != "expressions" && reference.kind != "manufactured") return true;
+  return gas ? reference.fluid.has_value() : reference.u.has_value();
+}
+
+/// A body that starts from the reference is described there.
+void check_start(const ReferenceSpec& reference, bool gas, const std::string& owner, const Node& node) {
+  if (describes(reference, gas)) return;
+  fail(node.place, owner + ".initial",
+       fmt::format("takes its data from `reference`, which has no `{}`; add it there, or give the state here",
+                   gas ? "fluid" : "u"));
+}
+
 void check_reference(const Case& problem, const Node& root) {
+  if (problem.reference.kind == "riemann" && !problem.solids.empty())
+    fail(at(root, {"reference", "kind"}).place, "reference",
+         "`riemann` is a solution for a gas alone; leave it out");
   if (!problem.reference.u) {
     for (const auto& [key, is_there] :
          {std::pair{"v", problem.reference.v.has_value()}, std::pair{"P", problem.reference.P.has_value()}}) {
@@ -208,13 +225,17 @@ void check_reference(const Case& problem, const Node& root) {
            fmt::format("reference `{}` is known at output times only; give the boundary data here",
                        problem.reference.kind));
     }
-    const bool is_formula =
-        problem.reference.kind == "expressions" || problem.reference.kind == "manufactured";
-    const bool has_data = is_gas ? problem.reference.fluid.has_value() : problem.reference.u.has_value();
-    if (is_formula && !has_data)
+    if (!describes(problem.reference, is_gas))
       fail(node.place, path,
            fmt::format("takes its data from `reference`, which has no `{}`", is_gas ? "fluid" : "u"));
   };
+  if (problem.fluid && problem.fluid->initial_from_reference)
+    check_start(problem.reference, true, "fluid", at(root, {"fluid", "initial"}));
+  for (const SolidSpec& solid : problem.solids) {
+    if (solid.initial_from_reference)
+      check_start(problem.reference, false, "solids." + solid.name,
+                  at(root, {"solids", solid.name, "initial"}));
+  }
   for (const Side side : all_sides) {
     const auto index = static_cast<std::size_t>(side);
     if (problem.fluid)
@@ -282,6 +303,10 @@ void check_probes(const Case& problem, const Node& root) {
            fmt::format("{} is neither `fluid` nor a solid{}", in_ticks(probe.in),
                        did_you_mean(probe.in, places)));
     }
+    const auto before = problem.output.probes.begin() + static_cast<std::ptrdiff_t>(k);
+    if (std::ranges::find(problem.output.probes.begin(), before, probe.name, &ProbeSpec::name) != before)
+      fail(node.find("name")->place, fmt::format("output.probes[{}].name", k),
+           fmt::format("there are two probes {}; choose another name", in_ticks(probe.name)));
   }
 }
 
@@ -314,6 +339,19 @@ void check_expectations(const Case& problem, const Node& root) {
   }
 }
 
+/// The grid of a solid is its reference configuration.
+void check_solid_grid(const SolidSpec& solid, const Node& node) {
+  const std::string path = fmt::format("solids.{}.grid", solid.name);
+  for (const char* key : {"shake", "shake_seed"}) {
+    if (const Node* own = node.find(key))
+      fail(own->place, fmt::format("{}.{}", path, key), "the grid of a solid lies still; leave it out");
+  }
+  if (solid.grid.moving)
+    fail(at(node, {"map"}).place, path + ".map",
+         "must not depend on t: the grid of a solid is its reference configuration");
+  check_grid(solid.grid, node, path);
+}
+
 }  // namespace
 
 void check_case(const Case& problem, const Node& root) {
@@ -331,8 +369,7 @@ void check_case(const Case& problem, const Node& root) {
       fail(at(root, {"solids"}).entries[k].place, "solids",
            fmt::format("`{}` is the name of another program; choose another", solid.name));
     }
-    check_grid(solid.grid, at(root, {"solids", solid.name, "grid"}),
-               fmt::format("solids.{}.grid", solid.name));
+    check_solid_grid(solid, at(root, {"solids", solid.name, "grid"}));
     if (solid.law == "rigid" || solid.law == external_law) continue;  // need their outline only
     check_overlap({.background = solid.grid,
                    .body_fitted = solid.body_fitted,

@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "common/case/composite_from_case.hpp"
+#include "common/core/suggest.hpp"
 
 namespace fsi {
 
@@ -23,6 +26,19 @@ void check_background(const OverlapCheck& check) {
   for (const bool periodic : check.background.periodic) {
     if (periodic) fail(grid.place, path, "a background of body-fitted grids cannot be periodic");
   }
+}
+
+/// Each grid has its own name among the results.
+void check_names(const OverlapCheck& check) {
+  if (std::ranges::find(check.body_fitted, check.background.name, &BodyFittedSpec::name) ==
+      check.body_fitted.end())
+    return;
+  const Node& grid = *check.owner.find("grid");
+  const Node* name = grid.find("name");
+  fail(name == nullptr ? grid.place : name->place, check.path + ".grid",
+       fmt::format(
+           "there are two grids {}, this one and the one fitted to a curve; give this one another `name`",
+           in_ticks(check.background.name)));
 }
 
 /// Where the grid's curve is described.
@@ -52,6 +68,7 @@ void check_curve(const BodyFittedSpec& spec, const grid::MovingGrid& grid) {
 void check_overlap(const OverlapCheck& check) {
   if (check.body_fitted.empty()) return;
   check_background(check);
+  check_names(check);
   std::vector<grid::MovingGrid> grids;
   std::vector<ConstFieldView> views;
   try {

@@ -9,6 +9,7 @@ namespace {
 using std::array;
 using std::string_view;
 constexpr Range fraction{.low = 0, .high = 1, .low_open = true};
+constexpr Range at_most_a_day{.low = 0, .high = 86400, .low_open = true};  ///< [s]
 
 // ---- reference solutions
 
@@ -170,13 +171,13 @@ constexpr array time_keys{
         .meaning = "a program silent for so long is lost",
         .unit = "s",
         .fallback = "4",
-        .range = positive},
+        .range = at_most_a_day},
     Key{.name = "step_timeout",
         .meaning = "a program that computes for so long without ending its step is stuck, unless it needed a "
                    "twentieth of that before",
         .unit = "s",
         .fallback = "120",
-        .range = positive},
+        .range = at_most_a_day},
 };
 constexpr Section time_section{.title = "Time", .keys = time_keys};
 
@@ -208,7 +209,8 @@ constexpr array<string_view, 2> on_failure_words{"end", "go_on"};
 constexpr array output_keys{
     Key{.name = "times",
         .type = Type::numbers,
-        .meaning = "fields are written at these times, hit exactly",
+        .meaning =
+            "fields are written at these times, hit exactly; those closer than 1e-8 of the run are one",
         .unit = "time",
         .fallback = "[time.end]",
         .range = not_negative},
@@ -259,7 +261,10 @@ constexpr Key expectation_element{.name = "expectation",
                                   .section = &expectation_section};
 
 constexpr array case_keys{
-    Key{.name = "name", .type = Type::text, .meaning = "name of the case", .fallback = "name of the file"},
+    Key{.name = "name",
+        .type = Type::text,
+        .meaning = "name of the case, part of the names of files: letters, digits, _ . -",
+        .fallback = "name of the file"},
     Key{.name = "title", .type = Type::text, .meaning = "one line about it", .fallback = "none"},
     Key{.name = "parameters",
         .type = Type::named,

@@ -10,14 +10,14 @@
 
 namespace fsi {
 
-void open_log(const std::string& program, const std::string& run_dir) {
+void open_log(const std::string& program, const std::string& run_dir, LogFile kept) {
   auto terminal = std::make_shared<spdlog::sinks::stderr_color_sink_st>();
   terminal->set_level(spdlog::level::warn);
   terminal->set_pattern("%n: %^%l%$: %v");
   std::vector<spdlog::sink_ptr> sinks{terminal};
   if (!run_dir.empty()) {
     const auto path = std::filesystem::path(run_dir) / "log" / (program + ".log");
-    auto file = std::make_shared<spdlog::sinks::basic_file_sink_st>(path.string(), true);
+    auto file = std::make_shared<spdlog::sinks::basic_file_sink_st>(path.string(), kept == LogFile::fresh);
     file->set_pattern("%Y-%m-%d %H:%M:%S.%e %l %v");
     sinks.push_back(std::move(file));
   }

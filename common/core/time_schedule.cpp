@@ -13,19 +13,40 @@ namespace fsi {
 namespace {
 
 constexpr double smallest_part = 1e-11;  ///< of the run's length: below, the step counts as vanished
+/// Of the run's length: over a step so short, the round-off of positions is a velocity of grids and walls
+/// that lowers the following bids.
+constexpr double same_time = 1e-8;
 
 }  // namespace
 
-TimeSchedule::TimeSchedule(Options options) : options_(std::move(options)) {
-  auto& times = options_.output_times;
-  std::erase_if(times, [this](double t) { return t > options_.end * (1 + smallest_part); });
-  times.push_back(options_.end);
+std::vector<double> distinct_times(std::vector<double> times, double end) {
+  const double apart = same_time * end;
   std::ranges::sort(times);
-  times.erase(std::ranges::unique(times).begin(), times.end());
+  std::vector<double> distinct;
+  for (const double t : times) {
+    if (t > end + apart) break;
+    const double time = end - t <= apart ? end : (t <= apart ? 0 : t);
+    if (distinct.empty() || time - distinct.back() > apart) distinct.push_back(time);
+  }
+  return distinct;
+}
+
+TimeSchedule::TimeSchedule(Options options) : options_(std::move(options)) {
+  options_.output_times.push_back(options_.end);
+  options_.output_times = distinct_times(std::move(options_.output_times), options_.end);
 }
 
 bool TimeSchedule::output_at_start() const {
   return options_.output_times.front() <= 0;
+}
+
+bool TimeSchedule::is_output(double t) const {
+  return std::ranges::any_of(options_.output_times,
+                             [&](double wanted) { return std::abs(t - wanted) <= same_time * options_.end; });
+}
+
+bool TimeSchedule::is_end(double t) const {
+  return t >= options_.end * (1 - same_time);
 }
 
 PlannedStep TimeSchedule::plan(double t, double bid, const std::string& reason) {

@@ -17,6 +17,9 @@ namespace {
 
 /// What the report has counted so far.
 void archive_part(Archive& archive, io::Part& part) {
+  double lost = part.counters.contains(lost_outputs) ? part.counters[lost_outputs] : 0;
+  archive.number(lost_outputs, lost);
+  if (lost > 0) part.counters[lost_outputs] = lost;
   archive.number("t", part.t);
   archive.number("steps", part.steps);
   archive.number("substeps", part.substeps);

@@ -41,7 +41,7 @@ class CheckpointClock {
       : every_(static_cast<std::uint64_t>(output.checkpoint_every)), seconds_(output.checkpoint_seconds) {}
   /// Is one of `step` wanted?
   bool due(std::uint64_t step) const;
-  /// One was written, or the run began there.
+  /// One is asked for, or the run began there.
   void start(std::uint64_t step);
 
  private:

@@ -44,6 +44,7 @@ class LoneRun {
   void loop() {
     at_ = checkpoints_.begin();
     due_.start(at_.step);
+    last_ = {.t = at_.t, .step = at_.step};
     if (setup_.restart.empty()) {
       solver_.apply_bcs(0, {});
       write(schedule_.output_at_start());

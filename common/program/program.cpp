@@ -112,7 +112,7 @@ void write_results(const Setup& setup, io::Part& part, const std::function<void(
     write();
   } catch (const OutputFailed& failure) {
     if (!setup.problem.output.go_on) throw;
-    double& lost = part.counters["lost_outputs"];
+    double& lost = part.counters[lost_outputs];
     constexpr double often = 10;
     if (lost < often)
       log_warning(fmt::format("{}; the run goes on without (output.on_failure)", failure.what()));
@@ -182,7 +182,7 @@ int run_program(int argc, char** argv, const std::string& default_name, const st
   ExitCode code = run_body(
       [&] {
         io::make_directory(setup.run_dir + "/log");
-        open_log(setup.name, setup.run_dir);
+        open_log(setup.name, setup.run_dir, setup.restart.empty() ? LogFile::fresh : LogFile::continued);
         setup.problem = load_case(case_path);
         body(setup, part);
       },

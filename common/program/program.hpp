@@ -41,6 +41,9 @@ int run_program(int argc, char** argv, const std::string& default_name, const st
 /// Ends the program at once, from whatever thread; its report says why.
 [[noreturn]] void end_program(const Setup& setup, io::Part part, const Failure& failure);
 
+/// Counter of the report: results that could not be written.
+inline constexpr const char* lost_outputs = "lost_outputs";
+
 /// Writes results. Where that fails and the case says to go on without them, the loss is told and counted.
 /// @throws OutputFailed
 void write_results(const Setup& setup, io::Part& part, const std::function<void()>& write);

@@ -48,6 +48,25 @@ class LoneSolvers(EndToEnd):
         os.kill(pid, signal.SIGCONT)
         self.assertEqual(run.wait(), 0, run.stderr)
 
+    def test_state_before_a_break_has_its_time_also_after_a_restart(self):
+        import h5py
+        run = self.launch("sod_tube", "--set", "grid.factor=2", "--set", "expect={}", "--set", "output.checkpoint_every=1",
+                          "--set", "fluid.boundary.left={kind: dirichlet, state: {rho: 1, v: [0, 0], p: 't < 0.1 ? 1 : -1'}}")
+        self.assertEqual(run.wait(), 3, run.stderr)
+
+        def labels():
+            with h5py.File(run.directory / "last_state" / "fluid.h5") as file:
+                return int(file.attrs["step"]), float(file.attrs["t"])
+        before = labels()
+        self.assertGreater(before[1], 0.1)
+        again = self.launch("--restart", str(run.directory), out=None)
+        self.assertEqual(again.wait(), 3, again.stderr)
+        self.assertIn(f"goes on from the checkpoint of step {before[0]}", again.stderr)
+        self.assertEqual(labels(), before)
+        log = (run.directory / "log" / "fluid.log").read_text(encoding="utf-8")
+        self.assertEqual(log.count(f" error step {before[0] + 1}, "), 2, log)
+        self.assertLess(log.index(" error "), log.index("goes on from the checkpoint"))
+
 
 if __name__ == "__main__":
     unittest.main()

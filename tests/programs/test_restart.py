@@ -3,6 +3,7 @@
 
 import json
 import os
+import re
 import shutil
 import signal
 import unittest
@@ -20,6 +21,9 @@ CASES = {  # with the number of steps between checkpoints
     "manufactured_piston": (6, "--set", "grid.factor=1"),
     "sod_tube": (10, "--set", "grid.factor=2"),
     "spring_piston": (20, "--set", "grid.factor=2"),
+    # worst cells in the middle of the run, rectangles at its end
+    "free_stream": (4, "--set", "time.end=0.5", "--set", "time.dt=0.02", "--set", "output.times=[0.5]", "--set",
+                    "fluid.grid={kind: mapped, points: [11, 11], map: [r + 0.4 * s * sin(2 * pi * t), s]}"),
 }
 NO_NUMBERS = {"case.yaml", "summary.json"}  # text of the case, times
 
@@ -43,6 +47,11 @@ def numbers(summary):
     return summary
 
 
+def health(directory):
+    """{program: the least that it had of density, pressure and the like}."""
+    return {path.stem: json.loads(path.read_text(encoding="utf-8"))["health"] for path in directory.glob("parts/*.json")}
+
+
 class Restarting(EndToEnd):
     def case(self, name, *more):
         every, *options = CASES[name]
@@ -57,6 +66,7 @@ class Restarting(EndToEnd):
 
     def assert_same(self, one, other):
         self.assertEqual(numbers(one.summary()), numbers(other.summary()))
+        self.assertEqual(health(one.directory), health(other.directory))
         mine, its = results(one.directory), results(other.directory)
         self.assertEqual(mine.keys(), its.keys())
         self.assertEqual([name for name in mine if mine[name] != its[name]], [])
@@ -99,6 +109,10 @@ class Restart(Restarting):
 
     def test_program_of_somebody_elses(self):
         self.assert_goes_on("spring_piston")
+
+    def test_worst_cells_of_a_moving_grid_are_those_of_the_whole_run(self):
+        whole = self.assert_goes_on("free_stream")
+        self.assertLess(health(whole.directory)["fluid"]["min_cell_quality"], 0.95)
 
 
 class Interrupted(Restarting):
@@ -159,6 +173,19 @@ class AfterAnEnd(Interrupted):
 
     def test_sigterm_writes_a_checkpoint(self):
         self.terminate_and_restart()
+
+    def test_checkpoints_by_the_clock_are_written_once_each(self):
+        run = self.launch(*self.case("elastic_piston", "--set", "time.dt=2e-4", "--set", "output.checkpoint_every=100000",
+                                     "--set", "output.checkpoint_seconds=0.3"))
+
+        def steps():
+            log = run.directory / "log" / "coupler.log"
+            return [int(step) for step in re.findall(r" checkpoint of step (\d+)", log.read_text() if log.exists() else "")]
+        self.assertTrue(until(lambda: len(steps()) >= 4))
+        run.process.send_signal(signal.SIGTERM)
+        self.assertEqual(run.wait(), 143, run.stderr)
+        successive = [b for a, b in zip(steps()[:4], steps()[1:4]) if b == a + 1]
+        self.assertLess(len(successive), 2, f"checkpoints of steps {steps()}")  # one step may take so long
 
     def test_damaged_checkpoint_is_not_used(self):
         run = self.begin()

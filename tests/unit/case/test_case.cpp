@@ -203,5 +203,15 @@ TEST(CaseList, GivesTheTitleOrTheMistakeOfEveryFile) {
   EXPECT_NE(cases[0].second.find("bad.yaml:"), std::string::npos);
 }
 
+TEST(CaseName, IsThatOfTheFileWithWhatFilesOfResultsMayBeCalled) {
+  const tests::TemporaryFolder folder;
+  const std::string text =
+      "time: {end: 1}\nfluid:\n  grid: {x: [0, 1], y: [0, 1], points: [5, 5]}\n"
+      "  boundary: {left: outflow, right: outflow, bottom: symmetry, top: symmetry}\n"
+      "  initial: {rho: 1, v: [0, 0], p: 1}\n";
+  EXPECT_EQ(load_case(folder.write("beam-2.5_a.yaml", text)).name, "beam-2.5_a");
+  EXPECT_EQ(load_case(folder.write(".my beam.yaml", text)).name, "_my_beam");
+}
+
 }  // namespace
 }  // namespace fsi

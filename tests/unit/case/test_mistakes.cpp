@@ -92,6 +92,12 @@ const Mistake keys[] = {
     {"MissingSide", "    right: outflow\n", "",
      "case.yaml:11:5: fluid.boundary: `right` is missing (a side of the gas; a bare word is its kind, with "
      "data from the reference solution)"},
+    {"NameThatLeavesTheFolder", "parameters:", "name: ../above\nparameters:",
+     "case.yaml:1:7: name: `../above` cannot name files; use letters, digits, _, - and ., not first"},
+    {"NameOfAHiddenFile", "parameters:", "name: .hidden\nparameters:",
+     "case.yaml:1:7: name: `.hidden` cannot name files; use letters, digits, _, - and ., not first"},
+    {"EmptyName", "parameters:", "name: ''\nparameters:",
+     "case.yaml:1:7: name: `` cannot name files; use letters, digits, _, - and ., not first"},
     {"RepeatedKey", "cfl: 0.9", "end: 2", "case.yaml:5:16: key `end` is there twice, first at 5:8; keep one"},
     {"TwoSolidsOfOneName", "solids:\n", "solids:\n  solid: {law: neo_hookean}\n",
      "case.yaml:18:3: key `solid` is there twice, first at 17:3; keep one"},
@@ -158,6 +164,8 @@ const Mistake values[] = {
      "case.yaml:29:20: expect: summary.json has no `eror.rho` (status, reason, t, steps, dt, wall_s, "
      "participants, errors, interface, counters, "
      "conservation); did you mean `errors`?"},
+    {"TimeoutWithoutEnd", "cfl: 0.9", "peer_timeout: 1e12",
+     "case.yaml:5:30: time.peer_timeout: must be > 0 and <= 86400 [s], is 1000000000000"},
     {"EmptyExpectation", "status: completed", "errors.rho: {}",
      "case.yaml:29:10: expect.errors.rho: expects nothing; write {max: ..}, {min: ..} or a word"},
 };
@@ -177,6 +185,14 @@ const Mistake formulas[] = {
     {"MapThatFolds", "{x: [0, 1], y: [0, 1], points: [11, 11]}\n  boundary",
      "{kind: mapped, map: [-r, s], points: [11, 11]}\n  boundary",
      "case.yaml:9:9: fluid.grid: the grid folds at point (0, 0) at t = 0, near (-0, 0); change `map`"},
+    {"GridOfASolidThatMoves", "{x: [-1, 0], y: [0, 1], points: [11, 11]}",
+     "{kind: mapped, map: [r - 1 + t, s], points: [11, 11]}",
+     "case.yaml:22:31: solids.solid.grid.map: must not depend on t: the grid of a solid is its reference "
+     "configuration"},
+    {"GridOfASolidThatIsShaken", "x: [-1, 0], y: [0, 1],", "x: [-1, 0], y: [0, 1], shake: 0.1,",
+     "case.yaml:22:41: solids.solid.grid.shake: the grid of a solid lies still; leave it out"},
+    {"SeedForTheGridOfASolid", "x: [-1, 0], y: [0, 1],", "x: [-1, 0], y: [0, 1], shake_seed: 3,",
+     "case.yaml:22:46: solids.solid.grid.shake_seed: the grid of a solid lies still; leave it out"},
     {"DefinitionsInACircle", "wave: sin(x)", "wave: 2 * wave",
      "case.yaml:4:9: definitions.wave: definitions go round in a circle: wave -> wave"},
     {"ParametersInACircle", "gamma: 1.4", "gamma: 1 + b\n  b: 2 * gamma",
@@ -211,8 +227,28 @@ const Mistake partners[] = {
     {"DataFromNoReference", "right: outflow", "right: dirichlet",
      "case.yaml:12:12: fluid.boundary.right: takes its data from `reference`, but the case has no reference "
      "solution; give the data here"},
+    {"SolidThatStartsFromAReferenceWithoutIt", "      top: symmetry\noutput:",
+     "      top: symmetry\n    initial: reference\nreference: {kind: expressions, fluid: {rho: 1, v: [0, 0], "
+     "p: "
+     "1}}\noutput:",
+     "case.yaml:28:14: solids.solid.initial: takes its data from `reference`, which has no `u`; add it "
+     "there, or "
+     "give the state here"},
+    {"GasThatStartsFromAReferenceWithoutIt", "initial: {rho: 1, v: [0, 0], p: 1}\n",
+     "initial: reference\nreference: {kind: expressions, u: [0, 0]}\n",
+     "case.yaml:15:12: fluid.initial: takes its data from `reference`, which has no `fluid`; add it there, "
+     "or "
+     "give the state here"},
+    {"SolidInAShockTube", "output:",
+     "reference: {kind: riemann, x_0: 0, rho_left: 1, v_left: 0, p_left: 1, rho_right: 1, v_right: 0, "
+     "p_right: "
+     "1}\noutput:",
+     "case.yaml:28:19: reference: `riemann` is a solution for a gas alone; leave it out"},
     {"ProbeNowhere", "times: [0.5]", "probes: [{name: a, in: fluidd, x: 0, y: 0}]",
      "case.yaml:28:33: output.probes[0].in: `fluidd` is neither `fluid` nor a solid; did you mean `fluid`?"},
+    {"TwoProbesOfOneName", "times: [0.5]",
+     "probes: [{name: a, in: fluid, x: 0, y: 0}, {name: a, in: solid, x: 0, y: 0}]",
+     "case.yaml:28:60: output.probes[1].name: there are two probes `a`; choose another name"},
     {"SolidNamedLikeAProgram", "\n  solid:\n", "\n  coupler:\n",
      "case.yaml:17:3: solids: `coupler` is the name of another program; choose another"},
 };

@@ -94,8 +94,13 @@ TEST(CaseShape, MistakesSayWhereAndWhatToWrite) {
       {disk_case(circle, "{name: ring}"), "give `solid` or `shape`, one of them"},
       {disk_case(circle, "{name: ring, solid: disk}, {name: ring, solid: disk}"),
        "there are two grids `ring`"},
+      {disk_case(circle, "{name: fluid, solid: disk}"), "fluid.grid: there are two grids `fluid`"},
       {disk_case(circle, "{name: wall, shape: {kind: circle, radius: 1.5}}"), "meets no gas"},
       {disk_case(circle, "{name: ring, solid: disk}", "{boundary: free}"), "must be an interface"},
+      {disk_case(circle, "{name: ring, solid: disk}", "{boundary: periodic}"), "no opposite side"},
+      {disk_case(circle, "{name: wall, shape: " + circle + ", boundary: periodic}"), "no opposite side"},
+      {disk_case(circle, "{name: wall, shape: " + circle + ", boundary: {kind: interface, solid: disk}}"),
+       "write `solid: NAME` in place of `shape`"},
       {disk_case("{kind: circle, radius: 0.9, walls: [bottom, top]}"), "a circle has no ends"},
       {disk_case("{kind: circle, radius: 0.9, points: 70, spacing: h}"),
        "`points` or `spacing`, one of them"},
@@ -114,6 +119,12 @@ TEST(CaseShape, MistakesSayWhereAndWhatToWrite) {
     EXPECT_TRUE(message.starts_with("case.yaml:")) << message;
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;
   }
+}
+
+TEST(CaseShape, GridOfASolidHasAnotherNameThanTheOneAlongItsOutline) {
+  EXPECT_EQ(mistake_in(disk_case(circle), {"solids.disk.grid.name=inner"}), "");
+  const std::string message = mistake_in(disk_case(circle), {"solids.disk.grid.name=outline"});
+  EXPECT_NE(message.find("solids.disk.grid: there are two grids `outline`"), std::string::npos) << message;
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "common/core/failure.hpp"
 #include "coupler/coupler.hpp"
@@ -145,6 +146,45 @@ TEST(Coupler, EndsExactlyAtTheEndAndSaysSoToEverybody) {
   }
   EXPECT_EQ(coupler.t(), 0.25);
   EXPECT_EQ(coupler.step_number(), 3U);
+}
+
+/// Times of the exchanges from the first that `coupler` makes to its end; of those with output.
+struct Exchanged {
+  std::vector<double> times, outputs;
+};
+Exchanged exchange_until_end(Coupler& coupler, std::uint64_t step) {
+  Exchanged exchanged;
+  for (; !coupler.finished() && exchanged.times.size() < 100; ++step) {
+    const auto answers = coupler.step(std::vector{gas_state(n, step), solid_state(n, step)});
+    exchanged.times.push_back(coupler.t());
+    if (answers[0].write_output) exchanged.outputs.push_back(coupler.t());
+  }
+  return exchanged;
+}
+
+TEST(Coupler, ARunThatGoesOnFromBeforeItsLastStepHasTheEndAndTheOutputTimesOfNow) {
+  Coupler former(until(0.25), piston_hellos(n));
+  std::uint64_t step = 0;
+  while (!former.next().plan.end) {
+    former.step(std::vector{gas_state(n, step), solid_state(n, step)});
+    ++step;
+  }
+  Archive saved;
+  former.archive(saved);
+  const auto goes_on = [&](double end, std::vector<double> outputs) {
+    CouplerOptions options = until(end);
+    options.time.output_times = std::move(outputs);
+    Coupler coupler(options, piston_hellos(n));
+    Archive archive(saved.entries());
+    coupler.archive(archive);
+    archive.check_all_loaded();
+    return exchange_until_end(coupler, step);
+  };
+  EXPECT_EQ(goes_on(0.25, {}).times, std::vector<double>{0.25});
+  const Exchanged longer = goes_on(0.5, {});
+  EXPECT_EQ(longer.times.front(), 0.25);
+  EXPECT_EQ(longer.outputs, std::vector<double>{0.5});
+  EXPECT_EQ(goes_on(0.5, {0.25}).outputs, (std::vector<double>{0.25, 0.5}));
 }
 
 TEST(Coupler, StopsAndWritesACheckpointOnRequest) {

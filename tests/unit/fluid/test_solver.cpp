@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
+#include <limits>
 
 #include "common/core/failure.hpp"
 #include "tests/unit/fluid/gas_runs.hpp"
@@ -74,6 +76,21 @@ TEST(GasSolverTotals, OfARectangleAreItsAreaTimesTheState) {
   EXPECT_NEAR(totals.momentum1, 3, 1e-13);
   EXPECT_NEAR(totals.momentum2, -6, 1e-13);
   EXPECT_NEAR(totals.energy, 2 * (0.8 / 0.4 + 0.5 * 3 * 1.25), 1e-13);
+}
+
+TEST(GasSolverErrors, SayThatAValueIsNoNumberWhereverItIs) {
+  GasSolver gas = box();
+  gas.assign_initial_conditions([](double, double, double) { return State{1, 0, 0, 1}; });
+  for (const int which : {1, 40, 11 * 9}) {
+    const GasErrors errors = gas.errors(
+        [=, seen = 0](double, double, double) mutable {
+          const double value = ++seen == which ? std::numeric_limits<double>::quiet_NaN() : 2.0;
+          return State{value, value, 0, value};
+        },
+        0);
+    EXPECT_TRUE(std::isnan(errors.rho) && std::isnan(errors.v1) && std::isnan(errors.T)) << "point " << which;
+    EXPECT_EQ(errors.v2, 0.0);
+  }
 }
 
 TEST(GasSolverInterface, GivesTheStateAlongASideInItsOwnOrder) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "common/core/failure.hpp"
@@ -25,6 +26,41 @@ TEST(TimeSchedule, HitsEveryOutputTimeExactlyAndNeverExceedsTheBid) {
   }
   EXPECT_EQ(hit, (std::vector<double>{0.3, 0.7, 1.0}));
   EXPECT_EQ(t, 1.0);
+}
+
+/// The steps of a whole run with an even bid: each has a length.
+std::vector<double> sizes_of_steps(TimeSchedule schedule, double bid) {
+  std::vector<double> sizes;
+  double t = 0;
+  for (bool end = false; !end && sizes.size() < 1000;) {
+    const PlannedStep step = schedule.plan(t, bid, "gas");
+    sizes.push_back(step.dt);
+    t = step.t_next;
+    end = step.end;
+  }
+  return sizes;
+}
+
+TEST(TimeSchedule, AMultipleThatMissesTheEndByRoundOffIsTheEnd) {
+  std::vector<double> times;
+  for (int k = 0; k <= 19; ++k) times.push_back(k * (0.2 / 19));
+  ASSERT_LT(times.back(), 0.2);
+  const TimeSchedule schedule({.end = 0.2, .output_times = times, .growth = 1.2, .dt_max = 0});
+  EXPECT_TRUE(schedule.output_at_start());
+  const std::vector<double> sizes = sizes_of_steps(schedule, 1.0);
+  ASSERT_EQ(sizes.size(), 19U);
+  for (const double dt : sizes) EXPECT_NEAR(dt, 0.2 / 19, 1e-15);
+}
+
+TEST(TimeSchedule, TimesThatDifferByRoundOffAreOneAndDistinctOnesAreAllHit) {
+  EXPECT_EQ(distinct_times({0.1, 0.1 + 1e-10, 0.2 - 1e-17, 1e-12}, 0.2), (std::vector<double>{0, 0.1, 0.2}));
+  EXPECT_EQ(distinct_times({0.1, 0.1 + 1e-8, 0.3}, 0.2), (std::vector<double>{0.1, 0.1 + 1e-8}));
+  const auto steps = [](std::vector<double> times) {
+    return sizes_of_steps(
+        TimeSchedule({.end = 0.2, .output_times = std::move(times), .growth = 1.2, .dt_max = 0}), 0.0101);
+  };
+  EXPECT_EQ(steps({0.1, 0.1 + 1e-10}), steps({0.1}));
+  EXPECT_EQ(steps({0.1, 0.1 + 1e-8}).size(), steps({0.1}).size() + 1);
 }
 
 TEST(TimeSchedule, LimitsTheGrowthOfTheStep) {

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
+
 #include "common/core/failure.hpp"
 #include "tests/convergence/solid/skewed_grid.hpp"
 #include "tests/convergence/solid/solvers.hpp"
@@ -75,6 +78,23 @@ TEST(Eq37Displacement, FollowsAUniformForceAsAStoneFallsEq2) {
   const Errors errors = solver.errors(falling, solver.t());
   EXPECT_LT(errors.u, 1e-12);  // the scheme is exact for quadratic u(t); round-off over h
   EXPECT_LT(errors.v, 1e-12);
+}
+
+TEST(SolidErrors, SayThatAValueIsNoNumberWhereverItIs) {
+  Boundaries all_free;
+  SolidSolver<NeoHookean> solver(test::skewed_grid(12), NeoHookean{.lambda = 1, .mu = 1}, {}, all_free, 0);
+  solver.assign_initial_conditions([](double, double, double) { return SolidState{}; });
+  const auto none_at = [](int which) {
+    return [=, seen = 0](double, double, double) mutable {
+      const double value = ++seen == which ? std::numeric_limits<double>::quiet_NaN() : 1.0;
+      return SolidState{.u = Vec2(0, value), .v = Vec2(value, 0), .P = {0, 0, value, 0}};
+    };
+  };
+  for (const int which : {1, 50, 13 * 13}) {
+    const Errors errors = solver.errors(none_at(which), 0);
+    EXPECT_TRUE(std::isnan(errors.u) && std::isnan(errors.v) && std::isnan(errors.P)) << "point " << which;
+  }
+  EXPECT_EQ(solver.errors(none_at(0), 0).v, 1.0);
 }
 
 TEST(Eq35Momentum, IsKeptToRoundOffInAPeriodicSolid) {
