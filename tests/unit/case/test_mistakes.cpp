@@ -190,9 +190,9 @@ const Mistake formulas[] = {
      "case.yaml:22:31: solids.solid.grid.map: must not depend on t: the grid of a solid is its reference "
      "configuration"},
     {"GridOfASolidThatIsShaken", "x: [-1, 0], y: [0, 1],", "x: [-1, 0], y: [0, 1], shake: 0.1,",
-     "case.yaml:22:41: solids.solid.grid.shake: the grid of a solid lies still; leave it out"},
+     "case.yaml:22:42: solids.solid.grid.shake: the grid of a solid lies still; leave it out"},
     {"SeedForTheGridOfASolid", "x: [-1, 0], y: [0, 1],", "x: [-1, 0], y: [0, 1], shake_seed: 3,",
-     "case.yaml:22:46: solids.solid.grid.shake_seed: the grid of a solid lies still; leave it out"},
+     "case.yaml:22:47: solids.solid.grid.shake_seed: the grid of a solid lies still; leave it out"},
     {"DefinitionsInACircle", "wave: sin(x)", "wave: 2 * wave",
      "case.yaml:4:9: definitions.wave: definitions go round in a circle: wave -> wave"},
     {"ParametersInACircle", "gamma: 1.4", "gamma: 1 + b\n  b: 2 * gamma",

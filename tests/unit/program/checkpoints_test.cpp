@@ -26,14 +26,14 @@ class ReportOfARun : public io::InScratch {
     Checkpoints former(setup, part, [](Archive&) {});
     former.save(at);
     EXPECT_TRUE(former.complete(at));
-    Setup later = setup;
+    fsi::Setup later = setup;
     later.restart = io::checkpoint_folder(dir, at.step);
     io::Part report;
     EXPECT_EQ(Checkpoints(later, report, [](Archive&) {}).begin().step, at.step);
     return report;
   }
 
-  Setup setup;
+  fsi::Setup setup;  // GoogleTest keeps the bare name from its tests
 };
 
 TEST_F(ReportOfARun, CountsWhatWasLostBeforeARestart) {
