@@ -121,7 +121,7 @@ constexpr Key concave_key{
     .meaning =
         "how strongly lines that converge are smoothed, in parts of the grid's depth: only where the "
         "curve is concave with a radius below 4/3 of that depth; 0: not at all",
-    .fallback = "0.5",
+    .fallback = "1",
     .range = {.low = 0, .high = 10}};
 
 constexpr Key map_key{

@@ -36,7 +36,7 @@ struct HyperbolicGrid {
   double end_smoothing = 0.01;  ///< the same at the ends
   /// Added where the curve is concave with a radius below the depth over `concave_onset`, where lines would
   /// converge until cells fold: the length depth * concave_smoothing of a front's speed on its curvature [-].
-  double concave_smoothing = 0.5;
+  double concave_smoothing = 1;
   double concave_onset = 0.75;  ///< depth over concave radius from which on it is added, gradually [-]
   int sweeps = 20;              ///< of the local arclength [-]
   int blend = 5;                ///< points over which normals turn into the wall's direction

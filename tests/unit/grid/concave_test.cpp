@@ -99,8 +99,7 @@ TEST(ConcaveSmoothing, GridsReachFarDeeperIntoConcavePlaces) {
   };
   for (const Family& family : families) {
     for (const int lines : {9, 17}) {
-      const double plain = largest_unfolded(family, lines, 0),
-                   smoothed = largest_unfolded(family, lines, 0.5);
+      const double plain = largest_unfolded(family, lines, 0), smoothed = largest_unfolded(family, lines, 1);
       EXPECT_GT(smoothed, family.gain * plain) << family.name << ", " << lines << " lines";
     }
   }
@@ -110,16 +109,15 @@ TEST(ConcaveSmoothing, LeavesGridsToTheBitWhereTheCurveIsConvexStraightOrGentle)
   struct {
     PlaneCurve shape;
     Side side;
-  } const cases[] = {
-      {circle({0, 0}, 0.05), Side::top},  // convex, however sharp
-      {circle({0, 0}, 0.25), Side::bottom},
-      {slender_ellipse(1.4), Side::bottom},
-      {wave(0), Side::bottom},
-      {wave(0.1), Side::bottom},
-      {beam_outline(), Side::bottom}};
+  } const cases[] = {{circle({0, 0}, 0.05), Side::top},  // convex, however sharp
+                     {circle({0, 0}, 0.25), Side::bottom},
+                     {slender_ellipse(1.4), Side::bottom},
+                     {wave(0), Side::bottom},
+                     {wave(0.1), Side::bottom},
+                     {beam_outline(), Side::bottom}};
   for (const auto& [shape, side] : cases) {
     const Marched plain = march(shape, deep_grid(shape, 9, side, 0));
-    const Marched smoothed = march(shape, deep_grid(shape, 9, side, 0.5));
+    const Marched smoothed = march(shape, deep_grid(shape, 9, side, 1));
     EXPECT_TRUE(std::ranges::equal(plain.x.values(), smoothed.x.values()));
   }
 }
@@ -127,7 +125,7 @@ TEST(ConcaveSmoothing, LeavesGridsToTheBitWhereTheCurveIsConvexStraightOrGentle)
 TEST(ConcaveSmoothing, FlattensAValleyByAsMuchWhateverTheNumberOfLines) {
   const auto rise = [](int lines) {  // of the valley's bottom to the last line
     const PlaneCurve shape = wave(0.3);
-    HyperbolicGrid grid = deep_grid(shape, lines, Side::bottom, 0.5);
+    HyperbolicGrid grid = deep_grid(shape, lines, Side::bottom, 1);
     grid.points += grid.points % 2 == 0 ? 1 : 0;
     grid.smoothing = 0;
     const Marched marched = march(shape, grid);
@@ -143,7 +141,7 @@ TEST(ConcaveSmoothing, GridsMoveWithoutJumpsAsACurveGrowsConcave) {
   // Second differences over steps of the amplitude: as the step where a velocity jumps, as its square where
   // not.
   const auto roughest = [](int steps) {
-    HyperbolicGrid grid = deep_grid(wave(0.2), 9, Side::bottom, 0.5);
+    HyperbolicGrid grid = deep_grid(wave(0.2), 9, Side::bottom, 1);
     grid.smoothing = grid.end_smoothing = 0;  // follows the smaller of two distances, which does jump
     HyperbolicMarch marcher(grid);
     Field x[3] = {Field(marcher.layout(), 2), Field(marcher.layout(), 2), Field(marcher.layout(), 2)};
