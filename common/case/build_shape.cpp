@@ -121,9 +121,10 @@ BodyFittedSpec build_fitted(const Reader& reader, const Node* node, CurveSpec cu
   Reader::assign(*node, "lines", grid.lines);
   Reader::assign(*node, "spacing", grid.spacing);
   Reader::assign(*node, "growth", grid.growth);
+  Reader::assign(*node, "concave_smoothing", grid.concave_smoothing);
   if (const Node* map = node->find("map")) {
     grid.map = reader.vector(*map);
-    for (const char* key : {"spacing", "growth"}) {
+    for (const char* key : {"spacing", "growth", "concave_smoothing"}) {
       if (const Node* own = node->find(key))
         fail(own->place, key,
              "belongs to a grid that is marched from its curve; `map` says where its lines are");

@@ -89,6 +89,7 @@ struct BodyFittedSpec {
   int lines = 8;       ///< the curve included
   double spacing = 0;  ///< of the first line from the curve
   double growth = 1;   ///< ratio of successive distances
+  double concave_smoothing = 1;  ///< of lines that converge, in parts of the grid's depth
   std::optional<VectorExpressions>
       map;  ///< x(r, s), y(r, s), r along the curve and s from it, instead of marching
   std::array<BoundarySpec, 4> boundary;  ///< left, right, bottom, top

@@ -43,7 +43,8 @@ grid::GridDescription grid_of(const BodyFittedSpec& spec) {
                              .curve = spec.side,
                              .ends = ends_of(spec),
                              .spacing = spec.spacing,
-                             .growth = spec.growth};
+                             .growth = spec.growth,
+                             .concave_smoothing = spec.concave_smoothing};
   march.blend = 2 * spec.lines;  // over twice the depth, where points are as far apart as lines
   if (spec.curve.walls) {
     for (std::size_t end : {0U, 1U}) march.walls[end] = direction_along((*spec.curve.walls)[end]);

@@ -209,8 +209,9 @@ constexpr array<string_view, 2> on_failure_words{"end", "go_on"};
 constexpr array output_keys{
     Key{.name = "times",
         .type = Type::numbers,
-        .meaning =
-            "fields are written at these times, hit exactly; those closer than 1e-8 of the run are one",
+        .meaning = "fields are written at these times, hit exactly; those after time.end are left out, those "
+                   "closer than 1e-8 "
+                   "of the run are one",
         .unit = "time",
         .fallback = "[time.end]",
         .range = not_negative},

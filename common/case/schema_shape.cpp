@@ -116,6 +116,13 @@ constexpr Key growth_key{.name = "growth",
                          .meaning = "ratio of successive distances",
                          .fallback = "1",
                          .range = {.low = 0.5, .high = 2}};
+constexpr Key concave_key{
+    .name = "concave_smoothing",
+    .meaning =
+        "how strongly lines that converge are smoothed, in parts of the grid's depth: only where the "
+        "curve is concave with a radius below 4/3 of that depth; 0: not at all",
+    .fallback = "1",
+    .range = {.low = 0, .high = 10}};
 
 constexpr Key map_key{
     .name = "map",
@@ -159,6 +166,7 @@ constexpr array gas_fitted_keys{
     lines_key,
     line_spacing_key,
     growth_key,
+    concave_key,
     map_key,
 };
 constexpr array solid_fitted_keys{
@@ -171,6 +179,7 @@ constexpr array solid_fitted_keys{
     lines_key,
     line_spacing_key,
     growth_key,
+    concave_key,
     map_key,
 };
 

@@ -40,7 +40,8 @@ HyperbolicMarch::HyperbolicMarch(HyperbolicGrid grid)
       line_(solver_.rows().size()),
       arc_(line_.size()),
       smooth_(line_.size() + 2),
-      smooth_before_(line_.size() + 2) {
+      concave_(line_.size() + 2),
+      before_(line_.size() + 2) {
   if (!(grid_.spacing > 0 && grid_.growth > 0)) {
     throw UserMistake(fmt::format("grid \"{}\": spacing {} and growth {}; write positive numbers", grid_.name,
                                   grid_.spacing, grid_.growth));
@@ -49,7 +50,9 @@ HyperbolicMarch::HyperbolicMarch(HyperbolicGrid grid)
     throw UserMistake(fmt::format("grid \"{}\": the curve is its {} side; choose bottom or top", grid_.name,
                                   name_of(grid_.curve)));
   }
-  if (!(grid_.smoothing >= 0 && grid_.end_smoothing >= 0) || grid_.sweeps < 0 || grid_.blend < 0) {
+  if (!(grid_.smoothing >= 0 && grid_.end_smoothing >= 0 && grid_.concave_smoothing >= 0 &&
+        grid_.concave_onset >= 0) ||
+      grid_.sweeps < 0 || grid_.blend < 0) {
     throw UserMistake(
         fmt::format("grid \"{}\": smoothing, sweeps and blend must not be negative", grid_.name));
   }
@@ -78,6 +81,7 @@ void HyperbolicMarch::march(std::span<const double> curve, FieldView x, double t
     if (closed()) x(c, grid_.points - 1, row_of(0)) = x(c, 0, row_of(0));
   }
   if (!(mean_distance_ > 0)) mean_distance_ = mean_distance(x, row_of(0));
+  concave_share_ = share_of_concave_points(x);
   double d = grid_.spacing;
   for (int line = 0; line + 1 < grid_.lines; ++line, d *= grid_.growth) {
     const int steps = std::max(1, static_cast<int>(std::lround(d / mean_distance_)));
@@ -97,7 +101,9 @@ double HyperbolicMarch::mean_distance(ConstFieldView x, int j) const {
 /// From row j to row j_next, which may be the same one.
 void HyperbolicMarch::step(FieldView x, int j, int j_next, double d) {
   measure(x, j);
-  smooth_arclength();
+  std::ranges::copy(arc_, smooth_.begin() + 1);
+  relax(smooth_);
+  if (concave_share_ > 0) find_concave_places(x, j);
   if (!closed()) {
     keep_off_walls(x, j);
     blend_into_walls();
@@ -124,18 +130,62 @@ void HyperbolicMarch::measure(ConstFieldView x, int j) {
 }
 
 /// Jacobi sweeps towards the mean of the neighbours.
-void HyperbolicMarch::smooth_arclength() {
-  const std::size_t n = arc_.size();
-  std::ranges::copy(arc_, smooth_.begin() + 1);
+void HyperbolicMarch::relax(std::vector<double>& line) {
+  const std::size_t n = line_.size();
   for (int sweep = 0; sweep < grid_.sweeps; ++sweep) {
-    smooth_.front() = closed() ? smooth_[n] : smooth_[2];
-    smooth_.back() = closed() ? smooth_[1] : smooth_[n - 1];
-    std::swap(smooth_, smooth_before_);
-    const double* from = smooth_before_.data();
-    double* to = smooth_.data();
+    line.front() = closed() ? line[n] : line[2];
+    line.back() = closed() ? line[1] : line[n - 1];
+    std::swap(line, before_);
+    const double* from = before_.data();
+    double* to = line.data();
 #pragma omp simd
     for (std::size_t k = 1; k <= n; ++k) to[k] = 0.25 * (from[k - 1] + 2 * from[k] + from[k + 1]);
   }
+}
+
+/// The grid's depth over the radius of row j, smoothed as the distances are: single points that stick out say
+/// little.
+void HyperbolicMarch::find_concave_places(ConstFieldView x, int j) {
+  const int n = static_cast<int>(line_.size());
+  const double whole = depth();
+  for (int k = 0; k < n; ++k) {
+    const auto at = static_cast<std::size_t>(k);
+    concave_[at + 1] = 0;
+    if (!closed() && (k == 0 || k == n - 1)) continue;
+    const Vec2 here = point(x, k, j), before = point(x, k == 0 ? n - 1 : k - 1, j);
+    const Vec2 turn = (point(x, k + 1, j) - here) - (here - before);
+    concave_[at + 1] = whole * turn.dot(line_[at].normal) / (arc_[at] * arc_[at]);
+  }
+  relax(concave_);
+}
+
+/// From nothing at the onset to 1 where the depth is many times the radius; with the square of the excess
+/// first, so that grid velocities do not jump.
+double HyperbolicMarch::excess(std::size_t k) const {
+  const double over = std::max(0.0, concave_[k + 1] - grid_.concave_onset);
+  return over * over / (1 + over * over);
+}
+
+/// Exactly 0 where the curve bends too gently for its lines to meet, towards 1 with every point where they
+/// would. The curve decides, for radii of later lines are smaller by the way gone.
+double HyperbolicMarch::share_of_concave_points(ConstFieldView x) {
+  if (!(grid_.concave_smoothing > 0)) return 0;
+  measure(x, row_of(0));
+  find_concave_places(x, row_of(0));
+  double points = 0;
+  for (std::size_t k = 0; k < line_.size(); ++k) points += excess(k);
+  constexpr double few = 0.05;
+  return points / (few + points);
+}
+
+/// What is added to eps at point k. eps D+D- x moves a line by eps arc^2 along its normal per unit of
+/// curvature: in a step d as far as a front does whose speed grows with concave curvature by a length of
+/// concave_smoothing times the depth, which flattens what a front of constant speed would fold within that
+/// depth.
+double HyperbolicMarch::concave_smoothing(std::size_t k, double d) const {
+  if (!(concave_share_ > 0)) return 0;
+  const double smooth = smooth_[k + 1];
+  return grid_.concave_smoothing * concave_share_ * excess(k) * depth() * d / (smooth * smooth);
 }
 
 /// Near an end that slides on a wall, normals turn into the wall's direction.
@@ -189,7 +239,8 @@ void HyperbolicMarch::fill_rows(ConstFieldView x, int j, double d) {
     const int before = k == 0 ? n - 1 : k - 1;
     const double arc = arc_[at], smooth = smooth_[at + 1], step = d * smooth / arc;
     const bool near_end = !closed() && (k == 1 || k == n - 2);
-    const double eps = (near_end ? grid_.end_smoothing : grid_.smoothing) * std::min(1.0, d / smooth);
+    const double eps = (near_end ? grid_.end_smoothing : grid_.smoothing) * std::min(1.0, d / smooth) +
+                       concave_smoothing(at, d);
     const Mat2 turn = (0.5 * (1 - here.blend) * step / arc) * here.tangent * here.normal.transpose();
     LineRow& row = solver_.rows()[at];
     row.below = -turn - eps * Mat2::Identity();

@@ -34,6 +34,10 @@ struct HyperbolicGrid {
   double smoothing =
       0.1;  ///< eps of x_rr for lines as far apart as the points are, in proportion for closer ones [-]
   double end_smoothing = 0.01;  ///< the same at the ends
+  /// Added where the curve is concave with a radius below the depth over `concave_onset`, where lines would
+  /// converge until cells fold: the length depth * concave_smoothing of a front's speed on its curvature [-].
+  double concave_smoothing = 1;
+  double concave_onset = 0.75;  ///< depth over concave radius from which on it is added, gradually [-]
   int sweeps = 20;              ///< of the local arclength [-]
   int blend = 5;                ///< points over which normals turn into the wall's direction
 };
@@ -70,15 +74,21 @@ class HyperbolicMarch {
   std::vector<LinePoint> line_;
   std::vector<double> arc_;   ///< distance between points
   double mean_distance_ = 0;  ///< the same of the first curve, its mean
-  std::vector<double> smooth_,
-      smooth_before_;  ///< the same, smoothed; point k at [k + 1], a neighbour beyond each end
+  /// Smoothed along the line, point k at [k + 1], a neighbour beyond each end: distance between points, and
+  /// depth over concave radius. The last one is work memory.
+  std::vector<double> smooth_, concave_, before_;
+  double concave_share_ = 0;  ///< 0 where no lines of the curve converge, towards 1 with every point [-]
 
   bool closed() const { return grid_.ends == Curve::closed; }
   int row_of(int line) const { return grid_.curve == Side::bottom ? line : grid_.lines - 1 - line; }
   double mean_distance(ConstFieldView x, int j) const;
   void step(FieldView x, int j, int j_next, double d);
   void measure(ConstFieldView x, int j);
-  void smooth_arclength();
+  void relax(std::vector<double>& line);
+  void find_concave_places(ConstFieldView x, int j);
+  double excess(std::size_t k) const;
+  double share_of_concave_points(ConstFieldView x);
+  double concave_smoothing(std::size_t k, double d) const;
   void keep_off_walls(ConstFieldView x, int j);
   void blend_into_walls();
   void fill_rows(ConstFieldView x, int j, double d);

@@ -148,6 +148,14 @@ TEST(OutputTimes, AreTheEndWhereNothingIsSaid) {
   EXPECT_EQ(problem.output.times, std::vector<double>{problem.time.end});
 }
 
+TEST(OutputTimes, AfterTheEndAreLeftOut) {
+  const std::string path = FSI_ROOT "/configs/sod_tube.yaml";
+  const Case shorter = load_case(path, {"time.end=0.1", "output={times: [0.05, 0.15]}"});
+  EXPECT_EQ(shorter.output.times, std::vector<double>{0.05});
+  const Case none_left = load_case(path, {"time.end=0.1", "output={times: [0.15]}"});
+  EXPECT_EQ(none_left.output.times, std::vector<double>{0.1});
+}
+
 TEST(Parameters, MayUseEachOtherInAnyOrderAndTheResolution) {
   const std::string text = R"(
 parameters: {a: 2 * b, b: c + 1, c: 1 / h}

@@ -158,8 +158,6 @@ const Mistake values[] = {
      "case.yaml:19:14: solids.solid.program: belongs to `law: external`"},
     {"ModulusLeftOutWithALawOfDeformation", "    mu: 1\n", "",
      "case.yaml:18:5: solids.solid: `mu` is missing (Lame constant [pressure])"},
-    {"OutputAfterTheEnd", "times: [0.5]", "times: [0.5, 2]",
-     "case.yaml:28:23: output.times: 2 is after the end of the run, time.end = 1"},
     {"ExpectedQuantityThatDoesNotExist", "status: completed", "eror.rho: {max: 1}",
      "case.yaml:29:20: expect: summary.json has no `eror.rho` (status, reason, t, steps, dt, wall_s, "
      "participants, errors, interface, counters, "

@@ -45,6 +45,23 @@ TEST(CaseShape, GasAndSolidShareThePointsOfTheOutline) {
   EXPECT_EQ(gas.boundary[static_cast<std::size_t>(Side::left)].kind, BoundaryKind::periodic);
 }
 
+TEST(CaseShape, OverlappingGridsOfASolidAreStabilisedUnlessTheSchemeSaysOtherwise) {
+  const auto scheme_with = [](const std::string& scheme) {
+    return load_text(disk_case(circle) + scheme).solids.at(0).scheme;
+  };
+  for (const std::string scheme : {"", "    scheme: {limiter: none}\n"}) {
+    const SolidScheme found = scheme_with(scheme);
+    EXPECT_GT(found.tangential_stress.scaled, 0) << scheme;
+    EXPECT_GT(found.displacement.scaled, 0) << scheme;
+    EXPECT_GT(found.relaxation.scaled, 0) << scheme;
+  }
+  const SolidScheme own = scheme_with("    scheme: {displacement: {scaled: 0}, relaxation: {rate: 2}}\n");
+  EXPECT_EQ(own.displacement.scaled, 0);
+  EXPECT_EQ(own.relaxation.scaled, 0);
+  EXPECT_EQ(own.relaxation.rate, 2);
+  EXPECT_GT(own.tangential_stress.scaled, 0);
+}
+
 TEST(CaseShape, TheBodyLiesToTheLeftWhateverTheOrderOfItsCorners) {
   const auto area = [](const std::string& corners) {
     const Case problem =

@@ -11,25 +11,13 @@
 #include "common/grid/line_solver.hpp"
 #include "common/grid/quality.hpp"
 #include "common/grid/shapes/circle.hpp"
+#include "tests/unit/grid/marched.hpp"
 #include "tests/unit/grid/shapes_of_cases.hpp"
 
 namespace fsi::grid {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-
-struct Marched {
-  HyperbolicGrid description;
-  std::vector<double> curve;
-  Field x;
-};
-
-Marched march(const PlaneCurve& shape, HyperbolicGrid description, double t = 0) {
-  Marched result{description, points_on(shape, description.points),
-                 Field(Layout(description.points, description.lines), 2)};
-  HyperbolicMarch(description).march(result.curve, result.x.view(), t);
-  return result;
-}
 
 HyperbolicGrid beam_grid(int points, int lines, Side side, double spacing) {
   return {.name = "beam",
@@ -278,6 +266,9 @@ TEST(HyperbolicMarch, MistakesAreTheUsers) {
   EXPECT_THROW(HyperbolicMarch(HyperbolicGrid{.points = 40, .lines = 6, .spacing = 0}), UserMistake);
   EXPECT_THROW(HyperbolicMarch(HyperbolicGrid{.points = 40, .lines = 6, .curve = Side::left, .spacing = 1}),
                UserMistake);
+  EXPECT_THROW(
+      HyperbolicMarch(HyperbolicGrid{.points = 40, .lines = 6, .spacing = 1, .concave_smoothing = -1}),
+      UserMistake);
 }
 
 }  // namespace
