@@ -9,6 +9,8 @@ namespace {
 using std::array;
 using std::string_view;
 constexpr Range fraction{.low = 0, .high = 1, .low_open = true};
+/// [s]; Cyclone remembers a silent participant for an hour at most, and must for twice as long.
+constexpr Range at_most_half_an_hour{.low = 0, .high = 1800, .low_open = true};
 constexpr Range at_most_a_day{.low = 0, .high = 86400, .low_open = true};  ///< [s]
 
 // ---- reference solutions
@@ -171,7 +173,7 @@ constexpr array time_keys{
         .meaning = "a program silent for so long is lost",
         .unit = "s",
         .fallback = "4",
-        .range = at_most_a_day},
+        .range = at_most_half_an_hour},
     Key{.name = "step_timeout",
         .meaning = "a program that computes for so long without ending its step is stuck, unless it needed a "
                    "twentieth of that before",

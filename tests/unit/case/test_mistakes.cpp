@@ -163,7 +163,7 @@ const Mistake values[] = {
      "participants, errors, interface, counters, "
      "conservation); did you mean `errors`?"},
     {"TimeoutWithoutEnd", "cfl: 0.9", "peer_timeout: 1e12",
-     "case.yaml:5:30: time.peer_timeout: must be > 0 and <= 86400 [s], is 1000000000000"},
+     "case.yaml:5:30: time.peer_timeout: must be > 0 and <= 1800 [s], is 1000000000000"},
     {"EmptyExpectation", "status: completed", "errors.rho: {}",
      "case.yaml:29:10: expect.errors.rho: expects nothing; write {max: ..}, {min: ..} or a word"},
 };
