@@ -103,6 +103,13 @@ void InterfaceExchange::check_solid(const Moment& moment, const wire::PredictedI
   }
   check_modes(solid);
   if (solid.modal.modes > 0) {
+    if (projection_ == Projection::traditional) {
+      throw UserMistake(fmt::format(
+          "interface.projection: traditional is not there for solid \"{}\": a body with a few degrees of "
+          "freedom is "
+          "moved together with the gas's answer to it; write simplified or full, which are the same for it",
+          solid.from));
+    }
     const auto k = static_cast<std::size_t>(solid.modal.modes);
     check_values(moment, solid, "the mass matrix", solid.modal.M, k * k, k * k);
     check_values(moment, solid, "the mode vectors", solid.modal.N, k * n, n);

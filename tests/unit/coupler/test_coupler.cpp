@@ -267,6 +267,27 @@ wire::PredictedInterface solid_of_modes(std::size_t modes, std::uint64_t step) {
   return solid;
 }
 
+TEST(Coupler, ABodyWithModesIsRefusedByTheTraditionalScheme) {
+  for (const Projection how : {Projection::full, Projection::simplified, Projection::traditional}) {
+    CouplerOptions options = until(1);
+    options.projection = how;
+    Coupler coupler(options, piston_hellos(n));
+    const std::vector first{gas_state(n, 0), solid_of_modes(1, 0)};
+    if (how != Projection::traditional) {
+      EXPECT_NO_THROW(coupler.step(first));
+      continue;
+    }
+    try {
+      coupler.step(first);
+      FAIL() << "the modal form has the added mass in itself";
+    } catch (const UserMistake& mistake) {
+      const std::string words = mistake.what();
+      EXPECT_NE(words.find("interface.projection"), std::string::npos) << words;
+      EXPECT_NE(words.find("\"solid\""), std::string::npos) << words;
+    }
+  }
+}
+
 TEST(Coupler, ASolidThatChangesTheNumberOfItsModesIsNamed) {
   for (const auto& [first, then] : {std::pair{1U, 2U}, {2U, 1U}, {1U, 0U}, {0U, 1U}}) {
     Coupler coupler(until(1), piston_hellos(n));
