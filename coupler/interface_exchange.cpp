@@ -101,7 +101,15 @@ void InterfaceExchange::check_solid(const Moment& moment, const wire::PredictedI
     throw PeerLost(fmt::format("\"{}\" sent {} marks of clamped points for interface \"{}\", not {}",
                                solid.from, solid.fixed.size(), pair_.name, n));
   }
+  check_modes(solid);
   if (solid.modal.modes > 0) {
+    if (projection_ == Projection::traditional) {
+      throw UserMistake(fmt::format(
+          "interface.projection: traditional is not there for solid \"{}\": a body with a few degrees of "
+          "freedom is "
+          "moved together with the gas's answer to it; write simplified or full, which are the same for it",
+          solid.from));
+    }
     const auto k = static_cast<std::size_t>(solid.modal.modes);
     check_values(moment, solid, "the mass matrix", solid.modal.M, k * k, k * k);
     check_values(moment, solid, "the mode vectors", solid.modal.N, k * n, n);
@@ -115,6 +123,17 @@ void InterfaceExchange::check_solid(const Moment& moment, const wire::PredictedI
     throw PeerLost(fmt::format("\"{}\" sent the impedance z_p = {} for interface \"{}\"", solid.from,
                                solid.z_p, pair_.name));
   }
+}
+
+/// The body has the modes of its first message for ever: the velocities are integrated here.
+void InterfaceExchange::check_modes(const wire::PredictedInterface& solid) const {
+  if (known_ == 0) return;
+  const auto before = modal_ ? modal_->q_dot().size() : 0;
+  if (solid.modal.modes == before) return;
+  throw PeerLost(
+      fmt::format("\"{}\" sent modal.modes = {} for interface \"{}\", {} before; a solid must keep the "
+                  "number of its modes (0: a deformable one)",
+                  solid.from, solid.modal.modes, pair_.name, before));
 }
 
 void InterfaceExchange::project_interface(const Moment& moment, const wire::PredictedInterface& gas,

@@ -69,6 +69,7 @@ class InterfaceExchange {
 
   void check_gas(const Moment& moment, const wire::PredictedInterface& gas) const;
   void check_solid(const Moment& moment, const wire::PredictedInterface& solid) const;
+  void check_modes(const wire::PredictedInterface& solid) const;
   void project(const Moment& moment, const wire::PredictedInterface& gas,
                const wire::PredictedInterface& solid);
   void project_deformable(const Moment& moment, const wire::PredictedInterface& solid);

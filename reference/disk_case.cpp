@@ -27,6 +27,46 @@ struct Sample {
 constexpr Sample in_disk[] = {{0.3, 0.4}, {-0.2, 0.5}, {0.6, -0.3}, {-0.1, -0.2}};
 constexpr Sample in_gas[] = {{1.05, 0}, {0, 1.1}, {-0.8, -0.8}};
 
+/// The unit disk about the origin, whichever grids it has.
+void expect_unit_disk(const Case& problem, const SolidSpec& solid) {
+  constexpr double tolerance = 1e-6;  // below what a coupled run can show
+  if (solid.body_fitted.empty()) {
+    throw UserMistake(
+        fmt::format("{}: solids.{}.shape: the rotating disk reference needs the unit disk; write {{kind: "
+                    "circle, radius: 1}}",
+                    problem.path, solid.name));
+  }
+  const CurveSpec& outline = solid.body_fitted.front().curve;
+  const auto n = static_cast<std::size_t>(outline.points());
+  for (std::size_t k = 0; k < n; ++k) {
+    const double x = outline.x[k], y = outline.x[n + k];
+    if (std::fabs(std::hypot(x, y) - 1) <= tolerance) continue;
+    throw UserMistake(fmt::format(
+        "{}: solids.{}.shape: the rotating disk reference needs the unit circle about the origin, "
+        "but ({:.6g}, {:.6g}) is on the outline; write {{kind: circle, radius: 1}}",
+        problem.path, solid.name, x, y));
+  }
+}
+
+/// Free of forces, and turned by nothing at t = 0.
+void expect_unloaded_start(const Case& problem, const SolidSpec& solid) {
+  if (solid.body_force) {
+    throw UserMistake(
+        fmt::format("{}: solids.{}.body_force: the rotating disk reference has no body force; leave it out, "
+                    "or `reference`",
+                    problem.path, solid.name));
+  }
+  if (!solid.initial_u) return;
+  for (const auto& [x, y] : in_disk) {
+    const double u1 = solid.initial_u->c1(x, y, 0), u2 = solid.initial_u->c2(x, y, 0);
+    if (u1 == 0 && u2 == 0) continue;
+    throw UserMistake(fmt::format(
+        "{}: solids.{}.initial.u: the rotating disk reference starts without displacement, but it "
+        "is ({:.3g}, {:.3g}) at ({}, {}); leave it out",
+        problem.path, solid.name, u1, u2, x, y));
+  }
+}
+
 void expect_rotation(const Case& problem, const SolidSpec& solid, double omega_0) {
   if (!solid.initial_v) return;
   for (const auto& [x, y] : in_disk) {
@@ -77,6 +117,8 @@ DiskProblem disk_from_case(const Case& problem) {
   }
   const SolidSpec& solid = problem.solids.front();
   const double omega_0 = number_or(problem, "omega_0", default_omega_0);
+  expect_unit_disk(problem, solid);
+  expect_unloaded_start(problem, solid);
   expect_rotation(problem, solid, omega_0);
   DiskProblem disk;
   disk.law = solid.law;

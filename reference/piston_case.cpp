@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <memory>
 
 #include "common/core/failure.hpp"
@@ -23,6 +24,41 @@ void expect_side_by_side(const std::string& path, const FluidSpec& fluid, const 
   throw UserMistake(
       fmt::format("{}: the one-dimensional reference needs rectangles along x, the gas right of solid '{}'",
                   path, solid.name));
+}
+
+/// The chain takes no force along it.
+void expect_no_body_force(const std::string& path, const SolidSpec& solid) {
+  if (!solid.body_force) return;
+  throw UserMistake(
+      fmt::format("{}: solids.{}.body_force: the one-dimensional reference has no body force; leave it out, "
+                  "or `reference`",
+                  path, solid.name));
+}
+
+/// Beyond the reach of waves the chain's gas stays as it was at first: a state that is given there must be
+/// that one at all times.
+void expect_quiet_end(const Case& problem, const FluidSpec& fluid) {
+  constexpr double tolerance = 1e-9;
+  constexpr int times = 16;
+  const BoundarySpec& right = fluid.boundary[1];
+  if (!right.state || !fluid.initial) return;
+  const double x = fluid.grid.x_b;
+  const auto apart = [x](const Expression& at_first, const Expression& given, double t) {
+    const double value = at_first(x, 0, 0);
+    return !(std::fabs(given(x, 0, t) - value) <= tolerance * (1 + std::fabs(value)));
+  };
+  for (int k = 0; k <= times; ++k) {
+    const double t = problem.time.end * k / times;
+    if (!apart(fluid.initial->rho, right.state->rho, t) && !apart(fluid.initial->v1, right.state->v1, t) &&
+        !apart(fluid.initial->p, right.state->p, t))
+      continue;
+    throw UserMistake(fmt::format(
+        "{}: fluid.boundary.right.state: the one-dimensional reference has at the right a wall or a gas that "
+        "stays as `fluid.initial` has it at x = {:g}, but at t = {:.4g} the state is another; give that "
+        "state, "
+        "or write slip_wall or outflow",
+        problem.path, x, t));
+  }
 }
 
 std::function<double(double)> along_x(const std::optional<VectorExpressions>& field) {
@@ -67,6 +103,8 @@ PistonProblem piston_from_case(const Case& problem) {
   const FluidSpec& fluid = *problem.fluid;
   const SolidSpec& solid = problem.solids.front();
   expect_side_by_side(problem.path, fluid, solid);
+  expect_no_body_force(problem.path, solid);
+  expect_quiet_end(problem, fluid);
   std::shared_ptr<exact::Solution> exact;
   if (problem.reference.kind != "piston_1d" && problem.reference.kind != "none") {
     exact = exact::make_solution(problem.reference.kind, problem.reference.numbers, "");

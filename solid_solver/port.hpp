@@ -106,7 +106,8 @@ class SolidParticipant final : public Participant {
 
   void write_fields(double t, std::uint64_t step) override { fields_.write(t, step, fields()); }
 
-  /// The state as it is: the solid keeps what it had before the step that broke.
+  /// The state as it is: all grids of the solid at the time before the sweep that broke, or what was
+  /// predicted when a condition on its sides broke.
   void write_last_state(double /*t*/, std::uint64_t step) override {
     fields_.write_apart("last_state", solver_.t(), step, fields());
   }

@@ -326,10 +326,11 @@ void SolidBoundary<L>::match_corners(FieldView q, double t) const {
       const std::ptrdiff_t a = line.at(k, 0);
       const Tensor2 P = minus(load(q, a).P, chosen_offset(a, t));
       const Tensor2 start = gradient(q, side, k, plane::u1);
-      const Tensor2 F = match_corner(law_, P, plus(identity, start));
-      set_corner_ghosts(q, side, k, plane::u1, minus(F, identity));
+      const auto F = match_corner(law_, P, plus(identity, start));
+      if (!F) broke(side, k, t);
+      set_corner_ghosts(q, side, k, plane::u1, minus(*F, identity));
       if (kind(side) != Kind::traction || kind(other) != Kind::traction) continue;
-      const Stiffness K = law_.K(F);
+      const Stiffness K = law_.K(*F);
       const Tensor2 velocity = gradient(q, side, k, plane::v1);
       const Tensor2 rate =
           minus(stress_of_tractions(m.n0, T_rate_[index(side)][static_cast<std::size_t>(k)], m_other.n0,

@@ -45,9 +45,14 @@ class SolidComponent {
   void choose(const ChosenSolution& solution);
   /// Null where there is none.
   const ChosenSolution* chosen() const { return chosen_ ? &*chosen_ : nullptr; }
-  /// Paper eq. (35) to paper eq. (41): the state at t + dt, boundary conditions not applied. On failure the
-  /// state stays.
-  void advance(double t, double dt);
+  /// Paper eq. (35) to paper eq. (38) beside the present state, which gets half of the step's source of a
+  /// chosen solution. @throws NumbersBroke naming grid and point
+  void predict(double t, double dt);
+  /// The present state without that half of the source (to round-off), when a grid of the body broke.
+  void give_back();
+  /// Paper eq. (39) to paper eq. (41): what was predicted becomes the state at t + dt, boundary conditions
+  /// not applied.
+  void complete(double t, double dt);
   void apply_boundary(double t, std::span<const InterfaceValues> projected) {
     boundary_.apply(q_.view(), t, projected);
   }
@@ -87,6 +92,7 @@ class SolidComponent {
   std::optional<ChosenSolution> chosen_;
   Field source_;             ///< of the chosen solution, at the time of the state
   bool has_source_ = false;  ///< it was evaluated
+  double added_ = 0;         ///< weight of the source in the present state while a step is under way
   SweepResult measured_;
 };
 
@@ -255,14 +261,25 @@ void SolidComponent<L>::dissipate(double dt) {
 }
 
 template <Law L>
-void SolidComponent<L>::advance(double t, double dt) {
+void SolidComponent<L>::predict(double t, double dt) {
   evaluate_force(t + 0.5 * dt);
   if (chosen_) {
     if (!has_source_) evaluate_source(t);
-    add_source(0.5 * dt);
+    added_ = 0.5 * dt;
+    add_source(added_);
   }
   measured_ = sweep(dt);
   if (measured_.broken > 0) throw NumbersBroke(trouble(dt));
+}
+
+template <Law L>
+void SolidComponent<L>::give_back() {
+  if (added_ != 0) add_source(-added_);
+  added_ = 0;
+}
+
+template <Law L>
+void SolidComponent<L>::complete(double t, double dt) {
   if (metrics_.cartesian()) {
     dissipate<CartesianRow, CartesianGradient4>(dt);
   } else {
@@ -270,6 +287,7 @@ void SolidComponent<L>::advance(double t, double dt) {
   }
   if (chosen_) add_relaxation_offset(t + 0.5 * dt, dt);
   std::swap(q_, next_);
+  added_ = 0;
   if (!chosen_) return;
   evaluate_source(t + dt);
   add_source(0.5 * dt);

@@ -113,13 +113,16 @@ class SolidSolver {
             .reason = waves > damping ? "waves in the solid" : "dissipation in the solid"};
   }
   /// Predicted state at t + dt at all discretised points; no boundary or interface condition is applied.
-  /// @throws NumbersBroke at det F <= 0 or where the system is no longer hyperbolic
+  /// @throws NumbersBroke at det F <= 0 or where the system is no longer hyperbolic; all grids then keep the
+  /// state at t
   void advance_solid(double t, double dt) {
     try {
-      for (SolidComponent<L>& component : components_) component.advance(t, dt);
+      for (SolidComponent<L>& component : components_) component.predict(t, dt);
     } catch (const NumbersBroke& failure) {
+      for (SolidComponent<L>& component : components_) component.give_back();
       throw NumbersBroke(fmt::format("step {}, t = {:.6g}, {}", steps_ + 1, t, failure.what()));
     }
+    for (SolidComponent<L>& component : components_) component.complete(t, dt);
     ++steps_;
     t_ = t + dt;
   }

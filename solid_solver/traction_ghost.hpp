@@ -99,20 +99,20 @@ inline Tensor2 plus(const Tensor2& a, const Tensor2& b) {
 }
 
 /// Corner of two sides with known traction: the F next to the given one for which P(F) is the stress that has
-/// both tractions; four unknowns, Newton's method. The start is returned when it does not converge.
+/// both tractions; four unknowns, Newton's method. Nothing when it does not converge or leaves det F > 0.
 template <Law L>
-Tensor2 match_corner(const L& law, const Tensor2& P, const Tensor2& start) {
+std::optional<Tensor2> match_corner(const L& law, const Tensor2& P, const Tensor2& start) {
   constexpr int most_iterations = 20;
   constexpr double strain_tolerance = 1e-12;
   Tensor2 F = start;
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
     const Tensor2 step = least_change(law.K(F), minus(P, law.P(F)));
     F = plus(F, step);
-    if (!(determinant(F) > 0)) return start;
+    if (!(determinant(F) > 0)) return std::nullopt;
     const double size = std::abs(step.a11) + std::abs(step.a12) + std::abs(step.a21) + std::abs(step.a22);
     if (size < strain_tolerance) return F;
   }
-  return start;
+  return std::nullopt;
 }
 
 /// Stress whose tractions on the normals n1 and n2 are T1 and T2: P = sum of dual normals times tractions.

@@ -292,6 +292,24 @@ void check_motion(const Case& problem, const Node& root) {
   }
 }
 
+/// The scheme without added mass is not there where the gas's answer is part of the solid's motion.
+void check_projection(const Case& problem, const Node& root) {
+  if (problem.interface.projection != "traditional" || !problem.fluid) return;
+  for (const SolidSpec& solid : problem.solids) {
+    if (solid.law != "rigid") continue;
+    fail(at(root, {"interface", "projection"}).place, "interface.projection",
+         fmt::format(
+             "traditional is not there for the rigid solid `{}`, which is moved together with the gas's "
+             "answer to it; write simplified or full, which are the same for it",
+             solid.name));
+  }
+  if (!problem.time.multirate || problem.solids.empty()) return;
+  fail(
+      at(root, {"time", "multirate"}).place, "time.multirate",
+      "does not go with `interface.projection: traditional`, whose substeps would be closed with the solid's "
+      "impedance; write false");
+}
+
 void check_probes(const Case& problem, const Node& root) {
   std::vector<std::string> places = solid_names(problem);
   if (problem.fluid) places.emplace_back("fluid");
@@ -379,6 +397,7 @@ void check_case(const Case& problem, const Node& root) {
   check_reference(problem, root);
   check_interfaces(problem, root);
   check_motion(problem, root);
+  check_projection(problem, root);
   check_probes(problem, root);
   check_expectations(problem, root);
 }

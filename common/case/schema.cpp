@@ -187,7 +187,9 @@ constexpr array<string_view, 3> projection_words{"full", "simplified", "traditio
 constexpr array interface_keys{
     Key{.name = "projection",
         .type = Type::word,
-        .meaning = "AMP projection (28), its simplified form (29), or none",
+        .meaning =
+            "AMP projection (28), its simplified form (29), or none; rigid bodies have one of their own, "
+            "and so have substeps; `traditional` goes with neither",
         .fallback = "simplified",
         .words = projection_words},
     Key{.name = "motion",

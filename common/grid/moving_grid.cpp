@@ -38,6 +38,23 @@ std::pair<int, int> side_index(const Layout& layout, Side side, int k, int m) {
   return {0, 0};
 }
 
+/// Index along `side` of the corner it has in common with `other`.
+int corner_index(const Layout& layout, Side side, Side other) {
+  const int n = direction_of(side) == 0 ? layout.n2 : layout.n1;
+  return at_upper_end(other) ? n - 1 : 0;
+}
+
+Vec2 point_at(std::span<const double> x, int k) {
+  const auto at = static_cast<std::size_t>(k);
+  return {x[at], x[x.size() / 2 + at]};
+}
+
+void put(const Vec2& point, int k, std::vector<double>& x) {
+  const auto at = static_cast<std::size_t>(k);
+  x[at] = point[0];
+  x[x.size() / 2 + at] = point[1];
+}
+
 /// Cross product of the edges from (i, j) to its neighbours at (i + a, j) and (i, j + b), positive when
 /// unfolded.
 double corner_area(ConstFieldView x, int i, int j, int a, int b) {
@@ -118,7 +135,8 @@ void MovingGrid::move(double t, std::span<const SideCommand> commands) {
   }
   if (description_.moving) place(t);
   std::ranges::copy(x_mapped_.values(), x_.values().begin());
-  for (const SideCommand& command : commands) follow(command);
+  const std::vector<std::vector<double>> told = with_common_corners(t, commands);
+  for (std::size_t k = 0; k < told.size(); ++k) follow(commands[k].side, told[k]);
   ++move_count_;
   if (description_.shake > 0) shake();
   check(t);
@@ -137,22 +155,61 @@ void MovingGrid::march(double t, std::span<const SideCommand> commands) {
   march_->march(description_.curve, x_.view(), t);
 }
 
-void MovingGrid::follow(const SideCommand& command) {
-  constexpr int g = Layout::ghosts;
-  const int n = side_size(command.side);
-  const int lines = direction_of(command.side) == 0 ? layout().n1 : layout().n2;
-  const bool closed = periodic(1 - direction_of(command.side));
-  if (command.x.size() != static_cast<std::size_t>(2 * n)) {
-    throw std::logic_error(
-        fmt::format("grid \"{}\": command of {} numbers for {} points", name(), command.x.size(), n));
+/// Two sides with one corner: a command that others have gone before finds it where it belongs.
+std::vector<std::vector<double>> MovingGrid::with_common_corners(
+    double t, std::span<const SideCommand> commands) const {
+  std::vector<std::vector<double>> told;
+  for (const SideCommand& command : commands) {
+    const int n = side_size(command.side);
+    if (command.x.size() != static_cast<std::size_t>(2 * n)) {
+      throw std::logic_error(
+          fmt::format("grid \"{}\": command of {} numbers for {} points", name(), command.x.size(), n));
+    }
+    told.emplace_back(command.x.begin(), command.x.end());
   }
+  for (std::size_t a = 0; a < told.size(); ++a) {
+    for (std::size_t b = a + 1; b < told.size(); ++b) {
+      if (direction_of(commands[a].side) == direction_of(commands[b].side)) continue;
+      const Vec2 corner = common_corner(t, commands[a], commands[b]);
+      put(corner, corner_index(layout(), commands[a].side, commands[b].side), told[a]);
+      put(corner, corner_index(layout(), commands[b].side, commands[a].side), told[b]);
+    }
+  }
+  return told;
+}
+
+/// The middle between where the two commands have it.
+Vec2 MovingGrid::common_corner(double t, const SideCommand& a, const SideCommand& b) const {
+  const int at_a = corner_index(layout(), a.side, b.side), at_b = corner_index(layout(), b.side, a.side);
+  const Vec2 corner_a = point_at(a.x, at_a), corner_b = point_at(b.x, at_b);
+  const double cell = std::min((point_at(a.x, at_a == 0 ? 1 : at_a - 1) - corner_a).norm(),
+                               (point_at(b.x, at_b == 0 ? 1 : at_b - 1) - corner_b).norm());
+  const double apart = (corner_a - corner_b).norm();
+  if (!(apart < cell)) {
+    throw NumbersBroke(fmt::format(
+        "t = {:.6g}, grid \"{}\": the commands for its sides {} and {} put their corner {:.3g} apart, at "
+        "({:.6g}, {:.6g}) and at ({:.6g}, {:.6g}), more than the cell of {:.3g} there",
+        t, name(), name_of(a.side), name_of(b.side), apart, corner_a[0], corner_a[1], corner_b[0],
+        corner_b[1], cell));
+  }
+  return 0.5 * (corner_a + corner_b);
+}
+
+/// Against where the side is, not where the mapping has it: what an adjacent side told before has moved it
+/// by is taken off, so that nothing is left to add at their corner and that side stays. An opposite side
+/// moved this one by nothing.
+void MovingGrid::follow(Side side, std::span<const double> told) {
+  constexpr int g = Layout::ghosts;
+  const int n = side_size(side);
+  const int lines = direction_of(side) == 0 ? layout().n1 : layout().n2;
+  const bool closed = periodic(1 - direction_of(side));
   FieldView x = x_.view();
   std::vector<double> d(static_cast<std::size_t>(n + 2 * g));
   const auto at = [&d](int k) -> double& { return d[static_cast<std::size_t>(k + g)]; };
   for (int c = 0; c < 2; ++c) {
     for (int k = 0; k < n; ++k) {
-      const auto [i, j] = side_index(layout(), command.side, k, 0);
-      at(k) = command.x[static_cast<std::size_t>(c * n + k)] - x_mapped_(c, i, j);
+      const auto [i, j] = side_index(layout(), side, k, 0);
+      at(k) = told[static_cast<std::size_t>(c * n + k)] - x(c, i, j);
     }
     for (int k = 1; k <= g; ++k) {
       at(-k) = closed ? at(n - 1 - k) : 3 * at(1 - k) - 3 * at(2 - k) + at(3 - k);
@@ -161,7 +218,7 @@ void MovingGrid::follow(const SideCommand& command) {
     for (int m = -g; m < lines + g; ++m) {
       const double weight = 1.0 - static_cast<double>(m) / (lines - 1);
       for (int k = -g; k < n + g; ++k) {
-        const auto [i, j] = side_index(layout(), command.side, k, m);
+        const auto [i, j] = side_index(layout(), side, k, m);
         x(c, i, j) += weight * at(k);
       }
     }

@@ -65,7 +65,9 @@ class MovingGrid {
 
   /// Moves to time t: along the mapping, then sides with a command go where they are told and the
   /// displacement fades linearly to the opposite side, continued to the ghost lines. x() becomes x_old().
-  /// @throws NumbersBroke at a folded cell, naming grid, point, t and the area
+  /// Where two adjacent sides are told different places for their corner, it goes to the middle between them.
+  /// @throws NumbersBroke at a folded cell, naming grid, point, t and the area; where the two places of a
+  /// corner are a cell apart
   void move(double t, std::span<const SideCommand> commands = {});
 
   /// Points of a side, n_d * n component-major.
@@ -82,7 +84,10 @@ class MovingGrid {
   std::uint64_t move_count_ = 0;
 
   void place(double t);
-  void follow(const SideCommand& command);
+  /// The commanded points of each side, adjacent sides with the same corner.
+  std::vector<std::vector<double>> with_common_corners(double t, std::span<const SideCommand> commands) const;
+  Vec2 common_corner(double t, const SideCommand& a, const SideCommand& b) const;
+  void follow(Side side, std::span<const double> told);
   void march(double t, std::span<const SideCommand> commands);
   void shake();
   void check(double t) const;

@@ -289,5 +289,61 @@ TEST(Coupler, MessagesThatDoNotFitAreNamed) {
             std::string::npos);
 }
 
+/// A solid of k modes; 0: a deformable one.
+wire::PredictedInterface solid_of_modes(std::size_t modes, std::uint64_t step) {
+  auto solid = solid_state(n, step);
+  if (modes == 0) return solid;
+  solid.w.clear();
+  solid.Z.clear();
+  solid.modal = {.modes = static_cast<std::int32_t>(modes),
+                 .M = std::vector<double>(modes * modes),
+                 .N = std::vector<double>(modes * n),
+                 .q_dot = std::vector<double>(modes),
+                 .f_own = std::vector<double>(modes)};
+  for (std::size_t m = 0; m < modes; ++m) {
+    solid.modal.M[m * modes + m] = 1;
+    solid.modal.N[m * n + m] = 1;
+  }
+  return solid;
+}
+
+TEST(Coupler, ABodyWithModesIsRefusedByTheTraditionalScheme) {
+  for (const Projection how : {Projection::full, Projection::simplified, Projection::traditional}) {
+    CouplerOptions options = until(1);
+    options.projection = how;
+    Coupler coupler(options, piston_hellos(n));
+    const std::vector first{gas_state(n, 0), solid_of_modes(1, 0)};
+    if (how != Projection::traditional) {
+      EXPECT_NO_THROW(coupler.step(first));
+      continue;
+    }
+    try {
+      coupler.step(first);
+      FAIL() << "the modal form has the added mass in itself";
+    } catch (const UserMistake& mistake) {
+      const std::string words = mistake.what();
+      EXPECT_NE(words.find("interface.projection"), std::string::npos) << words;
+      EXPECT_NE(words.find("\"solid\""), std::string::npos) << words;
+    }
+  }
+}
+
+TEST(Coupler, ASolidThatChangesTheNumberOfItsModesIsNamed) {
+  for (const auto& [first, then] : {std::pair{1U, 2U}, {2U, 1U}, {1U, 0U}, {0U, 1U}}) {
+    Coupler coupler(until(1), piston_hellos(n));
+    coupler.step(std::vector{gas_state(n, 0), solid_of_modes(first, 0)});
+    coupler.step(std::vector{gas_state(n, 1), solid_of_modes(first, 1)});
+    try {
+      coupler.step(std::vector{gas_state(n, 2), solid_of_modes(then, 2)});
+      FAIL() << first << " modes, then " << then;
+    } catch (const PeerLost& lost) {
+      const std::string words = lost.what();
+      EXPECT_NE(words.find("\"solid\" sent modal.modes = " + std::to_string(then)), std::string::npos)
+          << words;
+      EXPECT_NE(words.find(std::to_string(first) + " before"), std::string::npos) << words;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace fsi::coupler

@@ -22,7 +22,7 @@ class PistonCase : public testing::Test {
   void TearDown() override { std::filesystem::remove(path); }
 
   /// The pieces a test varies; the rest is a small nonlinear piston.
-  Case read(const std::string& gas_right, const std::string& solid_left) {
+  Case read(const std::string& gas_right, const std::string& solid_left, const std::string& more = "") {
     std::ofstream(path) << R"(
 title: piston
 grid: {factor: 2}
@@ -43,13 +43,26 @@ solids:
     grid: {x: [-1, 0], y: [0, 0.2], spacing: h}
     boundary: {left: )" << solid_left
                         << R"(, right: interface, bottom: symmetry, top: symmetry}
+)" << more << R"(
 reference: {kind: piston_1d, points: 400}
 output: {times: [0.25, 0.5]}
 )";
     return load_case(path);
   }
 
+  void expect_mistake(const Case& problem, const std::string& word) {
+    try {
+      piston_from_case(problem);
+      FAIL() << "must be refused";
+    } catch (const UserMistake& mistake) {
+      const std::string words = mistake.what();
+      EXPECT_NE(words.find(word), std::string::npos) << words;
+      EXPECT_EQ(words.find(path), 0U) << words;
+    }
+  }
+
   std::string path;
+  const std::string driven = "{kind: displacement, value: [0, 0]}";
 };
 
 TEST_F(PistonCase, TakesMaterialGasAndTimesFromTheFile) {
@@ -79,6 +92,19 @@ TEST_F(PistonCase, ASolidThatIsNotDrivenIsRefused) {
   } catch (const UserMistake& mistake) {
     EXPECT_NE(std::string(mistake.what()).find("displacement"), std::string::npos) << mistake.what();
   }
+}
+
+TEST_F(PistonCase, ABodyForceIsRefused) {
+  expect_mistake(read("slip_wall", driven, "    body_force: [0.2, 0]"), "solids.solid.body_force");
+}
+
+TEST_F(PistonCase, AGasDrivenFromItsRightSideIsRefused) {
+  const auto state = [](const std::string& rho, const std::string& v) {
+    return "{kind: dirichlet, state: {rho: " + rho + ", v: [" + v + ", 0], p: 1 / 1.4}}";
+  };
+  EXPECT_FALSE(piston_from_case(read(state("1", "0"), driven)).wall);
+  expect_mistake(read(state("1.1", "0"), driven), "fluid.boundary.right.state");
+  expect_mistake(read(state("1", "\"-0.1 * t\""), driven), "fluid.boundary.right.state");
 }
 
 TEST(PistonOfTheRepository, ElasticPistonCaseGivesItsExactSolution) {

@@ -39,6 +39,80 @@ TEST(MovingGrid, FollowsACommandedSideAndKeepsTheOppositeSide) {
   EXPECT_DOUBLE_EQ(grid.x_old()(0, 5, 3), 0.5);
 }
 
+/// Where a smooth map of the whole square takes a side: its commands agree at the corners.
+std::vector<double> carried(const MovingGrid& grid, Side side) {
+  std::vector<double> x = grid.side_points(side);
+  const std::size_t n = x.size() / 2;
+  for (std::size_t k = 0; k < n; ++k) {
+    const double X = x[k], Y = x[n + k];
+    x[k] += 0.05 + 0.04 * std::sin(3 * Y) + 0.03 * X * X;
+    x[n + k] += -0.02 + 0.05 * std::cos(2 * X) - 0.03 * X * Y;
+  }
+  return x;
+}
+
+void expect_side(const MovingGrid& grid, Side side, const std::vector<double>& command) {
+  const std::vector<double> x = grid.side_points(side);
+  for (std::size_t k = 0; k < x.size(); ++k)
+    EXPECT_NEAR(x[k], command[k], 1e-15) << name_of(side) << " " << k;  // round-off of numbers of order one
+}
+
+TEST(MovingGrid, TakesAdjacentSidesWhereTheyAreToldInWhateverOrder) {
+  auto description = unit_square(11, 6);
+  description.follows = true;
+  MovingGrid grid(description, 0), other(description, 0);
+  std::vector<std::vector<double>> told;
+  for (const Side side : all_sides) told.push_back(carried(grid, side));
+  std::vector<SideCommand> commands;
+  for (const Side side : {Side::left, Side::bottom, Side::right, Side::top})
+    commands.push_back({side, told[static_cast<std::size_t>(side)]});
+  for (std::size_t count = 2; count <= 4; ++count) {
+    const std::span<const SideCommand> some = std::span(commands).first(count);
+    grid.move(0.1, some);
+    const std::vector<SideCommand> reversed(some.rbegin(), some.rend());
+    other.move(0.1, reversed);
+    for (const SideCommand& command : some) {
+      expect_side(grid, command.side, told[static_cast<std::size_t>(command.side)]);
+      expect_side(other, command.side, told[static_cast<std::size_t>(command.side)]);
+    }
+    for (int j = -2; j < 8; ++j) {
+      for (int i = -2; i < 13; ++i) EXPECT_NEAR(grid.x()(0, i, j), other.x()(0, i, j), 1e-14);
+    }
+  }
+}
+
+TEST(MovingGrid, PutsACornerToldTwoPlacesInTheMiddleAndNothingElse) {
+  auto description = unit_square(11, 6);
+  description.follows = true;
+  MovingGrid grid(description, 0);
+  std::vector<double> left = carried(grid, Side::left), bottom = carried(grid, Side::bottom);
+  const double x_left = left[0] += 0.02, x_bottom = bottom[0] -= 0.01;
+  const SideCommand commands[] = {{Side::left, left}, {Side::bottom, bottom}};
+  grid.move(0.1, commands);
+  left[0] = bottom[0] = 0.5 * (x_left + x_bottom);
+  expect_side(grid, Side::left, left);
+  expect_side(grid, Side::bottom, bottom);
+}
+
+TEST(MovingGrid, NamesTheSidesThatAreToldPlacesACellApartForTheirCorner) {
+  auto description = unit_square(11, 6);
+  description.follows = true;
+  MovingGrid grid(description, 0);
+  std::vector<double> right = grid.side_points(Side::right), top = grid.side_points(Side::top);
+  right[5] += 0.07;
+  top[10] -= 0.07;
+  const SideCommand commands[] = {{Side::right, right}, {Side::top, top}};
+  try {
+    grid.move(0.1, commands);
+    FAIL() << "the corner has two places";
+  } catch (const NumbersBroke& broke) {
+    const std::string words = broke.what();
+    EXPECT_NE(words.find("square"), std::string::npos);
+    EXPECT_NE(words.find("right and top"), std::string::npos) << words;
+    EXPECT_NE(words.find("0.14 apart"), std::string::npos) << words;
+  }
+}
+
 TEST(MovingGrid, ShakesInnerPointsOnlyAndTheSameWayEveryTime) {
   auto description = unit_square(11, 11);
   description.shake = 0.2;

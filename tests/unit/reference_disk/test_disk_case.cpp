@@ -19,9 +19,10 @@ class DiskCase : public testing::Test {
   }
   void TearDown() override { std::filesystem::remove(path); }
 
-  /// The pieces a test varies; of the grids the reference takes no notice.
+  /// The pieces a test varies; of the grids the reference takes no notice, but for the outline.
   Case read(const std::string& v, const std::string& reference, const std::string& rho = "14",
-            const std::string& rim = "interface") {
+            const std::string& rim = "interface", const std::string& circle = "radius: 1",
+            const std::string& more = "}") {
     std::ofstream(path) << R"(
 title: rotating disk
 parameters: {omega_0: 0.2}
@@ -30,8 +31,10 @@ time: {end: 1}
 fluid:
   gamma: 1.4
   p_e: 10
-  grid: {x: [1, 2], y: [0, 0.2], spacing: h}
-  boundary: {left: {kind: interface, solid: disk}, right: outflow, bottom: symmetry, top: symmetry}
+  grid: {name: background, x: [-2, 2], y: [-2, 2], spacing: h}
+  body_fitted:
+    - {name: ring, solid: disk, lines: 8}
+  boundary: {left: outflow, right: outflow, bottom: outflow, top: outflow}
   initial: {rho: )" << rho
                         << R"(, v: [0, 0], p: 10}
 solids:
@@ -40,10 +43,13 @@ solids:
     rho: 2
     lambda: 3
     mu: 4
-    grid: {x: [0, 1], y: [0, 0.2], spacing: h}
-    boundary: {left: free, right: )"
-                        << rim << R"(, bottom: symmetry, top: symmetry}
-    initial: {v: )" << v << R"(}
+    shape: {kind: circle, )"
+                        << circle << R"(}
+    grid: {name: core, x: [-1.5, 1.5], y: [-1.5, 1.5], spacing: h}
+    body_fitted: {lines: 8, boundary: )"
+                        << rim << R"(}
+    initial: {v: )" << v << more
+                        << R"(
 reference: {kind: rotating_disk, )"
                         << reference << R"(}
 output: {times: [0.5]}
@@ -97,6 +103,23 @@ TEST_F(DiskCase, TheGasPressesOnTheConfigurationTheCaseNames) {
 TEST_F(DiskCase, AnotherMotionOfTheSolidIsRefused) {
   expect_mistake(read(R"(["-y", x])", "omega_0: omega_0"), "initial.v");
   expect_mistake(read(rotation, "omega_0: 0.3"), "initial.v");
+}
+
+TEST_F(DiskCase, AnOutlineThatIsNotTheUnitCircleIsRefused) {
+  const auto with = [this](const std::string& circle) {
+    return read(rotation, "omega_0: omega_0", "14", "interface", circle);
+  };
+  expect_mistake(with("radius: 1.1"), "solids.disk.shape");
+  expect_mistake(with("radius: 1, centre: [0.1, 0]"), "solids.disk.shape");
+}
+
+TEST_F(DiskCase, AForceOrADisplacementAtTheStartIsRefused) {
+  const auto with = [this](const std::string& more) {
+    return read(rotation, "omega_0: omega_0", "14", "interface", "radius: 1", more);
+  };
+  EXPECT_NO_THROW(disk_from_case(with(", u: [0, 0]}")));
+  expect_mistake(with(", u: [0, 0.01 * x]}"), "solids.disk.initial.u");
+  expect_mistake(with("}\n    body_force: [0, 0.2]"), "solids.disk.body_force");
 }
 
 TEST_F(DiskCase, AGasThatIsNotUniformIsRefused) {

@@ -50,6 +50,37 @@ TYPED_TEST(GivenTraction, Eq42HoldsPerCurrentAreaAndEq43HoldsWithTheGhostPoints)
   }
 }
 
+TYPED_TEST(GivenTraction, Eq43FindsTheStrainOfACornerFromItsStress) {
+  const TypeParam law{.lambda = 1.3, .mu = 0.9};
+  const Tensor2 P = law.P({1.1, 0.04, 0.04, 0.95});
+  const auto F = match_corner(law, P, Tensor2{1, 0, 0, 1});
+  ASSERT_TRUE(F);
+  const Tensor2 apart = minus(law.P(*F), P);
+  EXPECT_LT(std::abs(apart.a11) + std::abs(apart.a12) + std::abs(apart.a21) + std::abs(apart.a22), 1e-11);
+}
+
+// Pressed across and pulled along: det P < 0 needs a principal stretch f > 0 under pressure, and this law
+// bears none above f (3 (1 - f^2) + 1) / 2 < 1.1 there.
+TEST(CornerOfTwoTractions, IsNamedWhereNoStrainGivesItsStress) {
+  const SaintVenantKirchhoff law{.lambda = 1, .mu = 1};
+  const auto at_corner = [](double x, double y) { return std::hypot(x, y) < 1e-9 ? 10.0 : 0.0; };
+  Boundaries boundaries;
+  boundaries[0].load = boundaries[2].load = LoadConfiguration::reference;
+  boundaries[0].vector = [=](double x, double y, double) -> Vec2 { return {at_corner(x, y), 0}; };
+  boundaries[2].vector = [=](double x, double y, double) -> Vec2 { return {0, -at_corner(x, y)}; };
+  grid::GridDescription square{
+      .name = "square", .n1 = 11, .n2 = 11, .mapping = [](double r, double s, double) { return Vec2(r, s); }};
+  SolidSolver<SaintVenantKirchhoff> solver(grid::MovingGrid(square, 0), law, {}, boundaries, 0);
+  const VectorFunction at_rest = [](double, double, double) -> Vec2 { return Vec2::Zero(); };
+  try {
+    solver.assign_initial_conditions(at_rest, at_rest);
+    FAIL() << "the corner bears more than it can";
+  } catch (const NumbersBroke& broke) {
+    const std::string words = broke.what();
+    EXPECT_NE(words.find("grid \"square\", point (0, 0)"), std::string::npos) << words;
+  }
+}
+
 // The stretch along the side enters with a difference of higher order.
 TEST(Interface, StressAlongAMirroredSideIsSharperThanCentralDifferences) {
   const LinearElastic law{.lambda = 1, .mu = 1};

@@ -262,5 +262,53 @@ TEST(CompositeSolid, GridsThatDoNotFitTogetherAreTheUsersMistake) {
   refused([](test::DiskGrids& disk) { std::swap(disk.parts[0], disk.parts[1]); });
 }
 
+/// All values of both grids.
+std::vector<double> values_of(const SolidSolver<NeoHookean>& solver) {
+  std::vector<double> values;
+  for (int grid = 0; grid < solver.grids(); ++grid) {
+    const ConstFieldView q = solver.state(grid);
+    for (int k = 0; k < plane::count; ++k) {
+      for (int j = 0; j < q.layout.n2; ++j) {
+        for (int i = 0; i < q.layout.n1; ++i) values.push_back(q(k, i, j));
+      }
+    }
+  }
+  return values;
+}
+
+/// Makes the outer grid break in the next step and takes that.
+std::vector<double> change_in_a_step_that_breaks(SolidSolver<NeoHookean>& solver) {
+  const double dt = solver.compute_time_step().dt;
+  solver.state(1)(plane::u1, 10, 4) += 1;  // ten cells
+  std::vector<double> before = values_of(solver);
+  EXPECT_THROW(solver.advance_solid(0, dt), NumbersBroke);
+  EXPECT_EQ(solver.t(), 0);
+  EXPECT_EQ(solver.steps(), 0U);
+  const std::vector<double> after = values_of(solver);
+  for (std::size_t k = 0; k < before.size(); ++k) before[k] -= after[k];
+  return before;
+}
+
+TEST(CompositeSolid, KeepsEveryGridWhereItWasWhenOneBreaks) {
+  auto solver = disk_solver<NeoHookean>(10);
+  solver.assign_initial_conditions(at_rest, [](double x, double y, double) -> Vec2 {
+    return {0.2 * x * y, 0.1 * y};
+  });
+  for (const double change : change_in_a_step_that_breaks(solver)) EXPECT_EQ(change, 0);
+}
+
+TEST(CompositeSolid, GivesHalfOfTheSourceBackWhenOneGridBreaks) {
+  auto solver = disk_solver<NeoHookean>(10);
+  const StateFunction state = [](double, double, double) { return SolidState{}; };
+  const StateFunction source = [](double x, double y, double) {
+    return SolidState{.u = {1 + x, y}, .v = {2, x}, .P = {1, y, x, 2}};
+  };
+  solver.choose(
+      {.state = state, .source = source, .offset = [](double, double, double) { return Tensor2{}; }});
+  solver.assign_initial_conditions(state);
+  // A sum and a difference leave round-off; half of the source is 1e-2.
+  for (const double change : change_in_a_step_that_breaks(solver)) EXPECT_NEAR(change, 0, 1e-15);
+}
+
 }  // namespace
 }  // namespace fsi::solid
