@@ -1,14 +1,22 @@
 #!/usr/bin/python3
 """What pictures of component grids are made of: cells, seams, numbers and scales."""
 
+import contextlib
+import io
 import sys
+import tempfile
+import types
 import unittest
+from pathlib import Path
 
+import h5py
 import numpy as np
 
 from running import ROOT
 
 sys.path.insert(0, str(ROOT / "launch"))
+from fsi_launch import plot  # noqa: E402
+from fsi_launch.failure import UserMistake  # noqa: E402
 from fsi_launch.plot import data, disk, mesh, scales, several, side_by_side, style  # noqa: E402
 
 HOLE, RIM, OUTER = 0.5, 0.55, 0.8  # radii: unused points, the ring's inside and outside
@@ -83,6 +91,53 @@ class Numbers(unittest.TestCase):
         self.assertEqual(size.of("force*length/depth"), size.of("force"))
         self.assertEqual(size.of("power"), size.of("force") * size.of("length/time"))
         self.assertEqual(size.floor("apples"), 0.0)
+
+    def test_without_fields_nothing_is_taken_for_round_off(self):
+        for unit in ("length/time", "force/area", "force*length/depth", "power/depth"):
+            self.assertEqual(scales.of_run([]).floor(unit), 0.0)
+
+
+class Folders(unittest.TestCase):
+    """What is drawn of the folder of a run that has no output times, and of folders that are no run's."""
+
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory(prefix="fsi-test-")
+        self.addCleanup(scratch.cleanup)
+        self.run_ = Path(scratch.name) / "run"
+        for name in ("fields", "last_state"):
+            (self.run_ / name).mkdir(parents=True)
+        (self.run_ / "case.yaml").write_text("name: piston\n", encoding="utf-8")
+        (self.run_ / "interface.csv").write_text("step,t [time],gap [length]\n0,0,0\n1,0.1,1e-3\n2,0.2,3e-3\n", encoding="utf-8")
+
+    def write_state(self, path):
+        x1, x2 = np.meshgrid(np.linspace(0, 1, 5), np.linspace(0, 1, 4))
+        with h5py.File(path, "w") as file:
+            file.attrs["t"] = 0.2
+            for key, values in {"x1": x1, "x2": x2, "rho": 1 + x1, "p": 2 + x1, "v1": x1, "v2": x2}.items():
+                file[f"gas/{key}"] = values
+
+    def plot(self, folder):
+        """Names of the pictures."""
+        with contextlib.redirect_stdout(io.StringIO()) as printed:
+            plot.main(types.SimpleNamespace(directories=[folder], out=None, contours=False, movie=False))
+        return [Path(line).stem for line in printed.getvalue().split("\n") if line]
+
+    def test_tables_are_drawn_before_the_first_output_time(self):
+        self.assertEqual(self.plot(self.run_), ["interface"])
+
+    def test_the_last_state_of_a_run_that_broke_is_drawn(self):
+        self.write_state(self.run_ / "last_state" / "fluid.h5")
+        self.assertEqual(self.plot(self.run_), ["fields_last", "interface"])
+
+    def test_a_part_of_a_run_is_refused_and_the_folder_of_the_run_named(self):
+        with self.assertRaisesRegex(UserMistake, f"part of a run.*'{self.run_.resolve()}'"):
+            self.plot(self.run_ / "fields")
+
+    def test_a_single_output_is_not_taken_for_a_series(self):
+        (self.run_ / "case.yaml").unlink()
+        self.write_state(self.run_ / "fields" / "solid_block_000000.h5")
+        with self.assertRaisesRegex(UserMistake, "not the series"):
+            self.plot(self.run_ / "fields")
 
 
 class SideBySide(unittest.TestCase):
