@@ -164,6 +164,13 @@ class SideBySide(unittest.TestCase):
         unsaid = cases[0].replace("  projection: full\n", "")
         self.assertEqual(several.labels([unsaid, cases[0]], ["a", "b"]), ["simplified", "full"])
 
+    def test_a_law_is_said_of_its_own_solid_where_there_are_several(self):
+        case = "solids:\n  block:\n    law: saint_venant_kirchhoff\n  egg:\n    law: {}\n"
+        cases = [case.format(law) for law in ("neo_hookean", "rigid")]
+        self.assertEqual(several.labels(cases, ["a", "b"]), ["egg: neo hookean", "egg: rigid"])
+        alone = [one.replace("  block:\n    law: saint_venant_kirchhoff\n", "") for one in cases]
+        self.assertEqual(several.labels(alone, ["a", "b"]), ["neo hookean", "rigid"])
+
     def test_few_times_are_spread_evenly_and_common_to_all_runs(self):
         runs = [dict.fromkeys(times, "output") for times in ((0, 0.5, 1, 2, 3, 4), (0, 0.5, 1 + 1e-12, 2, 3, 4, 5))]
         self.assertEqual(several.few(several.common_times(runs)), [0.5, 2, 4])
