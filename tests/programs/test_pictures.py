@@ -17,7 +17,7 @@ from running import ROOT
 sys.path.insert(0, str(ROOT / "launch"))
 from fsi_launch import plot  # noqa: E402
 from fsi_launch.failure import UserMistake  # noqa: E402
-from fsi_launch.plot import data, disk, mesh, scales, several, side_by_side, style  # noqa: E402
+from fsi_launch.plot import data, disk, mesh, outlines, scales, several, side_by_side, style  # noqa: E402
 
 HOLE, RIM, OUTER = 0.5, 0.55, 0.8  # radii: unused points, the ring's inside and outside
 
@@ -170,6 +170,16 @@ class SideBySide(unittest.TestCase):
         self.assertEqual(several.labels(cases, ["a", "b"]), ["egg: neo hookean", "egg: rigid"])
         alone = [one.replace("  block:\n    law: saint_venant_kirchhoff\n", "") for one in cases]
         self.assertEqual(several.labels(alone, ["a", "b"]), ["neo hookean", "rigid"])
+
+    def test_names_of_times_do_not_overlap_and_stay_where_there_is_room(self):
+        wide, high = outlines.LABEL
+        self.assertEqual(outlines.levels([(0, 0), (wide, 0), (2 * wide, 0)]), [0, 0, 0])
+        places = np.array([(0, 0), (wide / 2, 3), (wide / 3, -high / 2)])
+        placed = places - np.outer(outlines.levels(places), [0, high])
+        for k in range(3):
+            for other in range(k):
+                apart = np.abs(placed[k] - placed[other])
+                self.assertTrue(apart[0] >= wide or apart[1] >= high - 1e-6, placed)
 
     def test_few_times_are_spread_evenly_and_common_to_all_runs(self):
         runs = [dict.fromkeys(times, "output") for times in ((0, 0.5, 1, 2, 3, 4), (0, 0.5, 1 + 1e-12, 2, 3, 4, 5))]

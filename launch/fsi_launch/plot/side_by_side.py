@@ -1,5 +1,7 @@
 """Numerical schlieren of several runs side by side, of two with their difference (the paper's figures 16, 18 and 19)."""
 
+import textwrap
+
 import numpy as np
 from matplotlib import pyplot
 from matplotlib.colors import LogNorm
@@ -9,6 +11,7 @@ from fsi_launch.plot import outlines, schlieren, several
 PANEL = 4.6        # width [inch]
 LEAST = 1e-4       # differences are drawn from this part of the largest density up
 MOST_RUNS = 4
+MOST_LETTERS = 56   # of a line above a panel
 DIFFERENCE_MAP = "magma_r"
 
 
@@ -90,5 +93,5 @@ def pictures(series, told):
     for row, moment in zip(axes, moments):
         _row(figure, row, moment, size)
     for panel, label in zip(axes[0], told):
-        panel.set_title(label, loc="right")
+        panel.set_title(f"{textwrap.fill(label, MOST_LETTERS)}\n{panel.get_title(loc='left')}", loc="left")
     yield "schlieren_compared", figure
