@@ -29,8 +29,8 @@ def _one(directory, out, contours):
     look = fields.Look(size, contours)
     return itertools.chain(
         convergence.pictures(table), fields.pictures(series, look), fields.last_picture(last, look), grids.pictures(series),
-        disk.pictures(series, data.disk_reference(directory)), schlieren.pictures(series), streamlines.pictures(series),
-        beams.pictures(series), curves.pictures(series, tables, size))
+        disk.pictures(series, data.disk_reference(directory)), schlieren.pictures(series, size),
+        streamlines.pictures(series, size), beams.pictures(series), curves.pictures(series, tables, size))
 
 
 def _several(directories, out):

@@ -106,7 +106,8 @@ def _read_output(group):
 def _read_series(path, name):
     with h5py.File(path, "r") as file:
         if "outputs" not in file.attrs:
-            raise UserMistake(f"'{path}' is not the series of outputs of a program: give the folder of a run, as fsi run --out named it")
+            raise UserMistake(f"'{path}' is not the series of outputs of a program: give the folder of a run, "
+                            "as fsi run --out named it")
         outputs = [_read_output(file[key]) for key in sorted(file)]
     return Series(name, outputs)
 
