@@ -57,7 +57,9 @@ def _difference(figure, axes, gases, bodies):
     axes.set_xlim(x1.min(), x1.max())
     axes.set_ylim(x2.min(), x2.max())
     axes.set_title(f"difference of the densities, mean {np.nanmean(apart):.1e}", loc="left")
-    figure.colorbar(drawn, ax=axes, shrink=0.7, aspect=24, pad=0.01).outline.set_visible(False)
+    bar = figure.colorbar(drawn, ax=axes, shrink=0.7, aspect=24, pad=0.01)
+    bar.outline.set_visible(False)
+    bar.set_label("part of the largest density")
 
 
 def _row(figure, axes, moment, size):
