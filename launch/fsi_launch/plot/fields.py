@@ -83,6 +83,7 @@ def panels(count, box, beside):
         one.set_aspect("equal")
         one.set_xlim(box[0], box[1])
         one.set_ylim(box[2], box[3])
+    style.name_axes(axes)
     return figure, list(axes.flat)
 
 

@@ -90,6 +90,7 @@ def _picture(name, bodies, names):
     axes.margins(0.06, 0.1)
     _name_times(axes, {t: [several.at(body.outlines, t) for body in bodies] for t in times})
     axes.set_title(f"boundary of {name}", loc="left")
+    style.name_axes(np.array([[axes]]))
     handles = [Line2D([], [], color=COLOURS[k % len(COLOURS)], linestyle=LINES[k % len(LINES)], label=label)
                for k, label in enumerate(names)]
     axes.legend(handles=handles, loc="upper left", bbox_to_anchor=(1.0, 1.0), handlelength=2.2)

@@ -135,6 +135,7 @@ def pictures(series, natural):
     figure, axes = pyplot.subplots(rows, columns, figsize=(PANEL * columns + 0.8, (height + 0.3) * rows), squeeze=False)
     for one in axes.flat[len(chosen):]:
         one.set_visible(False)
+    style.name_axes(axes)
     for one, k in zip(axes.flat, chosen):
         drawn = draw(one, gas.outputs[k], [solid.outputs[k] for solid in solids], size)
     if drawn is not None:

@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib import pyplot
 from matplotlib.colors import LogNorm
 
-from fsi_launch.plot import outlines, schlieren, several
+from fsi_launch.plot import outlines, schlieren, several, style
 
 PANEL = 4.6        # width [inch]
 LEAST = 1e-4       # differences are drawn from this part of the largest density up
@@ -94,6 +94,7 @@ def pictures(series, told):
                                    squeeze=False)
     for row, moment in zip(axes, moments):
         _row(figure, row, moment, size)
+    style.name_axes(axes)
     for panel, label in zip(axes[0], told):
         panel.set_title(f"{textwrap.fill(label, MOST_LETTERS)}\n{panel.get_title(loc='left')}", loc="left")
     yield "schlieren_compared", figure

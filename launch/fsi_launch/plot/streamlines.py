@@ -115,6 +115,9 @@ def _panels(count, box):
         one.set_aspect("equal")
         one.set_xlim(box[0], box[1])
         one.set_ylim(box[2], box[3])
+    for one in list(axes.flat)[count:]:
+        one.set_visible(False)
+    style.name_axes(axes)
     return figure, list(axes.flat)
 
 
@@ -134,7 +137,5 @@ def pictures(series, size):
     figure, axes = _panels(len(moments), box)
     for one, index in zip(axes, moments):
         _panel(figure, one, (gas.outputs[index], [solid.outputs[index] for solid in solids]), box, size.floor(fields.SPEED.unit))
-    for one in axes[len(moments):]:
-        one.set_visible(False)
     figure.suptitle("streamlines of the gas, speed of the solid", x=0.01, ha="left", fontsize=10)
     yield "streamlines", figure

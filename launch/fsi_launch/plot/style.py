@@ -41,6 +41,16 @@ def save(figure, path):
     pyplot.close(figure)
 
 
+def name_axes(panels):
+    """x and y at the lower and left rims of a lattice of panels (rows, columns)."""
+    for column in panels.T:
+        lowest = [one for one in column if one.get_visible()][-1:]
+        for one in lowest:
+            one.set_xlabel("x", labelpad=1)
+    for one in panels[:, 0]:
+        one.set_ylabel("y", labelpad=1)
+
+
 def short_numbers(low, high):
     """(base, exponent): numbers from `low` to `high` are short when shown as (number - base) / 10^exponent."""
     width = high - low
