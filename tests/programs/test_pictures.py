@@ -17,7 +17,7 @@ from running import ROOT
 sys.path.insert(0, str(ROOT / "launch"))
 from fsi_launch import plot  # noqa: E402
 from fsi_launch.failure import UserMistake  # noqa: E402
-from fsi_launch.plot import data, disk, mesh, outlines, scales, several, side_by_side, style  # noqa: E402
+from fsi_launch.plot import curves, data, disk, mesh, outlines, scales, several, side_by_side, style  # noqa: E402
 
 HOLE, RIM, OUTER = 0.5, 0.55, 0.8  # radii: unused points, the ring's inside and outside
 
@@ -184,6 +184,23 @@ class SideBySide(unittest.TestCase):
     def test_few_times_are_spread_evenly_and_common_to_all_runs(self):
         runs = [dict.fromkeys(times, "output") for times in ((0, 0.5, 1, 2, 3, 4), (0, 0.5, 1 + 1e-12, 2, 3, 4, 5))]
         self.assertEqual(several.few(several.common_times(runs)), [0.5, 2, 4])
+
+
+class Lines(unittest.TestCase):
+    def test_a_reference_is_drawn_at_its_own_time_and_place_in_space(self):
+        x1, x2 = np.meshgrid(np.linspace(0, 1, 11), np.linspace(0, 1, 3))
+        fields = {"x1": 2 * x1, "x2": x2, "x1_bar": x1, "x2_bar": x2, "u1": x1, "u2": 0 * x1, "v1": 3 * x1, "v2": 0 * x1,
+                  "P11": 4 * x1}
+        block = data.Series("block", [data.Output(t, [read(fields)]) for t in (0.0, 1.0)])
+        fine = np.linspace(0, 1, 101)
+        table = {"solid": {"x_bar": fine, "u": fine, "v": 3 * fine, "P11": 4 * fine}}
+        figure = curves._lines_picture([block], scales.Scales(1, 1, 1), {1.0 + 1e-13: table})
+        for axes in figure.axes:
+            drawn = [line for line in axes.lines if len(line.get_xdata()) > 1]
+            reference = [line.get_xydata() for line in drawn if len(line.get_xdata()) == len(fine)]
+            self.assertEqual((len(drawn), len(reference)), (3, 1))
+            computed = drawn[-2 if drawn[-1].get_xdata().size == len(fine) else -1].get_xydata()
+            self.assertLess(np.abs(np.interp(computed[:, 0], *reference[0].T) - computed[:, 1]).max(), 1e-12)
 
 
 class Disk(unittest.TestCase):

@@ -30,7 +30,8 @@ def _one(directory, out, contours):
     return itertools.chain(
         convergence.pictures(table), fields.pictures(series, look), fields.last_picture(last, look), grids.pictures(series),
         disk.pictures(series, data.disk_reference(directory)), schlieren.pictures(series, size),
-        streamlines.pictures(series, size), beams.pictures(series), curves.pictures(series, tables, size))
+        streamlines.pictures(series, size), beams.pictures(series),
+        curves.pictures(series, tables, size, data.piston_reference(directory)))
 
 
 def _several(directories, out):

@@ -162,11 +162,21 @@ def convergence(directory):
 
 def disk_reference(directory):
     """{t: {"gas" or "solid": {column: values}}} of a rotating disk over its radius; empty for other runs."""
+    return _reference(directory, "r")
+
+
+def piston_reference(directory):
+    """The same of a piston along its axis."""
+    return _reference(directory, "x")
+
+
+def _reference(directory, coordinate):
+    """The one-dimensional solution beside a run, if it is one over this coordinate of the gas."""
     path = directory / "reference.h5"
     if not path.is_file():
         return {}
     with h5py.File(path, "r") as file:
-        if not all("r" in group.get("gas", ()) for group in file.values()):
+        if not all(coordinate in group.get("gas", ()) for group in file.values()):
             return {}
         return {float(group.attrs["t"]): {part: {key: np.asarray(group[part][key]) for key in group[part]}
                                           for part in ("gas", "solid")} for group in file.values()}

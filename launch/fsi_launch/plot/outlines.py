@@ -85,7 +85,8 @@ def _picture(name, bodies, names):
     figure, axes = pyplot.subplots(figsize=(7.4, 5.2))
     for k, body in enumerate(bodies):
         for t in times:
-            axes.plot(*several.at(body.outlines, t).T, color=COLOURS[k % len(COLOURS)], linestyle=LINES[k % len(LINES)], linewidth=1.3)
+            axes.plot(*several.at(body.outlines, t).T, color=COLOURS[k % len(COLOURS)], linestyle=LINES[k % len(LINES)],
+                      linewidth=1.3)
     axes.set_aspect("equal")
     axes.margins(0.06, 0.1)
     _name_times(axes, {t: [several.at(body.outlines, t) for body in bodies] for t in times})

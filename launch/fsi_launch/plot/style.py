@@ -48,7 +48,7 @@ def name_axes(panels):
         for one in lowest:
             one.set_xlabel("x", labelpad=1)
     for one in panels[:, 0]:
-        one.set_ylabel("y", labelpad=1)
+        one.set_ylabel("y", labelpad=3)
 
 
 def short_numbers(low, high):
