@@ -5,6 +5,7 @@ import sys
 import unittest
 
 import numpy as np
+from matplotlib import pyplot
 
 from running import ROOT
 
@@ -76,6 +77,16 @@ class Centrelines(unittest.TestCase):
 
 
 class Streamlines(unittest.TestCase):
+    def test_a_solid_whose_speed_is_round_off_is_drawn_at_rest(self):
+        x1, x2 = np.meshgrid(np.linspace(0, 1, 5), np.linspace(0, 1, 5))
+        for speed, floor, rests in ((2e-16, 1e-11, True), (2e-10, 1e-11, False), (0.0, 0.0, True)):
+            fields = {"x1": x1, "x2": x2, "x1_bar": x1, "x2_bar": x2, "v1": speed * x1, "v2": 0 * x1}
+            figure, axes = pyplot.subplots()
+            drawn, found = streamlines._solid_speed(axes, [data.Output(0.0, [data._read_grid("core", fields)])], floor)
+            pyplot.close(figure)
+            self.assertEqual(found, rests)
+            self.assertEqual(drawn.get_array().max() == 0, rests)
+
     def test_velocity_on_the_lattice_is_that_of_the_grid_and_holes_have_none(self):
         x1, x2 = np.meshgrid(np.linspace(0, 2, 21), np.linspace(0, 1, 11))
         kind = np.where((np.abs(x1 - 1) < 0.25) & (x2 < 0.45), data.UNUSED, data.DISCRETISED)

@@ -1,15 +1,23 @@
 #!/usr/bin/python3
 """What pictures of component grids are made of: cells, seams, numbers and scales."""
 
+import contextlib
+import io
 import sys
+import tempfile
+import types
 import unittest
+from pathlib import Path
 
+import h5py
 import numpy as np
 
 from running import ROOT
 
 sys.path.insert(0, str(ROOT / "launch"))
-from fsi_launch.plot import data, disk, mesh, scales, several, side_by_side, style  # noqa: E402
+from fsi_launch import plot  # noqa: E402
+from fsi_launch.failure import UserMistake  # noqa: E402
+from fsi_launch.plot import curves, data, disk, mesh, outlines, scales, several, side_by_side, style  # noqa: E402
 
 HOLE, RIM, OUTER = 0.5, 0.55, 0.8  # radii: unused points, the ring's inside and outside
 
@@ -84,6 +92,53 @@ class Numbers(unittest.TestCase):
         self.assertEqual(size.of("power"), size.of("force") * size.of("length/time"))
         self.assertEqual(size.floor("apples"), 0.0)
 
+    def test_without_fields_nothing_is_taken_for_round_off(self):
+        for unit in ("length/time", "force/area", "force*length/depth", "power/depth"):
+            self.assertEqual(scales.of_run([]).floor(unit), 0.0)
+
+
+class Folders(unittest.TestCase):
+    """What is drawn of the folder of a run that has no output times, and of folders that are no run's."""
+
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory(prefix="fsi-test-")
+        self.addCleanup(scratch.cleanup)
+        self.run_ = Path(scratch.name) / "run"
+        for name in ("fields", "last_state"):
+            (self.run_ / name).mkdir(parents=True)
+        (self.run_ / "case.yaml").write_text("name: piston\n", encoding="utf-8")
+        (self.run_ / "interface.csv").write_text("step,t [time],gap [length]\n0,0,0\n1,0.1,1e-3\n2,0.2,3e-3\n", encoding="utf-8")
+
+    def write_state(self, path):
+        x1, x2 = np.meshgrid(np.linspace(0, 1, 5), np.linspace(0, 1, 4))
+        with h5py.File(path, "w") as file:
+            file.attrs["t"] = 0.2
+            for key, values in {"x1": x1, "x2": x2, "rho": 1 + x1, "p": 2 + x1, "v1": x1, "v2": x2}.items():
+                file[f"gas/{key}"] = values
+
+    def plot(self, folder):
+        """Names of the pictures."""
+        with contextlib.redirect_stdout(io.StringIO()) as printed:
+            plot.main(types.SimpleNamespace(directories=[folder], out=None, contours=False, movie=False))
+        return [Path(line).stem for line in printed.getvalue().split("\n") if line]
+
+    def test_tables_are_drawn_before_the_first_output_time(self):
+        self.assertEqual(self.plot(self.run_), ["interface"])
+
+    def test_the_last_state_of_a_run_that_broke_is_drawn(self):
+        self.write_state(self.run_ / "last_state" / "fluid.h5")
+        self.assertEqual(self.plot(self.run_), ["fields_last", "interface"])
+
+    def test_a_part_of_a_run_is_refused_and_the_folder_of_the_run_named(self):
+        with self.assertRaisesRegex(UserMistake, f"part of a run.*'{self.run_.resolve()}'"):
+            self.plot(self.run_ / "fields")
+
+    def test_a_single_output_is_not_taken_for_a_series(self):
+        (self.run_ / "case.yaml").unlink()
+        self.write_state(self.run_ / "fields" / "solid_block_000000.h5")
+        with self.assertRaisesRegex(UserMistake, "not the series"):
+            self.plot(self.run_ / "fields")
+
 
 class SideBySide(unittest.TestCase):
     def lattice(self, points, hole=0.0):
@@ -109,9 +164,43 @@ class SideBySide(unittest.TestCase):
         unsaid = cases[0].replace("  projection: full\n", "")
         self.assertEqual(several.labels([unsaid, cases[0]], ["a", "b"]), ["simplified", "full"])
 
+    def test_a_law_is_said_of_its_own_solid_where_there_are_several(self):
+        case = "solids:\n  block:\n    law: saint_venant_kirchhoff\n  egg:\n    law: {}\n"
+        cases = [case.format(law) for law in ("neo_hookean", "rigid")]
+        self.assertEqual(several.labels(cases, ["a", "b"]), ["egg: neo hookean", "egg: rigid"])
+        alone = [one.replace("  block:\n    law: saint_venant_kirchhoff\n", "") for one in cases]
+        self.assertEqual(several.labels(alone, ["a", "b"]), ["neo hookean", "rigid"])
+
+    def test_names_of_times_do_not_overlap_and_stay_where_there_is_room(self):
+        wide, high = outlines.LABEL
+        self.assertEqual(outlines.levels([(0, 0), (wide, 0), (2 * wide, 0)]), [0, 0, 0])
+        places = np.array([(0, 0), (wide / 2, 3), (wide / 3, -high / 2)])
+        placed = places - np.outer(outlines.levels(places), [0, high])
+        for k in range(3):
+            for other in range(k):
+                apart = np.abs(placed[k] - placed[other])
+                self.assertTrue(apart[0] >= wide or apart[1] >= high - 1e-6, placed)
+
     def test_few_times_are_spread_evenly_and_common_to_all_runs(self):
         runs = [dict.fromkeys(times, "output") for times in ((0, 0.5, 1, 2, 3, 4), (0, 0.5, 1 + 1e-12, 2, 3, 4, 5))]
         self.assertEqual(several.few(several.common_times(runs)), [0.5, 2, 4])
+
+
+class Lines(unittest.TestCase):
+    def test_a_reference_is_drawn_at_its_own_time_and_place_in_space(self):
+        x1, x2 = np.meshgrid(np.linspace(0, 1, 11), np.linspace(0, 1, 3))
+        fields = {"x1": 2 * x1, "x2": x2, "x1_bar": x1, "x2_bar": x2, "u1": x1, "u2": 0 * x1, "v1": 3 * x1, "v2": 0 * x1,
+                  "P11": 4 * x1}
+        block = data.Series("block", [data.Output(t, [read(fields)]) for t in (0.0, 1.0)])
+        fine = np.linspace(0, 1, 101)
+        table = {"solid": {"x_bar": fine, "u": fine, "v": 3 * fine, "P11": 4 * fine}}
+        figure = curves._lines_picture([block], scales.Scales(1, 1, 1), {1.0 + 1e-13: table})
+        for axes in figure.axes:
+            drawn = [line for line in axes.lines if len(line.get_xdata()) > 1]
+            reference = [line.get_xydata() for line in drawn if len(line.get_xdata()) == len(fine)]
+            self.assertEqual((len(drawn), len(reference)), (3, 1))
+            computed = drawn[-2 if drawn[-1].get_xdata().size == len(fine) else -1].get_xydata()
+            self.assertLess(np.abs(np.interp(computed[:, 0], *reference[0].T) - computed[:, 1]).max(), 1e-12)
 
 
 class Disk(unittest.TestCase):

@@ -10,6 +10,10 @@ def _folder(name):
     directory = Path(name)
     if not directory.is_dir():
         raise UserMistake(f"no folder '{directory}'")
+    if not any((directory / name).is_file() for name in ("case.yaml", "converge.json")):
+        for above in directory.resolve().parents[:2]:  # of fields/, of checkpoints/00000400/
+            if (above / "case.yaml").is_file():
+                raise UserMistake(f"'{directory}' is a part of a run: give the run's own folder, '{above}'")
     return directory
 
 
@@ -17,15 +21,17 @@ def _one(directory, out, contours):
     """(name, figure) of everything the results of one run hold."""
     from fsi_launch.plot import beams, convergence, curves, data, disk, fields, grids, scales, schlieren, streamlines
     series, tables, table = data.all_series(directory), data.all_tables(directory), data.convergence(directory)
-    if not series and not tables and not table:
+    last = data.last_state(directory)
+    if not (series or last or tables or table):
         raise UserMistake(f"'{directory}' holds no results: no fluid.h5, solid_*.h5, tables or converge.json")
     out.mkdir(parents=True, exist_ok=True)
-    size = scales.of_run(series)
+    size = scales.of_run(series or last)
+    look = fields.Look(size, contours)
     return itertools.chain(
-        convergence.pictures(table), fields.pictures(series, fields.Look(size, contours)), grids.pictures(series),
-        disk.pictures(series, data.disk_reference(directory)), schlieren.pictures(series), streamlines.pictures(series),
-        beams.pictures(series),
-        curves.pictures(series, tables, size))
+        convergence.pictures(table), fields.pictures(series, look), fields.last_picture(last, look), grids.pictures(series),
+        disk.pictures(series, data.disk_reference(directory)), schlieren.pictures(series, size),
+        streamlines.pictures(series, size), beams.pictures(series),
+        curves.pictures(series, tables, size, data.piston_reference(directory)))
 
 
 def _several(directories, out):

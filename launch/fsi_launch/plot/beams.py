@@ -161,8 +161,7 @@ def _panel(axes, group, title):
     axes.set_aspect("equal")
     axes.set_title(title, loc="left")
     lines = [f"j = {run.factor:g} {name}" for run, name in zip(group, ("full", "dashed", "dotted", "dash-dot"))]
-    if len(group) > 1:
-        axes.set_xlabel(", ".join(lines))
+    axes.set_xlabel("x" + (f"      ({', '.join(lines)})" if len(group) > 1 else ""))
 
 
 def picture(runs):
@@ -178,6 +177,8 @@ def picture(runs):
         _panel(axes, group, _label(group[0], [run for other in groups for run in other]) or "centreline")
     for axes in list(panels.flat)[len(groups):]:
         axes.set_visible(False)
+    for axes in panels[:, 0]:
+        axes.set_ylabel("y")
     return figure
 
 

@@ -26,8 +26,10 @@ def pictures(directories, out):
     out.mkdir(parents=True, exist_ok=True)
     series, cases = [data.all_series(one) for one in directories], [_case_of(one) for one in directories]
     told = several.labels(cases, [one.name for one in directories])
-    parts = [*_beams(series, cases, out), *outlines.pictures(series, told, out), *side_by_side.pictures(series, told)]
+    same = len({several.entries(case).get("name") for case in cases}) == 1
+    parts = [*_beams(series, cases, out), *outlines.pictures(series, told, out),
+             *(side_by_side.pictures(series, told) if same else ())]
     if not parts:
-        raise UserMistake("the runs hold nothing that can be compared: several runs are for beams, outlines of solids and gas "
-                          "with shocks")
+        raise UserMistake("the runs hold nothing that can be compared: several runs are for beams, outlines of solids and, of "
+                          "one case, gas with shocks")
     yield from parts

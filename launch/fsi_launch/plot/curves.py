@@ -3,12 +3,13 @@
 import numpy as np
 from matplotlib import pyplot
 
-from fsi_launch.plot import style
+from fsi_launch.plot import several, style
 
 GAS_LINES = (("rho", "density $\\rho$"), ("v", "velocity $v$"), ("p", "pressure $p$"))
 SOLID_LINES = (("u", "displacement $\\bar u$"), ("v", "velocity $\\bar v$"), ("P11", "stress $\\bar P_{11}$"))
 SAME = 1e-3        # variation across the line, part of the variation along it, that counts as none
 MOST_TIMES = 6
+REFERENCE = {"color": "black", "linewidth": 2.6, "alpha": 0.3, "zorder": 1}
 SAME_VALUE = 1e-11  # differences, part of the values, that are round-off
 
 
@@ -42,7 +43,16 @@ def _along(grid, key, e):
     return s, grid.fields[key][j]
 
 
-def _lines_picture(series, scales):
+def _reference_line(axes, one, key, table):
+    """The reference under the computed curve last drawn, as far as that goes; positions of the solid are those in space."""
+    computed = axes.lines[-1].get_xdata()
+    part = table["gas" if one.is_gas() else "solid"]
+    s = part["x"] if one.is_gas() else part["x_bar"] + part["u"]
+    shown = (s >= computed.min()) & (s <= computed.max())
+    axes.plot(s[shown], part[key][shown], **REFERENCE)
+
+
+def _lines_picture(series, scales, reference):
     kinds = [GAS_LINES if one.is_gas() else SOLID_LINES for one in series]
     figure, panels = pyplot.subplots(3, len(series), figsize=(4.4 * len(series), 6.3), squeeze=False, sharex="col")
     for column, (one, lines) in enumerate(zip(series, kinds)):
@@ -55,10 +65,14 @@ def _lines_picture(series, scales):
                 s, values = _along(output.grids[0], key, _direction(output.grids[0]))
                 values = np.where(np.abs(values) > scales.floor(_unit(key)), values, 0)
                 axes.plot(s, values, color=colour, label=f"t = {output.t:.3g}")
+                if table := several.at(reference, output.t):
+                    _reference_line(axes, one, key, table)
             _steady(axes, np.concatenate([line.get_ydata() for line in axes.lines]))
             axes.set_title(label, loc="left")
         panels[0][column].set_title(f"{one.name}: {lines[0][1]}", loc="left")
         panels[-1][column].set_xlabel("position along the line")
+    if reference:
+        panels[0][0].plot([], [], label="reference", **REFERENCE)
     panels[0][0].legend()
     return figure
 
@@ -149,11 +163,11 @@ def _table_picture(table, scales):
     return figure
 
 
-def pictures(series, tables, scales):
-    """(name, figure) of the curves a run has."""
+def pictures(series, tables, scales, reference):
+    """(name, figure) of the curves a run has; `reference`: its one-dimensional solution {t: tables}, or nothing."""
     plain = [one for one in series if len(one.outputs[-1].grids) == 1]
     if plain and all(_depends_on_one_coordinate(one.outputs[-1].grids[0]) for one in plain):
-        yield "lines", _lines_picture(plain, scales)
+        yield "lines", _lines_picture(plain, scales, reference)
     for table in tables:
         if figure := _table_picture(table, scales):
             yield table.name, figure

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 import h5py
 import numpy as np
 
+from fsi_launch.failure import UserMistake
+
 NOT_FIELDS = ("x", "x1", "x2", "kind")  # "x" holds x1 and x2 side by side, for ParaView
 UNUSED, DISCRETISED, INTERPOLATED = 0, 1, 2
 
@@ -97,21 +99,37 @@ def _read_grids(group):
     return sorted((_read_grid(name, group[name]) for name in group), key=lambda grid: not grid.is_cartesian())
 
 
+def _read_output(group):
+    return Output(float(group.attrs["t"]), _read_grids(group))
+
+
 def _read_series(path, name):
-    outputs = []
     with h5py.File(path, "r") as file:
-        for key in sorted(file):
-            group = file[key]
-            outputs.append(Output(float(group.attrs["t"]), _read_grids(group)))
+        if "outputs" not in file.attrs:
+            raise UserMistake(f"'{path}' is not the series of outputs of a program: give the folder of a run, "
+                            "as fsi run --out named it")
+        outputs = [_read_output(file[key]) for key in sorted(file)]
     return Series(name, outputs)
+
+
+def _files(directory):
+    """(path, name of the program): the gas first, then the solids by name."""
+    return [*((path, "fluid") for path in directory.glob("fluid.h5")),
+            *((path, path.stem.removeprefix("solid_")) for path in sorted(directory.glob("solid_*.h5")))]
 
 
 def all_series(directory):
     """The gas first, then the solids by name."""
-    series = [_read_series(path, "fluid") for path in directory.glob("fluid.h5")]
-    for path in sorted(directory.glob("solid_*.h5")):
-        series.append(_read_series(path, path.stem.removeprefix("solid_")))
-    return [one for one in series if one.outputs]
+    return [one for one in (_read_series(path, name) for path, name in _files(directory)) if one.outputs]
+
+
+def last_state(directory):
+    """Series of the one state that each program left where the numbers broke; none of other runs."""
+    series = []
+    for path, name in _files(directory / "last_state"):
+        with h5py.File(path, "r") as file:
+            series.append(Series(name, [_read_output(file)]))
+    return series
 
 
 def _read_table(path):
@@ -144,11 +162,21 @@ def convergence(directory):
 
 def disk_reference(directory):
     """{t: {"gas" or "solid": {column: values}}} of a rotating disk over its radius; empty for other runs."""
+    return _reference(directory, "r")
+
+
+def piston_reference(directory):
+    """The same of a piston along its axis."""
+    return _reference(directory, "x")
+
+
+def _reference(directory, coordinate):
+    """The one-dimensional solution beside a run, if it is one over this coordinate of the gas."""
     path = directory / "reference.h5"
     if not path.is_file():
         return {}
     with h5py.File(path, "r") as file:
-        if not all("r" in group.get("gas", ()) for group in file.values()):
+        if not all(coordinate in group.get("gas", ()) for group in file.values()):
             return {}
         return {float(group.attrs["t"]): {part: {key: np.asarray(group[part][key]) for key in group[part]}
                                           for part in ("gas", "solid")} for group in file.values()}

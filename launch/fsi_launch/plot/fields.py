@@ -83,6 +83,7 @@ def panels(count, box, beside):
         one.set_aspect("equal")
         one.set_xlim(box[0], box[1])
         one.set_ylim(box[2], box[3])
+    style.name_axes(axes)
     return figure, list(axes.flat)
 
 
@@ -114,8 +115,8 @@ def _colour(axes, outputs, quantity, colours, look):
     """Draws one quantity of the gas, or of all solids, on all component grids; returns what the colour bar needs:
     (mesh, the constant if it is one)."""
     floor = look.scales.floor(quantity.unit)
-    everything = [quantity.values(grid)[grid.used()] for output in outputs for grid in output.grids]
-    low, high, constant = _colour_range(np.concatenate(everything), floor)
+    everything = np.concatenate([quantity.values(grid)[grid.used()] for output in outputs for grid in output.grids])
+    low, high, constant = _colour_range(everything[np.isfinite(everything)], floor)
     colours = style.SIGNED_MAP if constant is None and low == -high else colours
     levels = np.linspace(low, high, CONTOURS + 2)[1:-1]
     for output in outputs:
@@ -191,3 +192,13 @@ def pictures(series, look):
     count = min(len(one.outputs) for one in series)  # a killed run may lack the last output of one program
     for index in times_shown(count):
         yield f"fields_{index:04}", _field_picture(series, index, box, look)
+
+
+def last_picture(series, look):
+    """(name, figure) of the state just before the numbers broke."""
+    if not series:
+        return
+    figure = _field_picture(series, 0, box_around([grid for one in series for grid in one.outputs[0].grids]), look)
+    times = ", ".join(f"{one.name} at t = {one.outputs[0].t:.4g}" for one in series)
+    figure.suptitle(f"the last state before the numbers broke: {times}", x=0.01, ha="left", fontsize=10)
+    yield "fields_last", figure

@@ -115,6 +115,7 @@ def _place_picture(series, index, box, place):
     _frame(right, at, half, box)
     right.set_title("the square on the left", loc="left")
     _legend(right, handles)
+    style.name_axes(np.array([[left, right]]))
     return figure
 
 

@@ -1,5 +1,6 @@
 """Boundary curves of several runs on one plot (the paper's figure 17), and how far they are apart."""
 
+import itertools
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,6 +12,8 @@ from fsi_launch.plot import several, style
 HEADING = ("solid", "run", "other run", "t [time]", "largest distance [length]")
 COLOURS = ("#2b5ea8", "#1d8a3d", "#b5281e", "#8a5a00", "#7a3fa0", "#3b3b3b")
 LINES = ("-", "--", "-.", ":")
+AXES = (360, 300)   # size of the axes in the picture, roughly [points]
+LABEL = (52, 12)    # room that the name of a time takes [points]
 
 
 @dataclass
@@ -52,6 +55,29 @@ def distance(points, curve):
 # --- comparison
 
 
+def levels(places):
+    """How many lines each label goes down so that none lies over an earlier one. `places`: their upper ends [points]."""
+    width, height = LABEL
+    down = []
+    for x, y in places:
+        taken = [other[1] - height * k for other, k in zip(places, down) if abs(x - other[0]) < width]
+        down.append(next(k for k in itertools.count() if all(abs(y - height * k - other) >= height for other in taken)))
+    return down
+
+
+def _name_times(axes, curves):
+    """Times under the lowest points of their curves, on lines of their own where they would overlap.
+    `curves`: {t: outlines}."""
+    lowest = [min((line[line[:, 1].argmin()] for line in lines), key=lambda point: point[1]) for lines in curves.values()]
+    (left, right), (bottom, top) = axes.get_xlim(), axes.get_ylim()
+    scale = min(AXES[0] / (right - left), AXES[1] / (top - bottom))  # at least as large as the axes will be drawn
+    down = levels([scale * at for at in lowest])
+    for t, at, level in zip(curves, lowest, down):
+        axes.annotate(f"t = {t:g}", at, xytext=(0, -9 - level * LABEL[1]), textcoords="offset points", ha="center", va="top",
+                      fontsize=8, arrowprops={"arrowstyle": "-", "linewidth": 0.4, "color": "#888888"} if level else None)
+    axes.set_ylim(bottom - max(down) * LABEL[1] / scale, top)
+
+
 def _picture(name, bodies, names):
     times = several.few(several.common_times([body.outlines for body in bodies]))
     if not times:
@@ -59,14 +85,13 @@ def _picture(name, bodies, names):
     figure, axes = pyplot.subplots(figsize=(7.4, 5.2))
     for k, body in enumerate(bodies):
         for t in times:
-            axes.plot(*several.at(body.outlines, t).T, color=COLOURS[k % len(COLOURS)], linestyle=LINES[k % len(LINES)], linewidth=1.3)
-    for t in times:
-        low = min((several.at(body.outlines, t) for body in bodies), key=lambda line: line[:, 1].min())
-        at = low[low[:, 1].argmin()]
-        axes.annotate(f"t = {t:g}", at, xytext=(0, -9), textcoords="offset points", ha="center", va="top", fontsize=8)
+            axes.plot(*several.at(body.outlines, t).T, color=COLOURS[k % len(COLOURS)], linestyle=LINES[k % len(LINES)],
+                      linewidth=1.3)
     axes.set_aspect("equal")
     axes.margins(0.06, 0.1)
+    _name_times(axes, {t: [several.at(body.outlines, t) for body in bodies] for t in times})
     axes.set_title(f"boundary of {name}", loc="left")
+    style.name_axes(np.array([[axes]]))
     handles = [Line2D([], [], color=COLOURS[k % len(COLOURS)], linestyle=LINES[k % len(LINES)], label=label)
                for k, label in enumerate(names)]
     axes.legend(handles=handles, loc="upper left", bbox_to_anchor=(1.0, 1.0), handlelength=2.2)

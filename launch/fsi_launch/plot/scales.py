@@ -17,13 +17,14 @@ class Scales:
     pressure: float
 
     def of(self, unit):
-        """Scale of a unit such as "force*length/depth"; 0 for one not known, below which nothing is."""
+        """Scale of a unit such as "force*length/depth"; 0 for one that is not known, as all are
+        without fields: nothing is below it."""
         force = self.pressure * self.length ** 2
         words = {"length": self.length, "depth": self.length, "area": self.length ** 2, "rad": 1.0, "force": force,
                  "time": self.length / self.speed, "power": force * self.speed}
         result = 1.0
         for sign, word in re.findall(r"([*/]?)(\w+)", unit):
-            result = result / words.get(word, np.inf) if sign == "/" else result * words.get(word, 0.0)
+            result = result / (words.get(word) or np.inf) if sign == "/" else result * words.get(word, 0.0)
         return result
 
     def floor(self, unit):

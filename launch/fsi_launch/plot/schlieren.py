@@ -1,6 +1,6 @@
 """Numerical schlieren of the gas with the speed of the solids (the paper's figure 16): grey is exp(-STRENGTH |grad rho| / scale)."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from matplotlib import pyplot
@@ -58,7 +58,7 @@ class Scales:
     """What all pictures of a run share."""
 
     gradient: float     # of the density, drawn nearly black
-    speed: float        # of the solids; 0 without solids
+    speed: float        # of the solids; 0 without solids and where they rest
 
 
 def scales(gas_outputs, solid_outputs):
@@ -88,8 +88,8 @@ def _colour(axes, solids, speed):
         for grid in one.grids:
             if triangles := mesh.triangles(grid):
                 drawn = TriMesh(triangles, cmap=SPEED_MAP)
-                drawn.set_array(np.where(grid.used(), grid.speed(), 0).ravel())
-                drawn.set_clim(0, speed)
+                drawn.set_array(np.where(grid.used() & (speed > 0), grid.speed(), 0).ravel())
+                drawn.set_clim(0, speed or 1)
                 axes.add_collection(drawn, autolim=False)
         lines = [line for grid in one.grids for line in mesh.outer_lines(grid)]
         axes.add_collection(LineCollection(lines, colors="black", linewidths=0.6))
@@ -117,8 +117,8 @@ def _chosen(gas):
     return sorted({after[round(k)] for k in np.linspace(0, len(after) - 1, MOST_TIMES)})
 
 
-def pictures(series):
-    """(name, figure) of a run whose gas has shocks."""
+def pictures(series, natural):
+    """(name, figure) of a run whose gas has shocks; `natural`: the run's scales."""
     gas = next((one for one in series if one.is_gas()), None)
     solids = [one for one in series if not one.is_gas()]
     count = min((len(one.outputs) for one in series), default=0)
@@ -126,6 +126,8 @@ def pictures(series):
     if not chosen or not any(has_shocks(gas.outputs[k]) for k in chosen):
         return
     size = scales([gas.outputs[k] for k in chosen], [[one.outputs[k] for k in chosen] for one in solids])
+    rests = size.speed <= natural.floor("length/time")
+    size = replace(size, speed=0.0) if rests else size
     columns = min(len(chosen), PANELS_IN_A_ROW)
     rows = -(-len(chosen) // columns)
     background = gas.outputs[0].grids[0]
@@ -133,10 +135,11 @@ def pictures(series):
     figure, axes = pyplot.subplots(rows, columns, figsize=(PANEL * columns + 0.8, (height + 0.3) * rows), squeeze=False)
     for one in axes.flat[len(chosen):]:
         one.set_visible(False)
+    style.name_axes(axes)
     for one, k in zip(axes.flat, chosen):
         drawn = draw(one, gas.outputs[k], [solid.outputs[k] for solid in solids], size)
     if drawn is not None:
-        bar = figure.colorbar(drawn, ax=list(axes.flat), shrink=0.7, aspect=28, pad=0.01)
+        bar = figure.colorbar(drawn, ax=list(axes.flat), shrink=0.7, aspect=28, pad=0.01, ticks=[0] if rests else None)
         bar.outline.set_visible(False)
         bar.ax.set_title("$|\\bar v|$", fontsize=9)
     figure.suptitle("numerical schlieren of the gas" + (", speed of the solid" if solids else ""), x=0.01, ha="left",

@@ -24,11 +24,13 @@ def entries(case):
     return result
 
 
-def _short(key, value):
-    last = key.rsplit(".", 1)[-1]
+def _short(key, value, solids):
+    """One entry in few words, with its solid's name where a run has several. `solids`: the names of all."""
+    *_, owner, last = ("", *key.split("."))
     if key == "grid.factor":
         return f"h = 1/{10 * float(value):g}"
-    return value.replace("_", " ") if last in ("law", "projection") else f"{last} = {value}"
+    said = value.replace("_", " ") if last in ("law", "projection") else f"{last} = {value}"
+    return f"{owner}: {said}" if len(solids) > 1 and owner in solids else said
 
 
 def different(cases):
@@ -40,7 +42,8 @@ def labels(cases, names):
     """What is different about each run, in few words; else the names of the folders. `cases`: texts of case files."""
     found = [UNSAID | entries(case) for case in cases]
     keys = [key for key in different(found) if key.startswith("parameters.") or key.rsplit(".", 1)[-1] in TELLING]
-    result = [", ".join(_short(key, one[key]) for key in keys if key in one) for one in found]
+    solids = {key.split(".")[1] for one in found for key in one if key.startswith("solids.")}
+    result = [", ".join(_short(key, one[key], solids) for key in keys if key in one) for one in found]
     return result if len(set(result)) == len(result) else list(names)
 
 

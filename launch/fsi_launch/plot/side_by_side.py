@@ -1,14 +1,17 @@
 """Numerical schlieren of several runs side by side, of two with their difference (the paper's figures 16, 18 and 19)."""
 
+import textwrap
+
 import numpy as np
 from matplotlib import pyplot
 from matplotlib.colors import LogNorm
 
-from fsi_launch.plot import outlines, schlieren, several
+from fsi_launch.plot import outlines, schlieren, several, style
 
 PANEL = 4.6        # width [inch]
 LEAST = 1e-4       # differences are drawn from this part of the largest density up
 MOST_RUNS = 4
+MOST_LETTERS = 56   # of a line above a panel
 DIFFERENCE_MAP = "magma_r"
 
 
@@ -54,7 +57,9 @@ def _difference(figure, axes, gases, bodies):
     axes.set_xlim(x1.min(), x1.max())
     axes.set_ylim(x2.min(), x2.max())
     axes.set_title(f"difference of the densities, mean {np.nanmean(apart):.1e}", loc="left")
-    figure.colorbar(drawn, ax=axes, shrink=0.7, aspect=24, pad=0.01).outline.set_visible(False)
+    bar = figure.colorbar(drawn, ax=axes, shrink=0.7, aspect=24, pad=0.01)
+    bar.outline.set_visible(False)
+    bar.set_label("part of the largest density")
 
 
 def _row(figure, axes, moment, size):
@@ -89,6 +94,7 @@ def pictures(series, told):
                                    squeeze=False)
     for row, moment in zip(axes, moments):
         _row(figure, row, moment, size)
+    style.name_axes(axes)
     for panel, label in zip(axes[0], told):
-        panel.set_title(label, loc="right")
+        panel.set_title(f"{textwrap.fill(label, MOST_LETTERS)}\n{panel.get_title(loc='left')}", loc="left")
     yield "schlieren_compared", figure

@@ -11,8 +11,9 @@ from fsi_launch.plot import fields, mesh, style
 MOST_TIMES = 8
 PANEL = 4.4         # width [inch]
 POINTS = 420        # of the longer side of the lattice on which streamlines are traced
-STILL = 1e-6        # of the largest speed: gas that does not flow
+STILL = 0.05        # of the largest speed: gas that hardly flows, where errors of the scheme would decide on the direction
 DENSITY = 1.3
+SHORTEST = 0.02     # streamline, part of the width of a panel
 
 
 def _lattice(box):
@@ -68,34 +69,38 @@ def _inside(solids, points):
     return covered.reshape(points[0].shape)
 
 
-def _solid_speed(axes, solids, most):
-    drawn = None
+def _solid_speed(axes, solids, floor):
+    """(mesh for the colour bar, True if the solids rest); speeds up to `floor` are round-off."""
+    most = max(grid.speed()[grid.used()].max() for solid in solids for grid in solid.grids)
+    rests, drawn = most <= floor, None
     for solid in solids:
         for grid in solid.grids:
             if cells := mesh.triangles(grid):
                 drawn = TriMesh(cells, cmap=style.SOLID_MAP)
-                drawn.set_array(np.where(grid.used(), grid.speed(), 0).ravel())
-                drawn.set_clim(0, most)
+                drawn.set_array(np.where(grid.used() & (not rests), grid.speed(), 0).ravel())
+                drawn.set_clim(0, 1 if rests else most)
                 axes.add_collection(drawn, autolim=False)
         fields.outline(axes, solid.grids)
-    return drawn
+    return drawn, rests
 
 
-def _panel(figure, axes, gas, solids, box):
+def _panel(figure, axes, moment, box, floor):
+    """One time; `moment`: (gas, solids)."""
+    gas, solids = moment
     x, y = _lattice(box)
     points = np.meshgrid(x, y)
     v1, v2 = _velocity(gas, points)
     covered = _inside(solids, points)
     speed = np.where(covered, 0, np.nan_to_num(np.hypot(v1, v2)))
-    if speed.max() > 0:
+    if speed.max() > floor:
         moving = np.isfinite(v1) & ~covered & (speed > STILL * speed.max())
         hidden = [np.ma.array(np.nan_to_num(v), mask=~moving) for v in (v1, v2)]
-        stream = axes.streamplot(x, y, *hidden, color=speed, cmap=style.GAS_MAP, density=DENSITY, linewidth=0.6,
-                                 arrowsize=0.6)
+        with np.errstate(over="ignore"):  # where the flow is uniform the estimated error is none: a step without bound
+            stream = axes.streamplot(x, y, *hidden, color=speed, cmap=style.GAS_MAP, density=DENSITY, linewidth=0.6,
+                                     arrowsize=0.6, minlength=SHORTEST)
         style.bar(figure, axes, stream.lines, "gas")
-    most = max(max(grid.speed()[grid.used()].max() for grid in solid.grids) for solid in solids)
-    drawn = _solid_speed(axes, solids, most if most > 0 else 1)
-    style.bar(figure, axes, drawn, "solid", None if most > 0 else 0.0)
+    drawn, rests = _solid_speed(axes, solids, floor)
+    style.bar(figure, axes, drawn, "solid", 0.0 if rests else None)
     axes.set_title(f"t = {gas.t:.4g}", loc="left")
 
 
@@ -110,11 +115,14 @@ def _panels(count, box):
         one.set_aspect("equal")
         one.set_xlim(box[0], box[1])
         one.set_ylim(box[2], box[3])
+    for one in list(axes.flat)[count:]:
+        one.set_visible(False)
+    style.name_axes(axes)
     return figure, list(axes.flat)
 
 
-def pictures(series):
-    """(name, figure) of streamlines at up to MOST_TIMES output times after the start."""
+def pictures(series, size):
+    """(name, figure) of streamlines at up to MOST_TIMES output times after the start; `size`: the run's scales."""
     gas = next((one for one in series if one.is_gas()), None)
     solids = [one for one in series if not one.is_gas()]
     if not gas or not solids or len(gas.outputs[0].grids) < 2:
@@ -128,8 +136,6 @@ def pictures(series):
     box = fields.box_around([grid for one in series for output in one.outputs for grid in output.grids])
     figure, axes = _panels(len(moments), box)
     for one, index in zip(axes, moments):
-        _panel(figure, one, gas.outputs[index], [solid.outputs[index] for solid in solids], box)
-    for one in axes[len(moments):]:
-        one.set_visible(False)
+        _panel(figure, one, (gas.outputs[index], [solid.outputs[index] for solid in solids]), box, size.floor(fields.SPEED.unit))
     figure.suptitle("streamlines of the gas, speed of the solid", x=0.01, ha="left", fontsize=10)
     yield "streamlines", figure

@@ -19,6 +19,7 @@ GAS_EDGE = "#2f6f9f"
 GAS_GRIDS = ("#2b5ea8", "#1d8a3d")
 SOLID_GRIDS = ("#b5281e", "#e0559f")
 GAS_LINE, SOLID_LINE = "#2b5ea8", "#b5281e"
+MARGIN = 0.06       # around a picture [inch]
 
 
 def use():
@@ -31,9 +32,23 @@ def use():
 
 
 def save(figure, path):
-    """Writes a picture and forgets it."""
-    figure.savefig(path, bbox_inches="tight", pad_inches=0.06)
+    """Writes a picture and forgets it. Its layout is made here: savefig would draw all of it twice to find its size."""
+    figure.get_layout_engine().execute(figure)
+    with pyplot.rc_context({"figure.constrained_layout.use": False}):
+        figure.set_layout_engine()
+    box = figure.get_tightbbox(figure.canvas.get_renderer()).padded(MARGIN)
+    figure.savefig(path, bbox_inches=box)
     pyplot.close(figure)
+
+
+def name_axes(panels):
+    """x and y at the lower and left rims of a lattice of panels (rows, columns)."""
+    for column in panels.T:
+        lowest = [one for one in column if one.get_visible()][-1:]
+        for one in lowest:
+            one.set_xlabel("x", labelpad=1)
+    for one in panels[:, 0]:
+        one.set_ylabel("y", labelpad=3)
 
 
 def short_numbers(low, high):
