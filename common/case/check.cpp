@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/case/check_geometry.hpp"
 #include "common/case/check_meeting.hpp"
 #include "common/case/check_overlap.hpp"
 #include "common/case/grid_points.hpp"
@@ -324,6 +325,7 @@ void check_case(const Case& problem, const Node& root) {
     fail(at(root, {"solids"}).place, "solids",
          "several solids without a gas have nothing in common; write one case for each");
   }
+  check_geometry(problem, root);
   if (problem.fluid) check_fluid(problem, root);
   for (std::size_t k = 0; k < problem.solids.size(); ++k) {
     const SolidSpec& solid = problem.solids[k];
