@@ -81,11 +81,12 @@ void check_probe_in_solid(const SolidSpec& solid, const Vec2& x, const Node& nod
   bool outside = !within_rim(solid.grid, x);
   for (const BodyFittedSpec& spec : solid.body_fitted) outside = outside || behind(spec, solid.grid, x);
   if (!outside) return;
-  fail(
-      node.place, path,
-      fmt::format("({:.6g}, {:.6g}) lies outside solid `{}` in its reference configuration; move it into the "
-                  "body{}",
-                  x[0], x[1], solid.name, solid.body_fitted.empty() ? "" : ", within its `shape`"));
+  fail(node.place, path,
+       fmt::format(
+           "({:.6g}, {:.6g}) lies outside solid `{}` in its reference configuration; move it into the "
+           "body{}",
+           x[0], x[1], solid.name,
+           solid.body_fitted.empty() ? "" : ", within its `shape` as the points of the outline draw it"));
 }
 
 /// Is there a load on a side?
