@@ -41,9 +41,10 @@ double spacing_of(const GridSpec& grid) {
   return std::max((grid.x_b - grid.x_a) / (grid.n1 - 1), (grid.y_b - grid.y_a) / (grid.n2 - 1));
 }
 
+/// The same rectangle with points as far apart as `spacing` of the case file puts them.
 GridSpec refined(GridSpec grid, double spacing) {
-  grid.n1 = static_cast<int>(std::ceil((grid.x_b - grid.x_a) / spacing)) + 1;
-  grid.n2 = static_cast<int>(std::ceil((grid.y_b - grid.y_a) / spacing)) + 1;
+  grid.n1 = static_cast<int>(std::round((grid.x_b - grid.x_a) / spacing)) + 1;
+  grid.n2 = static_cast<int>(std::round((grid.y_b - grid.y_a) / spacing)) + 1;
   return grid;
 }
 
@@ -67,7 +68,11 @@ std::optional<double> finer_background(const OverlapCheck& check) {
   for (const double part : {0.85, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2}) {
     const double unit = std::pow(10, std::floor(std::log10(part * now)) - 1);
     const double spacing = std::floor(part * now / unit) * unit;
-    if (connects(refined(check.background, spacing), check.body_fitted)) return spacing;
+    const auto connects_at = [&](double h) {
+      return connects(refined(check.background, h), check.body_fitted);
+    };
+    constexpr double margin = 0.9;  // no lucky hit: a finer one does, too
+    if (connects_at(spacing) && connects_at(margin * spacing)) return spacing;
   }
   return std::nullopt;
 }
