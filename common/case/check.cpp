@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/case/check_geometry.hpp"
 #include "common/case/check_meeting.hpp"
 #include "common/case/check_overlap.hpp"
+#include "common/case/check_places.hpp"
 #include "common/case/grid_points.hpp"
 #include "common/case/laws.hpp"
 #include "common/core/suggest.hpp"
@@ -380,6 +382,8 @@ void check_case(const Case& problem, const Node& root) {
     fail(at(root, {"solids"}).place, "solids",
          "several solids without a gas have nothing in common; write one case for each");
   }
+  check_geometry(problem, root);
+  check_laws(problem, root);
   if (problem.fluid) check_fluid(problem, root);
   for (std::size_t k = 0; k < problem.solids.size(); ++k) {
     const SolidSpec& solid = problem.solids[k];
@@ -399,6 +403,7 @@ void check_case(const Case& problem, const Node& root) {
   check_motion(problem, root);
   check_projection(problem, root);
   check_probes(problem, root);
+  check_probe_places(problem, root);
   check_expectations(problem, root);
 }
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 
 #include "common/case/composite_from_case.hpp"
+#include "common/case/overlap_advice.hpp"
+#include "common/core/failure.hpp"
 #include "common/core/suggest.hpp"
 
 namespace fsi {
@@ -69,16 +71,14 @@ void check_overlap(const OverlapCheck& check) {
   if (check.body_fitted.empty()) return;
   check_background(check);
   check_names(check);
-  std::vector<grid::MovingGrid> grids;
-  std::vector<ConstFieldView> views;
   try {
     for (const BodyFittedSpec& spec : check.body_fitted) {
-      grids.emplace_back(grid_of(spec), 0);
-      if (spec.map) check_curve(spec, grids.back());
+      if (spec.map) check_curve(spec, grid::MovingGrid(grid_of(spec), 0));
     }
-    for (const grid::MovingGrid& grid : grids) views.push_back(grid.x());
-    grid::CompositeGrid composite(background_of(check.background), bodies_of(check.body_fitted));
-    composite.connect(views, 0);
+    connect_once(check.background, check.body_fitted);
+  } catch (const NumbersBroke& failure) {
+    const Advice advice = advice_for(check);
+    fail(advice.node.place, advice.path, fmt::format("{}; {}", failure.what(), advice.text));
   } catch (const Failure& failure) {
     fail(place_of(check).place, check.path + ".body_fitted",
          fmt::format("{}; change `lines`, `spacing` or the shape", failure.what()));

@@ -66,4 +66,13 @@ std::vector<grid::BodyFittedGrid> bodies_of(const std::vector<BodyFittedSpec>& s
   return bodies;
 }
 
+void connect_once(const GridSpec& background, const std::vector<BodyFittedSpec>& specs) {
+  std::vector<grid::MovingGrid> grids;
+  std::vector<ConstFieldView> views;
+  for (const BodyFittedSpec& spec : specs) grids.emplace_back(grid_of(spec), 0);
+  for (const grid::MovingGrid& grid : grids) views.push_back(grid.x());
+  grid::CompositeGrid composite(background_of(background), bodies_of(specs));
+  composite.connect(views, 0);
+}
+
 }  // namespace fsi

@@ -18,4 +18,8 @@ grid::GridDescription grid_of(const BodyFittedSpec& spec);
 /// What the overlap needs to know of body-fitted grids.
 std::vector<grid::BodyFittedGrid> bodies_of(const std::vector<BodyFittedSpec>& specs);
 
+/// Marches the grids from their curves and connects them with the background at t = 0, to see whether that
+/// can be done. @throws NumbersBroke for folds and points without donors
+void connect_once(const GridSpec& background, const std::vector<BodyFittedSpec>& specs);
+
 }  // namespace fsi

@@ -79,9 +79,11 @@ void check_restart(const std::string& resolved, const std::string& former) {
   if (found.empty()) return;
   constexpr std::size_t most = 5;
   const std::span<const std::string> shown(found.data(), std::min(found.size(), most));
-  throw UserMistake(fmt::format(
-      "{}: a restart cannot change the case: {}{}; only time.end and the time-outs, output but for its probes, and expect may differ", former,
-      fmt::join(shown, "; "), found.size() > most ? fmt::format("; and {} more", found.size() - most) : ""));
+  throw UserMistake(
+      fmt::format("{}: a restart cannot change the case: {}{}; only time.end and the time-outs, output but "
+                  "for its probes, and expect may differ",
+                  former, fmt::join(shown, "; "),
+                  found.size() > most ? fmt::format("; and {} more", found.size() - most) : ""));
 }
 
 }  // namespace fsi

@@ -197,7 +197,8 @@ constexpr array solid_keys{
         .section = &shape_section},
     Key{.name = "body_fitted",
         .type = Type::section,
-        .meaning = "the grid along the outline",
+        .meaning = "the grid along the outline: at most 0.6 of its smallest radius of curvature deep, with "
+                   "points of `grid` a fifth of that apart",
         .fallback = "all defaults",
         .section = &solid_fitted_section},
     Key{.name = "scheme",

@@ -28,6 +28,12 @@ struct Edge {
     const double steps = log_cosh(sharpness * (s - from)) - log_cosh(sharpness * (s - to));
     return (slope - Vec2::Ones()) * steps / (2 * sharpness);
   }
+  /// How far the bell's averages at the edge's ends lie from the polygon at s.
+  Vec2 rounding(double s) const {
+    const double steps = log_cosh(sharpness * (s - from)) - sharpness * std::abs(s - from) -
+                         log_cosh(sharpness * (s - to)) + sharpness * std::abs(s - to);
+    return (slope - Vec2::Ones()) * steps / (2 * sharpness);
+  }
   Vec2 rise_slope(double s) const {
     return 0.5 * (slope - Vec2::Ones()) *
            (std::tanh(sharpness * (s - from)) - std::tanh(sharpness * (s - to)));
@@ -95,11 +101,19 @@ Outline open_outline(std::vector<Edge> edges, const Vec2& first) {
   return outline;
 }
 
-/// Closed: neighbouring periods belong to it; the middle of the longest edge, the point least touched by the
-/// corners, lies on the polygon.
+/// Periods on each side that an edge is felt in: e^(-2 e periods) is round-off.
+int periods_felt(const std::vector<Edge>& edges) {
+  constexpr double round_off = 18;  // e^-36
+  const Edge& bluntest = *std::ranges::min_element(edges, {}, &Edge::sharpness);
+  return std::max(2, static_cast<int>(std::ceil(round_off / bluntest.sharpness)));
+}
+
+/// Closed: neighbouring periods belong to it, and x(s) is the polygon averaged with the bell. It is placed by
+/// that average at the middle of the longest edge; any other point gives the same.
 Outline closed_outline(const std::vector<Edge>& edges, const std::vector<Vec2>& corners) {
   Outline outline{{}, Vec2::Zero()};
-  for (const double period : {-2.0, -1.0, 0.0, 1.0, 2.0}) {
+  const int periods = periods_felt(edges);
+  for (int period = -periods; period <= periods; ++period) {
     for (Edge edge : edges) {
       edge.from += period;
       edge.to += period;
@@ -108,22 +122,41 @@ Outline closed_outline(const std::vector<Edge>& edges, const std::vector<Vec2>& 
   }
   const auto longest = std::ranges::max_element(edges, {}, [](const Edge& e) { return e.to - e.from; });
   const auto k = static_cast<std::size_t>(longest - edges.begin());
-  const Vec2 middle = 0.5 * (corners[k] + corners[(k + 1) % corners.size()]);
-  outline.constant = middle - outline.position(0.5 * (longest->from + longest->to));
+  const double s = 0.5 * (longest->from + longest->to);
+  Vec2 average = 0.5 * (corners[k] + corners[(k + 1) % corners.size()]);
+  for (const Edge& edge : outline.edges) average += edge.rounding(s);
+  outline.constant = average - outline.position(s);
   return outline;
+}
+
+/// Averages over half the curve and more draw it together to a point.
+[[noreturn]] void too_blunt(const Edge& edge) {
+  throw UserMistake(
+      fmt::format("sharpness {:.4g} is too blunt: less than half of the polygon's length is left; write a "
+                  "greater one (10 makes a square nearly round, with 50 its edges are straight)",
+                  edge.sharpness));
+}
+
+/// A closed polygon with rounded corners. @throws UserMistake where nothing of it is left
+PlaneCurve closed_polygon(const std::vector<Edge>& edges, const std::vector<Vec2>& corners) {
+  const Edge& bluntest = *std::ranges::min_element(edges, {}, &Edge::sharpness);
+  if (bluntest.sharpness < 1) too_blunt(bluntest);
+  const Outline outline = closed_outline(edges, corners);
+  const PlaneCurve curve{.ends = Curve::closed,
+                         .position = [outline](double s) { return outline.position(s); },
+                         .slope = [outline](double s) { return outline.slope(s); }};
+  double length = 0;
+  for (const Edge& edge : edges) length += edge.slope.norm() * (edge.to - edge.from);
+  if (length_of(curve) < 0.5 * length) too_blunt(bluntest);
+  return curve;
 }
 
 }  // namespace
 
 PlaneCurve smoothed_polygon(const SmoothedPolygon& shape) {
   const std::vector<Edge> edges = edges_of(shape);
-  const Outline outline = shape.ends == Curve::closed ? closed_outline(edges, shape.corners)
-                                                      : open_outline(edges, shape.corners.front());
-  const auto slope = [outline](double s) { return outline.slope(s); };
-  if (shape.ends == Curve::closed) {
-    return {
-        .ends = shape.ends, .position = [outline](double s) { return outline.position(s); }, .slope = slope};
-  }
+  if (shape.ends == Curve::closed) return closed_polygon(edges, shape.corners);
+  const Outline outline = open_outline(edges, shape.corners.front());
   // The ends to the bit: they stand on walls.
   return {
       .ends = shape.ends,
@@ -131,7 +164,7 @@ PlaneCurve smoothed_polygon(const SmoothedPolygon& shape) {
         if (s == 0) return first;
         return s == 1 ? last : outline.position(s);
       },
-      .slope = slope};
+      .slope = [outline](double s) { return outline.slope(s); }};
 }
 
 }  // namespace fsi::grid

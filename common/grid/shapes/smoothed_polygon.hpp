@@ -3,7 +3,8 @@
 ///
 /// Each component of x'(s) is the polygon's slope, averaged with the bell e/2 sech^2(e s): log-cosh steps
 /// from edge to edge. The parameter is nearly the normalised arclength; a corner's radius goes as the total
-/// length over e.
+/// length over e. A closed curve is the polygon itself, averaged with the bell as a periodic function: it
+/// does not depend on the corner that is listed first, and has the polygon's symmetries.
 
 #include <vector>
 
@@ -18,7 +19,8 @@ struct SmoothedPolygon {
   std::vector<double> sharpness_at = {};  ///< e of each edge where they differ [-]
 };
 
-/// @throws UserMistake for too few or coinciding corners, a sharpness that is not positive
+/// @throws UserMistake for too few or coinciding corners, a sharpness that is not positive, or
+/// so small that a closed polygon shrinks to less than half its length
 PlaneCurve smoothed_polygon(const SmoothedPolygon& shape);
 
 }  // namespace fsi::grid

@@ -128,7 +128,7 @@ TEST(CaseShape, MistakesSayWhereAndWhatToWrite) {
        "but point 0 of its curve is at (0.9, 0)"},
       {disk_case(circle, "{name: ring, solid: disk}", "{spacing: h, " + rings + "}"),
        "`map` says where its lines are"},
-      {disk_case("{kind: circle, radius: 1.3}"), "change `lines`, `spacing` or the shape"},
+      {disk_case("{kind: circle, radius: 1.3}"), "write at least x: [-1.3, 1.3], y: [-1.3, 1.3]"},
   };
   for (const ShapeMistake& mistake : mistakes) {
     const std::string message = mistake_in(mistake.text);

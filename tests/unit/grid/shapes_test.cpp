@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <vector>
 
 #include "common/core/failure.hpp"
 #include "common/grid/shapes/circle.hpp"
@@ -116,6 +118,68 @@ TEST(Shapes, ClosedSmoothedPolygonClosesSmoothlyAndKeepsItsEdges) {
   const Vec2 corner = square.position(0);
   EXPECT_GT(corner[0], 0);  // rounded inward
   EXPECT_NEAR(corner[0], corner[1], 1e-8);
+}
+
+TEST(Shapes, ClosedSmoothedPolygonIsTheSameFromWhicheverCornerItIsListed) {
+  const std::vector<Vec2> corners{{1.5, -0.5}, {2.5, -0.5}, {2.8, 0.4}, {1.5, 0.5}};
+  for (const double sharpness : {5.0, 10.0, 50.0}) {
+    const PlaneCurve curve =
+        smoothed_polygon({.corners = corners, .ends = Curve::closed, .sharpness = sharpness});
+    std::vector<Vec2> turned = corners;
+    double from = 0, total = 0;
+    for (std::size_t k = 0; k < 4; ++k) total += (corners[(k + 1) % 4] - corners[k]).norm();
+    for (std::size_t first = 1; first < 4; ++first) {
+      from += (corners[first] - corners[first - 1]).norm() / total;
+      std::ranges::rotate(turned, turned.begin() + 1);
+      const PlaneCurve other =
+          smoothed_polygon({.corners = turned, .ends = Curve::closed, .sharpness = sharpness});
+      for (double s = 0; s < 1; s += 0.017) {
+        const Vec2 there = curve.position(std::fmod(s + from, 1.0));
+        EXPECT_NEAR((other.position(s) - there).norm(), 0, 1e-12) << "sharpness " << sharpness;
+      }
+    }
+  }
+}
+
+TEST(Shapes, SmoothedSquareHasTheSymmetryOfTheSquare) {
+  // Blunt enough that the corners are felt everywhere.
+  const PlaneCurve square = smoothed_polygon({.corners = {{1.5, -0.5}, {2.5, -0.5}, {2.5, 0.5}, {1.5, 0.5}},
+                                              .ends = Curve::closed,
+                                              .sharpness = 10});
+  const Vec2 centre(2, 0);
+  for (double s = 0; s < 0.75; s += 0.013) {
+    const Vec2 x = square.position(s) - centre, turned = square.position(s + 0.25) - centre;
+    EXPECT_NEAR((turned - Vec2(-x[1], x[0])).norm(), 0, 1e-12);  // by a quarter turn
+    const Vec2 mirrored = square.position(1 - s) - centre;  // across the diagonal through the first corner
+    EXPECT_NEAR((mirrored - Vec2(x[1], x[0])).norm(), 0, 1e-12);
+  }
+}
+
+TEST(Shapes, SmoothedPolygonIsTheMovingAverageOfThePolygon) {
+  // The mean of all points is kept by an average, whatever its width.
+  const std::vector<Vec2> corners{{0, 0}, {3, 0}, {0, 4}};  // lengths 3, 5, 4
+  const Vec2 mean = (3 * Vec2(1.5, 0) + 5 * Vec2(1.5, 2) + 4 * Vec2(0, 2)) / 12;
+  for (const double sharpness : {6.0, 12.0, 100.0}) {
+    const PlaneCurve curve =
+        smoothed_polygon({.corners = corners, .ends = Curve::closed, .sharpness = sharpness});
+    Vec2 sum = Vec2::Zero();
+    constexpr int n = 1200;
+    for (int k = 0; k < n; ++k) sum += curve.position(static_cast<double>(k) / n) / n;
+    EXPECT_NEAR((sum - mean).norm(), 0, 1e-11) << "sharpness " << sharpness;
+  }
+}
+
+TEST(Shapes, ClosedPolygonThatItsSharpnessDrawsToAPointIsAMistake) {
+  for (const double sharpness : {0.01, 1.0, 3.0}) {
+    const SmoothedPolygon shape{
+        .corners = {{0, 0}, {1, 0}, {1, 1}, {0, 1}}, .ends = Curve::closed, .sharpness = sharpness};
+    try {
+      smoothed_polygon(shape);
+      ADD_FAILURE() << "sharpness " << sharpness;
+    } catch (const UserMistake& mistake) {
+      EXPECT_NE(std::string(mistake.what()).find("is too blunt"), std::string::npos) << mistake.what();
+    }
+  }
 }
 
 TEST(Shapes, SplineMeetsItsPointsAndIsSmoothAcrossTheSeam) {

@@ -1,0 +1,145 @@
+// Bodies that are in each other's way, or out of their grids.
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "tests/unit/case/cases.hpp"
+
+namespace fsi {
+namespace {
+
+using tests::mistake_in;
+
+/// What the tests replace in a case of two disks in a gas.
+struct TwoBodies {
+  std::string left = "{kind: circle, centre: [-1, 0], radius: 0.5}";
+  std::string right = "{kind: circle, centre: [1, 0], radius: 0.5}";
+  std::string box = "{x: [-1.5, -0.5], y: [-0.5, 0.5], spacing: 0.5 * h}";  ///< of the left one
+  std::string fitted = "{lines: 6, spacing: 0.5 * h}";                      ///< of the left one
+};
+
+std::string text_of(const TwoBodies& bodies) {
+  const auto solid = [](const std::string& name, const std::string& box, const std::string& shape,
+                        const std::string& fitted) {
+    return "  " + name + ":\n    law: neo_hookean\n    rho: 1\n    lambda: 1\n    mu: 1\n    grid: " + box +
+           "\n    shape: " + shape + "\n    body_fitted: " + fitted + "\n";
+  };
+  return "time: {end: 1}\ngrid: {factor: 2}\n"
+         "fluid:\n"
+         "  grid: {x: [-2.5, 2.5], y: [-2, 2], spacing: h}\n"
+         "  body_fitted:\n    - {name: ring_a, solid: a}\n    - {name: ring_b, solid: b}\n"
+         "  boundary: {left: outflow, right: outflow, bottom: outflow, top: outflow}\n"
+         "  initial: {rho: 1, v: [0, 0], p: 1}\n"
+         "solids:\n" +
+         solid("a", bodies.box, bodies.left, bodies.fitted) +
+         solid("b", "{x: [-2, 3], y: [-1, 1], spacing: 0.5 * h}", bodies.right,
+               "{lines: 6, spacing: 0.5 * h}");
+}
+
+/// Places in the file above.
+const std::string ring_b = "case.yaml:7:7: ", grid_a = "case.yaml:16:11: ", shape_a = "case.yaml:17:12: ",
+                  fitted_a = "case.yaml:18:18: ", shape_b = "case.yaml:25:12: ";
+
+void expect_mistake(const TwoBodies& bodies, const std::string& beginning, const std::string& part) {
+  const std::string message = mistake_in(text_of(bodies));
+  EXPECT_TRUE(message.starts_with(beginning)) << message;
+  EXPECT_NE(message.find(part), std::string::npos) << message;
+  EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+}
+
+/// The number behind a word of a message.
+double number_after(const std::string& message, const std::string& words) {
+  const std::size_t at = message.find(words);
+  return at == std::string::npos ? 0 : std::stod(message.substr(at + words.size()));
+}
+
+std::string disk_at(double x) {
+  return "{kind: circle, centre: [" + std::to_string(x) + ", 0], radius: 0.5}";
+}
+
+TEST(CaseGeometry, TwoDisksApartAreFine) {
+  EXPECT_EQ(mistake_in(text_of({})), "");
+}
+
+TEST(CaseGeometry, SolidsThatOverlapAreNamedWithHowFar) {
+  const TwoBodies bodies{.right = disk_at(-0.2)};
+  expect_mistake(bodies, shape_b + "solids.b.shape: ", "solid `b` overlaps that of solid `a` by ");
+  // Centres 0.8 apart, radii 0.5: the rims are 0.2 within each other, up to a chord's height.
+  EXPECT_NEAR(number_after(mistake_in(text_of(bodies)), "overlaps that of solid `a` by "), 0.2, 2e-3);
+}
+
+TEST(CaseGeometry, OneSolidWithinAnotherOverlapsItToo) {
+  const TwoBodies bodies{.right = "{kind: circle, centre: [-1, 0], radius: 0.3}"};
+  expect_mistake(bodies, shape_b + "solids.b.shape: ", "solid `b` overlaps that of solid `a` by 0.2 ");
+}
+
+TEST(CaseGeometry, SolidsNearerThanTheirGridsAreToldTheDistanceThatIsEnough) {
+  const TwoBodies near{.right = disk_at(0.1)};
+  expect_mistake(near, ring_b + "fluid.body_fitted[1]: ", "solid `b` and solid `a` are 0.10");
+  const double enough = number_after(mistake_in(text_of(near)), "move them ");
+  EXPECT_EQ(mistake_in(text_of({.right = disk_at(enough + 1e-3)})), "");
+}
+
+TEST(CaseGeometry, SolidBeyondTheGasSaysWhichSideAndHowFar) {
+  expect_mistake({.right = disk_at(2.2)}, shape_b + "solids.b.shape: ",
+                 "reaches (2.7, 0), 0.2 beyond the right side of fluid.grid, x = 2.5");
+}
+
+TEST(CaseGeometry, SolidNearTheRimOfTheGasIsToldTheDistanceThatIsEnough) {
+  const TwoBodies near{.right = disk_at(1.95)};
+  expect_mistake(near, ring_b + "fluid.body_fitted[1]: ", "solid `b` is 0.05 from the rim of fluid.grid");
+  const double enough = number_after(mistake_in(text_of(near)), "leave ");
+  EXPECT_EQ(mistake_in(text_of({.right = disk_at(2 - enough - 1e-3)})), "");
+}
+
+TEST(CaseGeometry, BoxOfASolidThatDoesNotHoldItsShapeIsToldTheOneThatDoes) {
+  TwoBodies bodies{.box = "{x: [-1.5, -0.6], y: [-0.5, 0.5], spacing: 0.5 * h}"};
+  const std::string remedy = "x: [-1.5, -0.5], y: [-0.5, 0.5]";
+  expect_mistake(bodies, grid_a + "solids.a.grid: ", "0.1 beyond its right side; write at least " + remedy);
+  bodies.box = "{" + remedy + ", spacing: 0.5 * h}";
+  EXPECT_EQ(mistake_in(text_of(bodies)), "");
+}
+
+TEST(CaseGeometry, OutlineThatCrossesItselfSaysWhichListedPointsAreOutOfOrder) {
+  const TwoBodies bodies{.left =
+                             "{kind: polygon, sharpness: 100, corners: [[-1.4, -0.4], [-0.6, 0.4], [-0.6, "
+                             "-0.4], [-1.4, 0.4]]}"};
+  expect_mistake(bodies, shape_a + "solids.a.shape: ",
+                 "crosses itself near (-1, 0), where the line from its point 1 (-1.4, -0.4) to 2 (-0.6, 0.4) "
+                 "meets that from its point 3 (-0.6, -0.4) to 4 (-1.4, 0.4)");
+}
+
+TEST(CaseGeometry, TooCoarseACoreIsToldTheSpacingThatConnects) {
+  TwoBodies bodies{.box = "{x: [-1.5, -0.5], y: [-0.5, 0.5], spacing: h}",
+                   .fitted = "{lines: 6, spacing: 0.25 * h}"};
+  expect_mistake(bodies, grid_a + "solids.a.grid: ", "the points of `grid` are too far apart");
+  const double spacing = number_after(mistake_in(text_of(bodies)), "write `spacing: ");
+  EXPECT_LT(spacing, 0.05);
+  bodies.box = "{x: [-1.5, -0.5], y: [-0.5, 0.5], spacing: " + std::to_string(spacing) + "}";
+  EXPECT_EQ(mistake_in(text_of(bodies)), "");
+}
+
+TEST(CaseGeometry, TooDeepAGridInASolidIsToldTheLinesThatFit) {
+  TwoBodies bodies{.fitted = "{lines: 40, spacing: 0.5 * h}"};  // deeper than the radius
+  expect_mistake(bodies, fitted_a + "solids.a.body_fitted: ", "write `lines: ");
+  const int lines = static_cast<int>(number_after(mistake_in(text_of(bodies)), "write `lines: "));
+  EXPECT_LE((lines - 1) * 0.025, 0.6 * 0.5);
+  bodies.fitted = "{lines: " + std::to_string(lines) + ", spacing: 0.5 * h}";
+  EXPECT_EQ(mistake_in(text_of(bodies)), "");
+}
+
+TEST(CaseGeometry, BeamHigherThanItsChannelIsToldSo) {
+  try {
+    load_case("beam", {"parameters.height=1.6"});
+    ADD_FAILURE() << "nothing was said";
+  } catch (const std::exception& mistake) {
+    const std::string message = mistake.what();
+    EXPECT_NE(message.find("solids.beam.shape: the outline of solid `beam` reaches (0, "), std::string::npos)
+        << message;
+    EXPECT_NE(message.find("beyond the top side of fluid.grid, y = 1.5"), std::string::npos) << message;
+  }
+}
+
+}  // namespace
+}  // namespace fsi

@@ -1,0 +1,87 @@
+// Probes without a value, and laws that a case cannot have.
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "common/core/failure.hpp"
+#include "tests/unit/case/cases.hpp"
+
+namespace fsi {
+namespace {
+
+/// The message of a case of configs/, "" where it is fine.
+std::string mistake_of(const std::string& name, const std::vector<std::string>& overrides,
+                       const std::vector<std::string>& laws = {}) {
+  try {
+    load_case(name, overrides, laws);
+    return "";
+  } catch (const UserMistake& mistake) {
+    return mistake.what();
+  }
+}
+
+std::string disk_probe(const std::string& in, const std::string& x, const std::string& y) {
+  return mistake_of("rotating_disk",
+                    {"output.probes=[{name: a, in: " + in + ", x: " + x + ", y: " + y + "}]"});
+}
+
+TEST(CaseProbe, OutsideTheGasIsRefusedAndOnItsRimFine) {
+  EXPECT_NE(disk_probe("fluid", "-10", "0").find("output.probes: (-10, 0) lies outside fluid.grid"),
+            std::string::npos);
+  EXPECT_EQ(disk_probe("fluid", "-2", "0"), "");
+  EXPECT_EQ(disk_probe("fluid", "2", "2"), "");
+}
+
+TEST(CaseProbe, OfTheGasWithinABodyIsRefusedWithTheNameOfTheBody) {
+  const std::string message = disk_probe("fluid", "0.9", "0");
+  EXPECT_NE(message.find("(0.9, 0) lies in solid `disk` at t = 0"), std::string::npos) << message;
+  EXPECT_NE(message.find("write `in: disk`"), std::string::npos) << message;
+  EXPECT_EQ(disk_probe("fluid", "1.1", "0"), "");
+}
+
+TEST(CaseProbe, OfASolidOutsideItsShapeIsRefused) {
+  // In the box of the core, but not in the disk.
+  const std::string message = disk_probe("disk", "0.9", "0.9");
+  EXPECT_NE(message.find("(0.9, 0.9) lies outside solid `disk`"), std::string::npos) << message;
+  EXPECT_EQ(disk_probe("disk", "0.9", "0"), "");
+}
+
+TEST(CaseProbe, OfASolidOutsideItsGridIsRefused) {
+  const std::string probe = "output.probes=[{name: a, in: block, x: 0.5, y: 0.5}]";
+  const std::string message = mistake_of("template", {probe});
+  EXPECT_NE(message.find("(0.5, 0.5) lies outside solid `block`"), std::string::npos) << message;
+}
+
+TEST(CaseProbe, BesideABeamOnAWallIsInTheGas) {
+  EXPECT_EQ(mistake_of("beam", {"output.probes=[{name: a, in: fluid, x: 0.2, y: 0.5}]"}), "");
+  EXPECT_NE(
+      mistake_of("beam", {"output.probes=[{name: a, in: fluid, x: 0, y: 0.5}]"}).find("in solid `beam`"),
+      std::string::npos);
+}
+
+TEST(CaseLaw, ReferenceThatNeedsDeformationRefusesARigidSolid) {
+  const std::string message = mistake_of("rotating_disk", {}, {"disk=rigid"});
+  EXPECT_TRUE(message.starts_with("--solid disk=rigid: ")) << message;
+  EXPECT_NE(message.find("reference `rotating_disk` is computed with a law of deformation"),
+            std::string::npos)
+      << message;
+}
+
+TEST(CaseLaw, ClampedSolidCannotBeRigid) {
+  const std::string message = mistake_of("beam", {}, {"beam=rigid"});
+  EXPECT_NE(message.find("beam.yaml:"), std::string::npos) << message;
+  EXPECT_NE(message.find("solids.beam.boundary.bottom: a rigid solid cannot have its motion given"),
+            std::string::npos)
+      << message;
+  EXPECT_EQ(mistake_of("beam", {"solids.beam.boundary.bottom=slip_wall"}, {"beam=rigid"}), "");
+}
+
+TEST(CaseLaw, LoadedSideCannotBeRigid) {
+  const std::string side = "solids.beam.boundary.bottom={kind: traction, value: [t, 0]}";
+  const std::string message = mistake_of("beam", {side}, {"beam=rigid"});
+  EXPECT_NE(message.find("a rigid solid cannot carry a load"), std::string::npos) << message;
+}
+
+}  // namespace
+}  // namespace fsi
