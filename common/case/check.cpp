@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/case/check_expectations.hpp"
 #include "common/case/check_geometry.hpp"
 #include "common/case/check_meeting.hpp"
 #include "common/case/check_overlap.hpp"
@@ -327,35 +328,6 @@ void check_probes(const Case& problem, const Node& root) {
     if (std::ranges::find(problem.output.probes.begin(), before, probe.name, &ProbeSpec::name) != before)
       fail(node.find("name")->place, fmt::format("output.probes[{}].name", k),
            fmt::format("there are two probes {}; choose another name", in_ticks(probe.name)));
-  }
-}
-
-/// The quantities a summary.json may have, as far as they are known before the run.
-void check_expectations(const Case& problem, const Node& root) {
-  static const std::vector<std::string> quantities{
-      "status",       "reason", "t",         "steps",    "dt",          "wall_s",
-      "participants", "errors", "interface", "counters", "conservation"};
-  static const std::vector<std::string> errors{"rho", "v1", "v2", "T", "rho_mean", "u_bar", "v_bar", "P_bar"};
-  std::vector<std::string> programs = solid_names(problem);
-  if (problem.fluid) programs.emplace_back("fluid");
-  programs.emplace_back("coupler");
-  const auto require = [&](const Expectation& entry, const std::string& word,
-                           const std::vector<std::string>& known) {
-    if (std::find(known.begin(), known.end(), word) != known.end()) return;
-    const std::string hint = did_you_mean(word, known);
-    fail(
-        at(root, {"expect", entry.quantity}).place, "expect",
-        fmt::format("summary.json has no {} ({}){}", in_ticks(entry.quantity), fmt::join(known, ", "), hint));
-  };
-  for (const Expectation& entry : problem.expect) {
-    const std::size_t dot = entry.quantity.find('.');
-    const std::string first = entry.quantity.substr(0, dot);
-    require(entry, first, quantities);
-    if (dot == std::string::npos) continue;
-    const std::string rest = entry.quantity.substr(dot + 1);
-    if (first == "errors") require(entry, rest, errors);
-    if (first == "participants" || first == "conservation")
-      require(entry, rest.substr(0, rest.find('.')), programs);
   }
 }
 

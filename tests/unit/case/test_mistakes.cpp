@@ -111,11 +111,6 @@ const Mistake values[] = {
     {"ChosenSolutionsWithoutAPath", "output:", "reference: {kind: manufactured, u: [0, 0]}\noutput:",
      "case.yaml:28:12: reference: kind manufactured for gas and solid needs the path of the interface; write "
      "interface: {motion: [.., ..]}"},
-    {"ARigidSolidWithoutItsAddedMass", "solids:\n  solid:\n    law: neo_hookean",
-     "interface: {projection: traditional}\nsolids:\n  solid:\n    law: rigid",
-     "case.yaml:16:25: interface.projection: traditional is not there for the rigid solid `solid`, which is "
-     "moved "
-     "together with the gas's answer to it; write simplified or full, which are the same for it"},
     {"SubstepsOfTheTraditionalScheme", "time: {end: 1, cfl: 0.9}",
      "interface: {projection: traditional}\ntime: {end: 1, multirate: true}",
      "case.yaml:6:27: time.multirate: does not go with `interface.projection: traditional`, whose substeps "
