@@ -21,7 +21,7 @@ ROOT = Path(__file__).resolve().parent.parent
 PICTURES = ROOT / "docs" / "figures"
 PAGE = ROOT / "docs" / "figures.md"
 RUNS = Path("runs") / "figures"
-WIDTH = 1500    # [px] of a picture at most
+WIDTH = 1200    # [px] of a picture at most
 COLOURS = 256
 
 
@@ -62,13 +62,17 @@ class Picture:
     def command(self):
         return ["./launch/fsi", "plot", *(run.folder for run in self.runs), *self.options]
 
-    def make(self, target):
-        """Draws it and keeps a small copy."""
+    def draw(self):
         subprocess.run(self.command(), cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
+
+    def keep(self, target):
+        """A small copy of what was drawn."""
         with Image.open(ROOT / self.runs[0].folder / "plots" / f"{self.name}.png") as image:
             small = image.convert("RGB")
             small.thumbnail((WIDTH, 4 * WIDTH), Image.Resampling.LANCZOS)
-            small.quantize(COLOURS, dither=Image.Dither.NONE).save(target, optimize=True)
+            if not self.name.startswith("schlieren"):  # their greys need all colours, lines do not
+                small = small.quantize(COLOURS, dither=Image.Dither.NONE)
+            small.save(target, optimize=True)
 
 
 @dataclass
@@ -128,7 +132,7 @@ FIGURES = (
            text="Every entry is smaller than the paper's. The traditional scheme fails for the light disk as in the paper; for the medium one "
                 "it holds on cells as square as the paper's and fails on flatter ones, for reasons given in "
                 "[theory_coupler.md](theory_coupler.md)."),
-    Figure("15", "grids of the ellipse", (Picture((ellipse("neo_hookean", 4),), "grid_ellipse", "At the end, t = 4, after most of a turn."),)),
+    Figure("15", "grids of the ellipse", (Picture((ellipse("neo_hookean", 4),), "grid_ellipse", "At the end, t = 4."),)),
     Figure("16", "a shock hits a light ellipse", tuple(
         Picture((ellipse(law, 8),), "schlieren", law.replace("_", " ") + ".") for law in LAWS)),
     Figure("17", "boundaries of the three solids", (
@@ -183,7 +187,8 @@ def main(numbers):
         for index, picture in enumerate(figure.pictures):
             for run in picture.runs:
                 run.make()
-            picture.make(PICTURES / file_name(figure, index))
+            picture.draw()
+            picture.keep(PICTURES / file_name(figure, index))
     head = ("# The paper, figure by figure\n\nWhat makes each figure and table of the paper, and what it looks like; "
             "`docs/record_figures.py` repeats it all and writes this page. Figures 1-3, 5 and 6 are sketches.\n")
     PAGE.write_text(head + "\n" + "\n".join(section(figure) for figure in FIGURES).rstrip() + "\n", encoding="utf-8")
