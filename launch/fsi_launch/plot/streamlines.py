@@ -11,7 +11,7 @@ from fsi_launch.plot import fields, mesh, style
 MOST_TIMES = 8
 PANEL = 4.4         # width [inch]
 POINTS = 420        # of the longer side of the lattice on which streamlines are traced
-STILL = 0.05        # of the largest speed: gas that hardly flows, where errors of the scheme would decide on the direction
+STILL = 0.01        # of the largest speed: gas that hardly flows, where errors of the scheme would decide on the direction
 DENSITY = 1.3
 SHORTEST = 0.02     # streamline, part of the width of a panel
 
