@@ -11,6 +11,7 @@
 #include <array>
 #include <chrono>
 #include <csignal>
+#include <ctime>
 #include <functional>
 #include <string>
 #include <utility>
@@ -23,6 +24,16 @@ using Clock = std::chrono::steady_clock;
 
 inline double since(Clock::time_point moment) {
   return std::chrono::duration<double>(Clock::now() - moment).count();
+}
+
+/// Computes for so many seconds of its own processor time.
+inline void compute(double seconds) {
+  const auto spent = [] {
+    timespec time{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+  };
+  for (const double end = spent() + seconds; spent() < end;) continue;
 }
 
 /// One forked program. Its body gets a function that sends a word to the test; a Failure ends it with its

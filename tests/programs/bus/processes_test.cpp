@@ -147,16 +147,6 @@ TEST(Hanging, SolverThatSleepsWithoutEndIsNamed) {
   }
 }
 
-/// Computes for so many seconds of its own processor time.
-void compute(double seconds) {
-  const auto spent = [] {
-    timespec time{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-  };
-  for (const double end = spent() + seconds; spent() < end;) continue;
-}
-
 /// It neither sleeps nor ends its step, and its other threads renew the lease.
 TEST(Hanging, SolverThatComputesWithoutEndIsNamed) {
   BusOptions impatient = options(own_run());
