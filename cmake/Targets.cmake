@@ -1,4 +1,5 @@
-# fsi_library(name SOURCES ... DEPENDS ...)     a static library seen from the repository root: #include "common/core/field.hpp"
+# fsi_library(name SOURCES ... KERNELS ... DEPENDS ...)  a static library seen from the repository root: #include
+#   "common/core/field.hpp"; KERNELS are the sources with the loops over all points, compiled with -O3
 # fsi_program(name SOURCES ... DEPENDS ...)     an executable in <build>/bin
 #   the target `programs` builds all that a run may need, and no tests
 # fsi_test(name LABEL unit SOURCES ... DEPENDS ...)  a GoogleTest executable; every TEST becomes one CTest test
@@ -29,9 +30,12 @@ function(fsi_precompile name)
 endfunction()
 
 function(fsi_library name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS" ${ARGN})
-  if(ARG_SOURCES)
-    add_library(${name} STATIC ${ARG_SOURCES})
+  cmake_parse_arguments(ARG "" "" "SOURCES;KERNELS;DEPENDS" ${ARGN})
+  if(ARG_SOURCES OR ARG_KERNELS)
+    add_library(${name} STATIC ${ARG_SOURCES} ${ARG_KERNELS})
+    if(ARG_KERNELS)
+      set_property(SOURCE ${ARG_KERNELS} APPEND PROPERTY COMPILE_OPTIONS $<$<CONFIG:Release>:-O3>)
+    endif()
     target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR})
     target_link_libraries(${name} PUBLIC fsi_settings ${ARG_DEPENDS})
     fsi_precompile(${name} fsi_precompiled)
