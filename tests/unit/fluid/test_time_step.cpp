@@ -5,7 +5,7 @@
 #include <cmath>
 #include <complex>
 
-#include "fluid_solver/time_step.hpp"
+#include "fluid_solver/kernels/time_step.hpp"
 #include "tests/unit/fluid/gas_runs.hpp"
 
 namespace fsi::fluid {
