@@ -103,9 +103,14 @@ TEST(Eq35Sweep, LeavesABodyInUniformStressAtRest) {
   }
 }
 
+/// A mapped grid whose cells all look alike, on which face values of linear fields are exact.
+grid::MovingGrid sheared_square(int number) {
+  return test::grid_of([](double r, double s) { return Vec2(r + 0.2 * s, 0.1 * r + s); }, number);
+}
+
 TEST(Eq36Sweep, StressFollowsTheLawThroughAUniformStrainRateEq37) {
   // F grows by dt L. The midpoint rule for dP = K : L has an error of dt^3: an eighth at half of the step.
-  for (const auto& grid : {test::skewed_grid, test::unit_square}) {
+  for (const auto& grid : {sheared_square, test::unit_square}) {
     Block block(grid(cells));
     const auto error_after = [&](double dt) {
       const auto state = [](const Vec2& x) {
