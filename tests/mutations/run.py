@@ -1,19 +1,22 @@
 #!/usr/bin/python3
-"""Does the suite notice a wrong sign? Usage: tests/mutations/run.py [--only WORD] [--list] [--check]
+"""Does the suite notice a wrong sign? Usage: tests/mutations/run.py [--only WORD] [--copies N] [--list] [--check]
 
-Takes a copy of the source tree in build/mutations, makes one change of table.py at a time there, builds the program with the
-tests that should notice, and runs them; where they do not, the rest of that program too. --only takes the mutations with
-WORD in their name, --list shows them, --check only sees whether the table fits the tree. By hand (it compiles something for
-every mutation); docs/record_results.py "Changed sources" puts the table into docs/results.md. Exit 1 where one goes unnoticed.
+Takes a copy of the source tree in build/mutations (or N of them, which work side by side), makes one change of table.py at
+a time there, builds the program with the tests that should notice, and runs them; where they do not, the rest of that program
+too. --only takes the mutations with WORD in their name, --list shows them, --check only sees whether the table fits the
+tree. By hand, since it compiles something for every mutation; docs/record_results.py "Changed sources" puts the table into
+docs/results.md. Exit 1 where one goes unnoticed.
 """
 
 import argparse
 import os
+import queue
 import re
 import shutil
 import subprocess
 import sys
 import time
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent))
@@ -21,8 +24,6 @@ sys.dont_write_bytecode = True
 from table import MUTATIONS  # noqa: E402
 
 ROOT = Path(__file__).resolve().parents[2]
-COPY = ROOT / "build" / "mutations"
-BUILD = COPY / "build" / "release"
 LEFT_OUT = ("build", "runs", ".git", "docs")
 
 
@@ -45,87 +46,125 @@ def misfits(root=ROOT):
             yield f"{name}: no tests are called {target}"
 
 
-def refresh_copy():
-    """The tree as it is; files that are the same keep their times, so that nothing is built twice."""
-    wanted = set()
-    for folder, names, entries in os.walk(ROOT):
-        relative = Path(folder).relative_to(ROOT)
-        names[:] = [name for name in names if not (name in LEFT_OUT and relative == Path("."))]
-        for entry in entries:
-            source, target = ROOT / relative / entry, COPY / relative / entry
-            wanted.add(target)
-            if not target.is_file() or target.read_bytes() != source.read_bytes():
-                target.parent.mkdir(parents=True, exist_ok=True)
-                shutil.copy2(source, target)
-                os.utime(target)
-    for target in COPY.rglob("*"):
-        if target.is_file() and target not in wanted and "build" not in target.relative_to(COPY).parts:
-            target.unlink()
+class Copy:
+    """A copy of the tree with a build of its own."""
 
+    def __init__(self, number):
+        self.root = ROOT / "build" / "mutations" / str(number)
+        self.build_folder = self.root / "build" / "release"
+        self.ready = False
 
-def run(*command):
-    surroundings = dict(os.environ)
-    if shutil.which("ccache"):  # what is changed back need not be compiled again
-        for key, value in (("CMAKE_CXX_COMPILER_LAUNCHER", "ccache"), ("CCACHE_BASEDIR", str(COPY)), ("CCACHE_NOHASHDIR", "1")):
-            surroundings.setdefault(key, value)
-    return subprocess.run(command, cwd=COPY, env=surroundings, capture_output=True, text=True, check=False)
+    def refresh(self):
+        """The tree as it is; files that are the same keep their times, so that nothing is built twice."""
+        wanted = set()
+        for folder, names, entries in os.walk(ROOT):
+            relative = Path(folder).relative_to(ROOT)
+            names[:] = [name for name in names if not (name in LEFT_OUT and relative == Path("."))]
+            for entry in entries:
+                source, target = ROOT / relative / entry, self.root / relative / entry
+                wanted.add(target)
+                if not target.is_file() or target.read_bytes() != source.read_bytes():
+                    target.parent.mkdir(parents=True, exist_ok=True)
+                    shutil.copy2(source, target)
+                    os.utime(target)
+        for target in self.root.rglob("*"):
+            if target.is_file() and target not in wanted and "build" not in target.relative_to(self.root).parts:
+                target.unlink()
 
+    def run(self, *command):
+        surroundings = dict(os.environ)
+        if shutil.which("ccache"):  # what is changed back need not be compiled again
+            for key, value in (("CMAKE_CXX_COMPILER_LAUNCHER", "ccache"), ("CCACHE_BASEDIR", str(self.root)),
+                               ("CCACHE_NOHASHDIR", "1")):
+                surroundings.setdefault(key, value)
+        return subprocess.run(command, cwd=self.root, env=surroundings, capture_output=True, text=True, check=False)
 
-def build(target):
-    return run("ninja", "-C", str(BUILD), target).returncode == 0
+    def build(self, target):
+        return self.run("ninja", "-C", str(self.build_folder), target).returncode == 0
 
+    def prepare(self):
+        """The tree, configured."""
+        if self.ready:
+            return
+        self.root.mkdir(parents=True, exist_ok=True)
+        self.refresh()
+        configured = self.run("cmake", "--preset", "release")
+        if configured.returncode != 0:
+            raise RuntimeError(configured.stdout + configured.stderr)
+        self.ready = True
 
-def tests_fail(target, tests):
-    """Name of the first test of a filter that fails, "" where none does; a crash or a hang counts."""
-    command = [str(BUILD / "bin" / target), f"--gtest_filter={tests}", "--gtest_fail_fast"]
-    try:
-        done = subprocess.run(command, cwd=COPY, capture_output=True, text=True, check=False, timeout=600)
-    except subprocess.TimeoutExpired:
-        return f"{target} (did not end)"
-    if done.returncode == 0:
-        return "" if "[  PASSED  ] 0 tests" not in done.stdout else f"{target} (has no {tests})"
-    failed = re.search(r"^\[  FAILED  \] ([^\s,]+\.[^\s,]+)", done.stdout, re.MULTILINE)
-    return failed.group(1) if failed else f"{target} (ended with {done.returncode})"
+    def tests_fail(self, target, tests):
+        """Name of the first test of a filter that fails, "" where none does; a crash or a hang counts."""
+        command = [str(self.build_folder / "bin" / target), f"--gtest_filter={tests}", "--gtest_fail_fast"]
+        try:
+            done = subprocess.run(command, cwd=self.root, capture_output=True, text=True, check=False, timeout=600)
+        except subprocess.TimeoutExpired:
+            return f"{target} (did not end)"
+        if done.returncode == 0:
+            return "" if "[  PASSED  ] 0 tests" not in done.stdout else f"{target} (has no {tests})"
+        failed = re.search(r"^\[  FAILED  \] ([^\s,]+\.[^\s,]+)", done.stdout, re.MULTILINE)
+        return failed.group(1) if failed else f"{target} (ended with {done.returncode})"
 
+    def try_one(self, mutation):
+        """What noticed a mutation, "" for nothing."""
+        _, file, text, replacement, target, tests = mutation
+        path = self.root / file
+        original = path.read_text(encoding="utf-8")
+        try:
+            path.write_text(original.replace(text, replacement), encoding="utf-8")
+            if not self.build(target):
+                return "the compiler"
+            return self.tests_fail(target, tests) or self.tests_fail(target, "*")
+        finally:
+            path.write_text(original, encoding="utf-8")
 
-def try_one(mutation):
-    """What noticed a mutation, and the seconds it took to build and to test."""
-    _, file, text, replacement, target, tests = mutation
-    path = COPY / file
-    original = path.read_text(encoding="utf-8")
-    start = time.monotonic()
-    try:
-        path.write_text(original.replace(text, replacement), encoding="utf-8")
-        if not build(target):
-            return "the compiler", time.monotonic() - start, 0.0
-        built = time.monotonic()
-        noticed = tests_fail(target, tests) or tests_fail(target, "*")
-        return noticed, built - start, time.monotonic() - built
-    finally:
-        path.write_text(original, encoding="utf-8")
+    def try_all(self, target, mutations):
+        """{mutation: what noticed it} of one target."""
+        self.prepare()
+        if not self.build(target):
+            raise RuntimeError(f"{target} does not build")
+        for tests in sorted({mutation[5] for mutation in mutations}):
+            if failing := self.tests_fail(target, tests):
+                raise RuntimeError(f"{failing} fails without any mutation")
+        found = {}
+        for mutation in mutations:
+            start = time.monotonic()
+            found[mutation] = self.try_one(mutation)
+            told = f"noticed by {found[mutation]}" if found[mutation] else "NOT NOTICED"
+            print(f"{mutation[0]}: {told}, {time.monotonic() - start:.0f} s", file=sys.stderr, flush=True)
+        return found
 
 
 def table_of(results):
     lines = ["| mutation | in | first test that fails |", "|---|---|---|"]
-    lines += [f"| {name} | `{file}` | {f'`{noticed}`' if noticed else 'none'} |" for (name, file, *_), (noticed, *_) in results]
+    lines += [f"| {name} | `{file}` | {f'`{noticed}`' if noticed else 'none'} |" for (name, file, *_), noticed in results.items()]
     return "\n".join(lines)
 
 
-def prepare(targets):
-    """A copy that is built and whose tests pass."""
-    COPY.mkdir(parents=True, exist_ok=True)
-    refresh_copy()
-    configured = run("cmake", "--preset", "release")
-    if configured.returncode != 0:
-        sys.exit(configured.stdout + configured.stderr)
-    for target in sorted(targets):
-        if not build(target):
-            sys.exit(f"{target} does not build")
+def try_mutations(mutations, copies):
+    """{mutation: what noticed it}, the tests of one program after the other in each copy."""
+    free = queue.SimpleQueue()
+    for number in range(copies):
+        free.put(Copy(number))
+
+    def work(target):
+        copy = free.get()
+        try:
+            return copy.try_all(target, [mutation for mutation in mutations if mutation[4] == target])
+        finally:
+            free.put(copy)
+
+    found = {}
+    with ThreadPoolExecutor(copies) as pool:
+        for part in pool.map(work, dict.fromkeys(mutation[4] for mutation in mutations)):
+            found |= part
+    return {mutation: found[mutation] for mutation in mutations}
 
 
 def main():
     arguments = argparse.ArgumentParser(usage=__doc__)
     arguments.add_argument("--only", default="")
+    arguments.add_argument("--copies", type=int, default=1)
     arguments.add_argument("--list", action="store_true")
     arguments.add_argument("--check", action="store_true")
     chosen = arguments.parse_args()
@@ -136,18 +175,8 @@ def main():
     if chosen.check or chosen.list:
         print("\n".join(mutation[0] for mutation in mutations) if chosen.list else f"{len(MUTATIONS)} mutations fit the tree")
         return 0
-    prepare({mutation[4] for mutation in mutations})
-    for target, tests in sorted({mutation[4:6] for mutation in mutations}):
-        if failing := tests_fail(target, tests):
-            print(f"{failing} fails without any mutation")
-            return 1
-    results = []
-    for mutation in mutations:
-        noticed, built, tested = try_one(mutation)
-        told = f"noticed by {noticed}" if noticed else "NOT NOTICED"
-        print(f"{mutation[0]}: {told}, {built:.0f} + {tested:.1f} s", file=sys.stderr, flush=True)
-        results.append((mutation, (noticed, built, tested)))
-    missed = sum(not noticed for _, (noticed, _, _) in results)
+    results = try_mutations(mutations, chosen.copies)
+    missed = sum(not noticed for noticed in results.values())
     print(f"{len(results)} mutations, {missed} not noticed\n\n{table_of(results)}")
     return 1 if missed else 0
 

@@ -61,7 +61,7 @@ MUTATIONS = [
      "w1 = q.v1[i] - per_dt * (here.x[i] - before.x[i])", "w1 = q.v1[i] + per_dt * (here.x[i] - before.x[i])",
      "test_fluid", "Eq44*"),
     ("restart: the gas's rates are not kept", "fluid_solver/component.cpp",
-     'archive.values("rates", row_rates_);', "", "test_fluid", "GasSolverRestart*"),
+     'archive.values("rates", row_rates_);', "", "test_fluid", "*GasSolverRestart*"),
     # --- solid: laws
     ("K of the linear law", f"{SOLID}/laws/linear_elastic.hpp",
      ".k2121 = mu,", ".k2121 = -mu,", "test_laws", "EveryLaw*"),
