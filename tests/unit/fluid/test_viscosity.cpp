@@ -15,7 +15,7 @@ constexpr double dt = 1e-3, bend = 0.3, turn = 0.4;
 const std::array<Boundary, 4> open_sides{Outflow{}, Outflow{}, Outflow{}, Outflow{}};
 
 /// A Cartesian grid, and a turned and sheared one.
-grid::GridDescription parallelogram(Vec2 along_r1, Vec2 along_r2) {
+grid::GridDescription parallelogram(const Vec2& along_r1, const Vec2& along_r2) {
   return {.n1 = n1, .n2 = n2, .mapping = [=](double r, double s, double) {
             return Vec2(r * (n1 - 1) * along_r1 + s * (n2 - 1) * along_r2);
           }};

@@ -30,7 +30,7 @@ class Block {
 
   /// The state after a step from `state(x)`, given at ghosts too.
   template <Limiter limiter>
-  Field step(const std::function<SolidState(const Vec2&)>& state, double dt, Vec2 force = Vec2::Zero()) {
+  Field step(const std::function<SolidState(const Vec2&)>& state, double dt, const Vec2& force = Vec2::Zero()) {
     const Layout& layout = grid_.layout();
     Field q(layout, plane::count), next(layout, plane::count), b(layout, 2),
         work(Layout(layout.n1, sweep_work_rows), 1);
