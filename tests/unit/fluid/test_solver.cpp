@@ -125,18 +125,20 @@ class GasSolverRestart : public testing::TestWithParam<std::tuple<double, bool>>
 
 TEST_P(GasSolverRestart, ContinuesBitForBit) {
   const auto [viscosity, moving] = GetParam();
-  const auto start = [&] {
+  const auto start = [&](double y) {
     const Vec2 low(-3, -3), high(3, 3);
     return test::solver(moving ? test::wavy(31, 27, low, high) : test::rectangle(31, 27, low, high),
-                        {.shock_viscosity = viscosity}, open_sides, test::Vortex{});
+                        {.shock_viscosity = viscosity}, open_sides, test::Vortex{.y_0 = y});
   };
-  GasSolver whole = start(), first = start(), second = start();
+  // The one that goes on began with a vortex elsewhere, of which nothing may be left.
+  GasSolver whole = start(0), first = start(0), second = start(1.5);
   test::run(first, 0.5);
   Archive saved;
   first.archive(saved);
   Archive loaded(saved.entries());
   second.archive(loaded);
   loaded.check_all_loaded();
+  EXPECT_EQ(second.compute_time_step().dt, first.compute_time_step().dt);
   test::run(whole, 0.5);
   test::run(whole, 1.0);
   test::run(second, 1.0);
