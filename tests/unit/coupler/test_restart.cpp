@@ -74,6 +74,7 @@ TEST_P(CouplerRestart, ContinuesBitForBit) {
   loaded.check_all_loaded();
   for (std::uint64_t step = stop; step < end; ++step) {
     const Told expected = told(whole, step, GetParam()), found = told(second, step, GetParam());
+    EXPECT_EQ(second.next().limited_by, whole.next().limited_by) << "step " << step;
     ASSERT_EQ(found.size(), expected.size());
     for (std::size_t k = 0; k < found.size(); ++k)
       EXPECT_EQ(found[k], expected[k]) << "step " << step << ", " << k;
