@@ -239,6 +239,23 @@ def bench(name):
     return f"`./launch/fsi bench`\n\n```\n{answer.stdout.rstrip()}\n```\n"
 
 
+def protection(name):
+    """What an exchange costs with signed and with encrypted messages: the same trials one after the other, several times."""
+    directory = fresh(name)
+    directory.mkdir(parents=True)
+    words = ["chrt", "--fifo", "1", "./build/release/bin/bench_bus", "--benchmark_repetitions=5"]
+    subprocess.run([*words, f"--benchmark_out={directory / 'bus.json'}"], cwd=ROOT, stdin=subprocess.DEVNULL,
+                   capture_output=True, check=True)
+    found = json.loads((directory / "bus.json").read_text(encoding="utf-8"))["benchmarks"]
+    text = "| points | protection | p50 [us] | p99 [us] | joining [ms] |\n|---|---|---|---|---|\n"
+    for one in found:
+        if one.get("aggregate_name") == "median":
+            points, kind = re.search(r"points:(\d+)/protection:(\w+)", one["name"]).groups()
+            text += f"| {points} | {kind} | {one['p50_us']:.0f} | {one['p99_us']:.0f} | {one['joining_ms']:.0f} |\n"
+    return (f"`{shlex.join(words)}` (as root: the processors are the benchmark's own while it runs), medians of 5 runs each; one exchange "
+            f"is a state from the gas and one from the solid to the coupler, and its two answers, of three processes\n\n{text}")
+
+
 COLUMNS = record_paper.COLUMNS
 
 
@@ -446,6 +463,7 @@ def all_studies():
             *other_studies(), *record_paper.disks(tools), *disk_studies(), *record_ellipse.studies(tools), *beam_studies.studies(tools),
             ("What watching costs", lambda: watched("watched")),
             ("Signals to every program at random moments", lambda: faults(200)), *record_faults.studies(tools),
+            ("What protecting the bus costs", lambda: protection("protection")),
             ("Benchmarks", lambda: bench("bench")), ("Benchmarks, where the time goes", lambda: profile("profile"))]
 
 
