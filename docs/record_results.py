@@ -24,6 +24,7 @@ from pathlib import Path
 import beam_studies
 import record_ellipse
 import record_faults
+import record_impacts
 
 ROOT = Path(__file__).resolve().parent.parent
 RUNS = ROOT / "runs" / "results"
@@ -476,6 +477,7 @@ def main(words):
     sections = kept_sections()
     studies = [*piston_studies(), *chosen_studies(), *other_studies(), *disk_studies(), *record_ellipse.studies(sys.modules[__name__]),
                *beam_studies.studies(sys.modules[__name__]),
+               *record_impacts.studies(sys.modules[__name__]),
                ("What watching costs", lambda: watched("watched")),
                ("Signals to every program at random moments", lambda: faults(200)), *record_faults.studies(sys.modules[__name__]),
                ("Benchmarks", lambda: bench("bench")),
