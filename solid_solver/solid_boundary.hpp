@@ -65,6 +65,11 @@ class SolidBoundary {
     Vec2 u, v;
   };
   std::optional<Motion> given_motion(Side side, int k, double t) const;
+  /// Normal of the wall, if any, along which point k of a side slides: a slip or symmetry side that meets
+  /// this one there.
+  std::optional<Vec2> wall_of(Side side, int k) const;
+  /// Outward unit normal of the reference body.
+  Vec2 normal(Side side, int k) const { return at(side, k).n0; }
   /// The load of a side follows the deformation: its area and its normal are the present ones.
   bool follows(Side side) const { return boundaries_[index(side)].load == LoadConfiguration::current; }
 
@@ -109,7 +114,7 @@ class SolidBoundary {
   void set_normal_stress(FieldView q, Side side, double t) const;
   void follow_characteristics(FieldView q, Side side, double t) const;
   void set_corner_stress(FieldView q, double t) const;
-  void extend_stress_to_corners(FieldView q, Side side) const;
+  void extend_stress_to_corners(FieldView q, Side side, double t) const;
   void match_side(FieldView q, Side side, double t) const;
   void match_point(FieldView q, Side side, int k, double t) const;
   Tensor2 with_sharper_tangent(ConstFieldView q, Side side, int k, const Tensor2& F) const;

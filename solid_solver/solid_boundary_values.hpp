@@ -95,6 +95,15 @@ std::optional<typename SolidBoundary<L>::Motion> SolidBoundary<L>::given_motion(
 }
 
 template <Law L>
+std::optional<Vec2> SolidBoundary<L>::wall_of(Side side, int k) const {
+  const SideIndex line(layout(), side);
+  if (!end_of(line, k)) return std::nullopt;
+  const Kind other = kind(neighbour(side, k != 0));
+  if (other != Kind::slip && other != Kind::symmetry) return std::nullopt;
+  return side_normal_at_end(side, k);
+}
+
+template <Law L>
 bool SolidBoundary<L>::imaged(Side side, int end) const {
   const Kind other = kind(neighbour(side, end != 0));
   return other == Kind::periodic || other == Kind::symmetry;
