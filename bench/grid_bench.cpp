@@ -4,6 +4,8 @@
 #include <benchmark/benchmark.h>
 
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <numbers>
 #include <vector>
 
@@ -26,7 +28,7 @@ struct Ring {
       : march({.name = "ring", .points = around, .lines = lines, .curve = Side::top, .spacing = spacing}),
         x(march.layout(), 2),
         x_old(march.layout(), 2),
-        curve(2 * around) {}
+        curve(std::size_t{2} * around) {}
 
   void place(double t) {
     std::swap(x, x_old);
@@ -91,7 +93,11 @@ void interpolate_four_planes(benchmark::State& state) {
   }
 }
 
-BENCHMARK(overlap_update)->Arg(side)->Arg(2 * side)->Arg(4 * side)->Unit(benchmark::kMicrosecond);
+BENCHMARK(overlap_update)
+    ->Arg(side)
+    ->Arg(std::int64_t{2} * side)
+    ->Arg(std::int64_t{4} * side)
+    ->Unit(benchmark::kMicrosecond);
 BENCHMARK(hyperbolic_march)->Unit(benchmark::kMicrosecond);
 BENCHMARK(interpolate_four_planes)->Unit(benchmark::kMicrosecond);
 

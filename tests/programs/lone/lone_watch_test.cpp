@@ -57,12 +57,13 @@ void run_in(const std::string& folder, std::vector<std::function<void()>> steps,
 }
 
 class ALoneSolver : public testing::Test {
- protected:
+ public:
   ALoneSolver() : folder_(std::filesystem::temp_directory_path() / fmt::format("fsi-lone-{}", getpid())) {
     std::filesystem::create_directories(folder_);
   }
   ~ALoneSolver() override { std::filesystem::remove_all(folder_); }
 
+ protected:
   /// Takes these steps in a process of its own, which says "begun" before them.
   void take(std::vector<std::function<void()>> steps) {
     solver_ =

@@ -27,7 +27,7 @@ CouplerOptions options() {
 
 /// Both sides at an exchange: everything changes from step to step, the bids up and down.
 std::vector<wire::PredictedInterface> exchange(std::uint64_t step, bool modal) {
-  const double s = static_cast<double>(step);
+  const auto s = static_cast<double>(step);
   auto gas = gas_state(n, step);
   auto solid = solid_state(n, step);
   gas.x = solid.x = vertical_line(n, 0.01 * s * s);
