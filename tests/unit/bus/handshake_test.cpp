@@ -81,6 +81,7 @@ TEST(Handshake, CrowdOfStrangersIsNotRemembered) {
   const std::string run = own_run();
   BusOptions impatient = options(run);
   impatient.hello_timeout_s = 2;
+  const auto domain = join_domain(run, 10);
   auto coupler = in_thread([&] { const CouplerSession session(impatient, gas_and_solid(), "one case"); });
   const Entity participant = create_participant(run);
   Writer<amp_fsi_Hello> crowd(participant, hello_topic, Delivery::lasting);
