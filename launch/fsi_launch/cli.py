@@ -179,6 +179,8 @@ def _parser():
     verb = verbs.add_parser("plot", description="Draws the results of a run, or the table of fsi converge, as PNG "
                             "pictures into DIR/plots. Of several runs it draws what can be compared.")
     verb.add_argument("directories", metavar="DIR", nargs="+", help="folder of a run or of fsi converge")
+    verb.add_argument("--at", metavar="TIME", type=float, action="append", default=[], help="draw this output time alone; "
+                      "may be given several times")
     verb.add_argument("--contours", action="store_true", help="contour lines over the fields")
     verb.add_argument("--movie", action="store_true", help="also an animated file, one frame per output (.mp4, .gif without "
                       "ffmpeg)")
