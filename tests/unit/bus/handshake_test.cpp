@@ -1,10 +1,12 @@
 /// How programs find each other at the beginning of a run, and what they say when they do not.
 
+#include <algorithm>
 #include <chrono>
 #include <thread>
 
 #include "common/bus/convert.hpp"
 #include "common/bus/dds.hpp"
+#include "common/bus/link.hpp"
 #include "tests/unit/bus/seats.hpp"
 
 namespace fsi::bus::test {
@@ -72,6 +74,32 @@ TEST(Handshake, WhoeverIsMissingIsNamedToEverybody) {
   EXPECT_TRUE(says(end.reason, "not expected: solid 'plate'")) << end.reason;
   EXPECT_TRUE(says(fluid.get().reason, "solid 'beam' did not join"));
   EXPECT_EQ(stranger.get().code, ExitCode::peer_lost);
+}
+
+/// However many introduce themselves: the coupler remembers a few names, each once.
+TEST(Handshake, CrowdOfStrangersIsNotRemembered) {
+  const std::string run = own_run();
+  BusOptions impatient = options(run);
+  impatient.hello_timeout_s = 2;
+  const auto domain = join_domain(run, 10);
+  auto coupler = in_thread([&] { const CouplerSession session(impatient, gas_and_solid(), "one case"); });
+  const Entity participant = create_participant(run);
+  Writer<amp_fsi_Hello> crowd(participant, hello_topic, Delivery::lasting);
+  while (crowd.matched() == 0) std::this_thread::sleep_for(1ms);
+  for (int k = 0; k < 200; ++k) {
+    wire::Hello stranger = hello("solid", fmt::format("stranger {}", k / 2));
+    stranger.run = run;
+    crowd.write(borrow(stranger).sample);
+    EXPECT_TRUE(crowd.arrived(5));
+    std::this_thread::sleep_for(1ms);  // the coupler keeps up
+  }
+  const std::string reason = coupler.get().reason;
+  const auto names = [&](int k) { return says(reason, fmt::format("'stranger {}'", k)); };
+  int named = 0;
+  for (int k = 0; k < 100; ++k) named += names(k) ? 1 : 0;
+  EXPECT_GT(named, 0) << reason;
+  EXPECT_LE(named, 20) << reason;
+  EXPECT_EQ(std::count(reason.begin(), reason.end(), '\''), 2 * (named + 1)) << "each once: " << reason;
 }
 
 TEST(Handshake, SolverWithoutACouplerGivesUpAndSaysSo) {
