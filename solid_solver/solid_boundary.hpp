@@ -134,7 +134,7 @@ class SolidBoundary {
   L law_;
   double rho_;
   Boundaries boundaries_;
-  std::array<Kind, 4> kinds_;
+  std::array<Kind, 4> kinds_{};
   std::array<std::vector<int>, 4> advanced_, interpolated_;  ///< points of the sides
   Limiter limiter_;
   double time_scale_;

@@ -15,7 +15,6 @@ SolidBoundary<L>::SolidBoundary(BoundaryGrid grid, const L& law, double rho, Bou
       law_(law),
       rho_(rho),
       boundaries_(std::move(boundaries)),
-      kinds_{},
       limiter_(limiter),
       time_scale_(time_scale) {
   for (const Side side : all_sides) {

@@ -122,13 +122,19 @@ struct Abort {
   std::string reason;
 };
 
-/// An outside request: pause, resume, checkpoint or stop. common/bus/seal.hpp makes and checks it.
+/// An outside request: pause, resume, checkpoint or stop.
 struct Control {
   std::string run;
   std::string command;
-  std::string from;          ///< the sender: a name drawn at random
-  std::uint64_t number = 0;  ///< of the request among those of the sender, growing
-  std::string seal;          ///< proof that the sender knows the key of the run
+};
+
+/// What a program lacks, said once a second while it waits.
+struct Waiting {
+  std::string run;
+  std::string from;        ///< who waits
+  std::string to;          ///< whose message it lacks; empty: none, the run is paused
+  std::string topic;       ///< of that message
+  std::uint64_t step = 0;  ///< of that message
 };
 
 /// What the monitor shows; best effort, never waited for.
