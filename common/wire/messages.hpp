@@ -9,7 +9,7 @@
 
 namespace fsi::wire {
 
-inline constexpr std::uint32_t protocol_version = 5;
+inline constexpr std::uint32_t protocol_version = 6;
 
 /// Where one program meets the gas or a solid.
 struct InterfaceInfo {
