@@ -72,7 +72,7 @@ class RippleWatch {
  public:
   static constexpr double faintest = 1e-3;
   /// Steps between two looks: together they cost less than a hundredth of a run.
-  static constexpr int every = 50;
+  static constexpr int every = 100;
 
   RippleWatch(std::vector<WatchedQuantity> quantities, std::vector<std::string> grids);
 
