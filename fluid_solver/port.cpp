@@ -150,6 +150,7 @@ FluidParticipant::FluidParticipant(const Setup& setup)
       data_of(spec_.initial_from_reference, spec_.initial, reference_, "initial"));
   initial_totals_ = solver_.totals();
   open_budget();
+  watch_ripples();
 
   std::vector<std::string> columns{"t [time]"};
   for (const ProbeSpec& probe : setup.problem.output.probes) {
@@ -279,6 +280,7 @@ void FluidParticipant::archive(Archive& archive) {
   archive.number("worst_cells", worst_cells_);
   archive.inside("fields", [&] { fields_.archive(archive); });
   if (probe_table_) archive.inside("probes", [&] { probe_table_->archive(archive); });
+  archive.inside("ripples", [&] { ripples_->archive(archive); });
   if (budget_) archive.inside("budget", [&] { budget_->archive(archive); });
   if (budget_table_) archive.inside("budget_table", [&] { budget_table_->archive(archive); });
 }
@@ -319,6 +321,27 @@ void FluidParticipant::write_tables(double t, double dt, ProjectedStates project
     row.insert(row.end(), {q.rho, q.v1, q.v2, q.p});
   }
   probe_table_->row(row);
+}
+
+/// Changes below a millionth of the initial state are round-off.
+void FluidParticipant::watch_ripples() {
+  constexpr double small = 1e-6;
+  const Health start = solver_.health();
+  const double sound = std::sqrt(spec_.gamma * start.min_p / start.min_rho);
+  std::vector<std::string> names;
+  for (int k = 0; k < solver_.grids(); ++k) names.push_back(solver_.grid(k).name());
+  ripples_.emplace(
+      std::vector<grid::WatchedQuantity>{{.components = {"rho"}, .first = 0, .floor = small * start.min_rho},
+                                         {.components = {"v1", "v2"}, .first = 1, .floor = small * sound},
+                                         {.components = {"p"}, .first = 3, .floor = small * start.min_p}},
+      std::move(names));
+}
+
+void FluidParticipant::look_for_noise(double t) {
+  watched_.clear();
+  for (int k = 0; k < solver_.grids(); ++k)
+    watched_.push_back({.q = solver_.state(k), .x = solver_.grid(k).x(), .points = &solver_.valid(k)});
+  ripples_->look(watched_, t);
 }
 
 wire::Health FluidParticipant::health() const {

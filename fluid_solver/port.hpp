@@ -30,6 +30,8 @@ class FluidParticipant final : public Participant {
   void write_last_state(double t, std::uint64_t step) override;
   void archive(Archive& archive) override;
   wire::Health health() const override;
+  void look_for_noise(double t) override;
+  const grid::RippleWatch* noise() const override { return &*ripples_; }
   void report(double t, io::Part& part) const override;
 
  private:
@@ -60,8 +62,11 @@ class FluidParticipant final : public Participant {
   double worst_cells_ = 1;        ///< quality of the moving grids' cells, smallest since the start
   std::optional<Budget> budget_;  ///< of a gas around closed bodies
   std::optional<io::CsvWriter> budget_table_;
+  std::optional<grid::RippleWatch> ripples_;
+  std::vector<grid::WatchedGrid> watched_;  ///< work memory
 
   void open_budget();
+  void watch_ripples();
 };
 
 }  // namespace fsi::fluid

@@ -53,6 +53,7 @@ json program_json(const RunState& state, const wire::Telemetry& program, double 
             {"min_cell_quality", number(health.min_cell_quality)},
             {"first_order_fallbacks", health.first_order_fallbacks},
             {"floors", health.floors}}},
+          {"noise", program.noise},
           {"bus",
            {{"messages", program.messages},
             {"bytes", program.bytes},

@@ -53,8 +53,8 @@ struct Table {
 constexpr const char* message_columns =
     "at from role state host pid step t t_end dt dt_reason compute_s wait_s point_updates_per_s min_rho "
     "min_p min_det_F min_cell_quality "
-    "first_order_fallbacks floors messages bytes round_trip_p50_us round_trip_p99_us interfaces";
-constexpr std::size_t message_width = 25;
+    "first_order_fallbacks floors messages bytes round_trip_p50_us round_trip_p99_us interfaces noise";
+constexpr std::size_t message_width = 26;
 constexpr const char* interface_columns =
     "name velocity_jump traction_jump gap power p_min p_max v_min v_max closed points has_p_predicted_solid";
 constexpr std::size_t interface_width = 12;
@@ -157,6 +157,7 @@ wire::Telemetry telemetry_from(std::span<const double> row, const TextOf& text) 
                      .min_cell_quality = row[17],
                      .first_order_fallbacks = whole(row[18]),
                      .floors = whole(row[19])},
+          .noise = text(row[25]),
           .messages = whole(row[20]),
           .bytes = whole(row[21]),
           .round_trip_p50_us = row[22],
@@ -198,7 +199,8 @@ void write_block(io::Hdf5& group, const std::vector<Heard>& heard) {
                               count(m->bytes),
                               m->round_trip_p50_us,
                               m->round_trip_p99_us,
-                              count(m->interfaces.size())});
+                              count(m->interfaces.size()),
+                              texts.number(m->noise)});
       for (const Side& side : m->interfaces) {
         sides.row(std::array{texts.number(side.name), side.velocity_jump, side.traction_jump, side.gap,
                              side.power, side.p_min, side.p_max, side.v_min, side.v_max,

@@ -165,6 +165,10 @@ class Painter {
     } else {
       frame_.put(0, row_++, fmt::format("NOT FINITE: {}", fmt::join(broken, ", ")), Style::bad);
     }
+    for (const auto& [name, program] : state_.programs()) {
+      if (program.noise.empty() || row_ >= frame_.extent().rows - 1) continue;
+      frame_.put(0, row_++, fmt::format("NOISE in {}: {}", name, program.noise), Style::warning);
+    }
   }
 
   void interfaces() {

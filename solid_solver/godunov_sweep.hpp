@@ -7,6 +7,7 @@
 /// Riemann problem per face.
 
 #include <limits>
+#include <utility>
 
 #include "solid_solver/solid_points.hpp"
 #include "solid_solver/sweep_rows.hpp"
@@ -54,6 +55,7 @@ class GodunovSweep {
   // Functions of their own: inlined into run() they would be too much for the compiler to inline what their
   // loops call, and no loop with a call in it vectorises.
   [[gnu::noinline]] SweepResult predict(RowRun run) const;
+  [[gnu::noinline]] void settle(RowRun run) const;
   [[gnu::noinline]] void solve_faces1(RowRun run) const;
   [[gnu::noinline]] void solve_faces2(RowRun run) const;
   [[gnu::noinline]] void update(RowRun run) const;
@@ -90,7 +92,10 @@ SweepResult GodunovSweep<L, Row, limiter>::run() const {
   const SolidPoints& points = *d_.points;
   SweepResult result;
   for (int j = -1; j <= n2; ++j) {
-    for (const auto& [begin, end] : points.beside(j)) predict({j, begin, end});
+    for (const auto& [begin, end] : points.beside(j)) {
+      predict({j, begin, end});
+      settle({j, begin, end});
+    }
     if (j >= 0 && j < n2) {
       for (const auto& [begin, end] : points.discretised(j)) result.add(predict({j, begin, end}));
     }
@@ -165,6 +170,36 @@ SweepResult GodunovSweep<L, Row, limiter>::predict(RowRun run) const {
                  row.force_south(i, {P.a11 - s11.y, P.a12 - s12.y, P.a21 - s21.y, P.a22 - s22.y}));
   }
   return {.rate_squared = rate / d_.rho, .min_det_F = min_J, .min_phi_s = min_phi, .broken = broken};
+}
+
+/// Ghost points have a displacement that was extrapolated, and beside a corner with a singular stress it may
+/// turn the material inside out or leave it no wave speed, though the body itself is far from that. What such
+/// a point brings to its face is then its state at t, and the acoustic matrix of the point of the body beside
+/// it.
+template <Law L, class Row, Limiter limiter>
+void GodunovSweep<L, Row, limiter>::settle(RowRun run) const {
+  const int j = run.j;
+  const auto bears_waves = [](const SymmetricTensor2& A) {
+    return A.a11 > 0.0 && A.a11 * A.a22 - A.a12 * A.a12 > 0.0;  // false for what is no number
+  };
+  for (int i = run.begin; i < run.end; ++i) {
+    const AcousticRows along1 = acoustic1(), along2 = acoustic2(j);
+    if (bears_waves(along1.at(i)) && bears_waves(along2.at(i))) continue;
+    for (const auto& [a, b] : {std::pair(i - 1, j), {i + 1, j}, {i, j - 1}, {i, j + 1}}) {
+      if (b < 0 || b >= d_.q.layout.n2 || !d_.points->is_discretised(a, b)) continue;
+      const Stiffness K = law_.K(deformation_gradient(Row(metrics_, b), StateRows(d_.q, b), a, 0.5 * d_.dt));
+      const Row row(metrics_, j);
+      along1.set(i, row.acoustic1(i, K));
+      along2.set(i, row.acoustic2(i, K));
+      const StateRows q(d_.q, j);
+      const Tensor2 P = {q.P11[i], q.P12[i], q.P21[i], q.P22[i]};
+      east().set(i, q.v1[i], q.v2[i], row.force_east(i, P));
+      west().set(i, q.v1[i], q.v2[i], row.force_west(i, P));
+      north(j).set(i, q.v1[i], q.v2[i], row.force_north(i, P));
+      south().set(i, q.v1[i], q.v2[i], row.force_south(i, P));
+      break;
+    }
+  }
 }
 
 /// Faces i - 1/2 on both sides of the points of a run of the present row.

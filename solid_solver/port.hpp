@@ -44,6 +44,7 @@ class SolidParticipant final : public Participant {
     }
     initial_totals_ = solver_.totals();
     open_tables();
+    watch_ripples();
   }
 
   wire::Hello hello() const override {
@@ -114,6 +115,7 @@ class SolidParticipant final : public Participant {
   void archive(Archive& archive) override {
     solver_.archive(archive);
     archive.inside("fields", [&] { fields_.archive(archive); });
+    archive.inside("ripples", [&] { ripples_->archive(archive); });
     if (forces_) archive.inside("forces", [&] { forces_->archive(archive); });
     if (probe_table_) archive.inside("probes", [&] { probe_table_->archive(archive); });
     archive.inside("received", [&] { received_.archive(archive); });
@@ -145,6 +147,15 @@ class SolidParticipant final : public Participant {
             .first_order_fallbacks = 0,
             .floors = 0};
   }
+
+  void look_for_noise(double t) override {
+    watched_.clear();
+    for (int g = 0; g < solver_.grids(); ++g)
+      watched_.push_back(
+          {.q = std::as_const(solver_).state(g), .x = solver_.reference(g), .points = &solver_.valid(g)});
+    ripples_->look(watched_, t);
+  }
+  const grid::RippleWatch* noise() const override { return &*ripples_; }
 
   void report(double t, io::Part& part) const override {
     part.health["min_det_F"] = solver_.health().min_det_F;
@@ -201,17 +212,6 @@ class SolidParticipant final : public Participant {
 
   grid::Curve curve() const { return curve_along(solver_.grid(grid_), *side_); }
 
-  /// From where the reference configuration has the interface to where its given path has it.
-  void move_along(std::vector<double>& x) const {
-    const auto& motion = setup_.problem.interface.motion;
-    if (!motion) return;
-    const std::vector<double> x_bar = solver_.grid(grid_).side_points(*side_);
-    const std::size_t n = x_bar.size() / 2;
-    for (std::size_t k = 0; k < n; ++k) {
-      x[k] += motion->c1(x_bar[k], x_bar[n + k], solver_.t()) - x_bar[k];
-      x[n + k] += motion->c2(x_bar[k], x_bar[n + k], solver_.t()) - x_bar[n + k];
-    }
-  }
   /// Unit normals of the interface at these positions; of ends that slide along a wall, its direction.
   std::vector<double> normals(std::span<const double> x, std::span<const std::uint8_t> freedom) const {
     std::vector<double> n = grid::normals(x, curve(), grid::outward(*side_));
@@ -225,6 +225,17 @@ class SolidParticipant final : public Participant {
     return n;
   }
 
+  /// From where the reference configuration has the interface to where its given path has it.
+  void move_along(std::vector<double>& x) const {
+    const auto& motion = setup_.problem.interface.motion;
+    if (!motion) return;
+    const std::vector<double> x_bar = solver_.grid(grid_).side_points(*side_);
+    const std::size_t n = x_bar.size() / 2;
+    for (std::size_t k = 0; k < n; ++k) {
+      x[k] += motion->c1(x_bar[k], x_bar[n + k], solver_.t()) - x_bar[k];
+      x[n + k] += motion->c2(x_bar[k], x_bar[n + k], solver_.t()) - x_bar[n + k];
+    }
+  }
 
   /// The interface inside a macro step: the gas is known by its outgoing characteristic.
   void close_substep(double t, const wire::ProjectedInterface& p) {
@@ -235,6 +246,21 @@ class SolidParticipant final : public Participant {
     const InterfaceValues values[] = {
         {.side = *side_, .n = normal, .v_n = closed.v_n, .w_n = closed.w_n, .grid = grid_}};
     solver_.apply_solid_bcs(t, values);
+  }
+
+  /// Strains below a millionth, and what goes with them, are round-off.
+  void watch_ripples() {
+    constexpr double small = 1e-6;
+    const double modulus = spec_.lambda + 2 * spec_.mu;
+    const double size = std::sqrt(initial_totals_.mass / spec_.rho);
+    std::vector<std::string> names;
+    for (int g = 0; g < solver_.grids(); ++g) names.push_back(solver_.grid(g).name());
+    ripples_.emplace(
+        std::vector<grid::WatchedQuantity>{
+            {.components = {"u1", "u2"}, .first = plane::u1, .floor = small * size},
+            {.components = {"v1", "v2"}, .first = plane::v1, .floor = small * std::sqrt(modulus / spec_.rho)},
+            {.components = {"P11", "P12", "P21", "P22"}, .first = plane::P11, .floor = small * modulus}},
+        std::move(names));
   }
 
   void open_tables() {
@@ -273,6 +299,8 @@ class SolidParticipant final : public Participant {
   std::vector<ProbePoint> probes_;
   Totals initial_totals_;
   TimeIntegral<3> received_;  ///< of the gas: force, power
+  std::optional<grid::RippleWatch> ripples_;
+  std::vector<grid::WatchedGrid> watched_;  ///< work memory
 };
 
 }  // namespace fsi::solid

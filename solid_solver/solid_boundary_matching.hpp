@@ -389,14 +389,4 @@ Vec2 SolidBoundary<L>::difference_across(ConstFieldView q, const SideIndex& line
           0.5 * sign * (q.plane(first + 1)[ghost] - q.plane(first + 1)[inner])};
 }
 
-template <Law L>
-void SolidBoundary<L>::broke(Side side, int k, double t) const {
-  const GridPoint p = grid_point(layout(), side, k);
-  const Vec2 T = T_[index(side)][static_cast<std::size_t>(k)];
-  throw NumbersBroke(
-      fmt::format("t = {:.6g}, grid \"{}\", point ({}, {}) on side {}: no displacement of the ghost point "
-                  "gives the traction",
-                  t, grid_.name, p.i, p.j, name_of(side)));
-}
-
 }  // namespace fsi::solid

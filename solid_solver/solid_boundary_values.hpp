@@ -337,6 +337,17 @@ void SolidBoundary<L>::refresh_ghosts(FieldView q, double t) const {
 }
 
 template <Law L>
+void SolidBoundary<L>::broke(Side side, int k, double t) const {
+  const GridPoint p = grid_point(layout(), side, k);
+  const Vec2 T = T_[index(side)][static_cast<std::size_t>(k)];
+  throw NumbersBroke(
+      fmt::format("t = {:.6g}, grid \"{}\", point ({}, {}) on side {}: the law {} cannot bear the traction "
+                  "({:.4g}, {:.4g}) per "
+                  "reference area there and stay hyperbolic",
+                  t, grid_.name, p.i, p.j, name_of(side), L::name, T.x(), T.y()));
+}
+
+template <Law L>
 void SolidBoundary<L>::archive(Archive& archive) {
   const auto vectors = [&](const std::string& name, std::vector<Vec2>& list) {
     archive.values(name, {list.empty() ? nullptr : list.front().data(), 2 * list.size()});

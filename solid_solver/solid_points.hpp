@@ -25,6 +25,7 @@ class SolidPoints {
 
   std::span<const grid::Interval> discretised(int j) const { return discretised_.row(j); }
   std::span<const grid::Interval> valid(int j) const { return valid_.row(j); }
+  const grid::RowSets& valid() const { return valid_; }
   /// Points beside discretised ones, -1 <= j <= n2: predicted, but not advanced.
   std::span<const grid::Interval> beside(int j) const { return beside_.row(j + 1); }
   /// Faces between rows j - 1 and j with a discretised point on one side, 0 <= j <= n2.

@@ -172,6 +172,8 @@ class SolidSolver {
   /// Reference positions of the points.
   ConstFieldView reference(int grid = 0) const { return component(grid).grid().x(); }
   const grid::MovingGrid& grid(int grid = 0) const { return component(grid).grid(); }
+  /// Points of a grid that have a value.
+  const grid::RowSets& valid(int grid = 0) const { return component(grid).points().valid(); }
   /// Points that have a value, all grids.
   std::size_t points() const {
     std::size_t sum = 0;

@@ -98,6 +98,7 @@ struct AcousticRows {
     a12[i] = A.a12;
     a22[i] = A.a22;
   }
+  SymmetricTensor2 at(int i) const { return {.a11 = a11[i], .a12 = a12[i], .a22 = a22[i]}; }
 };
 
 /// Stiffnesses along a row.

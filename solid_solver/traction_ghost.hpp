@@ -32,27 +32,64 @@ struct BoundaryStrain {
   double sign;  ///< across = sign |across| n0
 };
 
+/// What a derivative d of u across a side leaves of its traction T to be found.
+struct TractionMiss {
+  Vec2 miss;         ///< T - n0^T P(F)
+  Mat2 B;            ///< acoustic matrix of n0
+  bool bears_waves;  ///< B is positive definite, and det F > 0 where the law has finite strains
+};
+
+template <Law L>
+TractionMiss traction_miss(const L& law, const BoundaryStrain& at, const Vec2& T, const Vec2& d) {
+  const Tensor2 F = plus_dyad(at.F, d, at.across);
+  const Mat2 B = matrix(acoustic_matrix(law.K(F), at.n0));
+  const bool right_side_out = !L::objective || determinant(F) > 0;  // small strains know no inside out
+  const bool bears_waves = right_side_out && B(0, 0) > 0 && B.determinant() > 0;
+  return {.miss = T - traction_of(law.P(F), at.n0), .B = B, .bears_waves = bears_waves};
+}
+
+/// The derivative d for which the material is turned and stretched with the side, but not across it.
+inline Vec2 unstrained_across(const BoundaryStrain& at) {
+  const Vec2 t0(-at.n0.y(), at.n0.x());
+  const Vec2 along = {at.F.a11 * t0.x() + at.F.a12 * t0.y(), at.F.a21 * t0.x() + at.F.a22 * t0.y()};
+  const Vec2 normal = Vec2(along.y(), -along.x()).normalized();
+  const Vec2 image = {at.F.a11 * at.n0.x() + at.F.a12 * at.n0.y(),
+                      at.F.a21 * at.n0.x() + at.F.a22 * at.n0.y()};
+  return (normal - image) * (at.sign / at.across.norm());
+}
+
 /// The derivative d of u over one index across the side for which n0^T P(F + d across^T) = T: paper eq. (43),
 /// solved by Newton's method from `d`. The Jacobian is the acoustic matrix of n0, so it is regular while the
-/// solid is hyperbolic. A step that would turn the material inside out is halved. Nothing when it does not
-/// converge.
+/// solid is hyperbolic. A step is halved until the material there can carry waves, and is not inside out, and
+/// the traction comes nearer; where `d` itself, which was extrapolated, is not like that, the search begins
+/// without a derivative across. Nothing when it does not converge: then no state that carries waves has this
+/// traction.
 template <Law L>
 std::optional<Vec2> match_traction(const L& law, const BoundaryStrain& at, const Vec2& T, Vec2 d) {
   constexpr int most_iterations = 30;
   constexpr double strain_tolerance = 1e-13;
+  constexpr int most_halvings = 40;
   const double size = at.across.norm();
+  TractionMiss now = traction_miss(law, at, T, d);
+  if (!now.bears_waves) now = traction_miss(law, at, T, d = Vec2::Zero());
+  if (!now.bears_waves) now = traction_miss(law, at, T, d = unstrained_across(at));
+  if (!now.bears_waves) return std::nullopt;
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
-    const Tensor2 F = plus_dyad(at.F, d, at.across);
-    const Mat2 B = matrix(acoustic_matrix(law.K(F), at.n0));
-    const double det = B.determinant();
-    if (!(det > 0)) return std::nullopt;
-    Vec2 step = B.inverse() * (T - traction_of(law.P(F), at.n0)) * (at.sign / size);
-    for (int halving = 0; determinant(plus_dyad(at.F, d + step, at.across)) <= 0 && halving < 40; ++halving) {
+    Vec2 step = now.B.inverse() * now.miss * (at.sign / size);
+    if (!step.allFinite()) return std::nullopt;
+    if (step.norm() * size < strain_tolerance) return d + step;
+    TractionMiss next = traction_miss(law, at, T, d + step);
+    int halvings = 0;
+    while (!(next.bears_waves && next.miss.norm() < now.miss.norm()) && ++halvings < most_halvings) {
       step *= 0.5;
+      next = traction_miss(law, at, T, d + step);
+    }
+    if (halvings == most_halvings) {  // as near as rounding lets it come, or as the law does
+      if (now.miss.norm() < strain_tolerance * now.B.norm()) return d;
+      return std::nullopt;
     }
     d += step;
-    if (!d.allFinite()) return std::nullopt;
-    if (step.norm() * size < strain_tolerance) return d;
+    now = next;
   }
   return std::nullopt;
 }

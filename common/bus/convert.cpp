@@ -141,6 +141,7 @@ Borrowed<amp_fsi_Telemetry, amp_fsi_InterfaceTelemetry> borrow(const wire::Telem
                    .wait_s = telemetry.wait_s,
                    .point_updates_per_s = telemetry.point_updates_per_s,
                    .health = borrow(telemetry.health),
+                   .noise = borrow(telemetry.noise),
                    .messages = telemetry.messages,
                    .bytes = telemetry.bytes,
                    .round_trip_p50_us = telemetry.round_trip_p50_us,
@@ -251,6 +252,7 @@ void copy(const amp_fsi_Telemetry& from, wire::Telemetry& to) {
   to.wait_s = from.wait_s;
   to.point_updates_per_s = from.point_updates_per_s;
   copy(from.health, to.health);
+  copy(from.noise, to.noise);
   to.messages = from.messages;
   to.bytes = from.bytes;
   to.round_trip_p50_us = from.round_trip_p50_us;

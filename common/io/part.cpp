@@ -38,6 +38,11 @@ std::string to_json(const Part& part) {
                          {"max_traction_jump", part.interface->max_traction_jump},
                          {"max_gap", part.interface->max_gap}};
   }
+  if (const auto& noise = part.noise) {
+    json["noise"] = {{"value", noise->size}, {"noisy", noise->noisy}, {"field", noise->field},
+                     {"grid", noise->grid},  {"point", noise->point}, {"place", noise->place},
+                     {"t", noise->t}};
+  }
   constexpr int indent = 2;
   return json.dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }

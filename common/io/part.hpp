@@ -25,6 +25,17 @@ struct InterfaceExtremes {
   double max_gap = 0;
 };
 
+/// A ripple of the grid's scale: a row of maxima and minima along a grid line (common/grid/ripple.hpp).
+struct Noise {
+  double size = 0;     ///< amplitude over the range of the field
+  bool noisy = false;  ///< so large that somebody should know
+  std::string field, grid;
+  std::array<int, 2> point = {};
+  std::array<double, 2> place = {};  ///< reference position in a solid
+  double t = 0;
+  std::string words;
+};
+
 struct Part {
   std::string participant;           ///< "fluid", "coupler" or the solid's name
   std::string role;                  ///< "fluid", "solid", "coupler"
@@ -45,6 +56,7 @@ struct Part {
   std::map<std::string, double> health;        ///< min_rho, min_p, min_det_F
   std::map<std::string, double> conservation;  ///< drifts of mass, energy, momentum, angular momentum
   std::optional<InterfaceExtremes> interface;  ///< coupler only
+  std::optional<Noise> noise;                  ///< the worst since the start, of programs with fields
 };
 
 /// The part as JSON text; a number that is not finite becomes null.

@@ -77,6 +77,7 @@ class CoupledRun {
     clock_.lap(io::Work::boundary);
     last_ = {.t = at_.t, .step = at_.step};
     const wire::ProjectedInterface& answer = *projected_.front();
+    watch_noise(part_, solver_, at_, answer.write_output || answer.stop);
     write_results(setup_, part_, [&] { solver_.write_tables(at_.t, at_.dt, projected_); });
     if (answer.write_output) write_results(setup_, part_, [&] { solver_.write_fields(at_.t, at_.step); });
     clock_.lap(io::Work::output);

@@ -7,6 +7,7 @@
 
 #include "common/core/failure.hpp"
 #include "common/core/log.hpp"
+#include "common/io/checkpoint.hpp"
 #include "common/program/participant.hpp"
 #include "common/program/session.hpp"
 
@@ -19,6 +20,10 @@ void run_alone(const Setup& setup, io::Part& part, Participant& solver);
 
 wire::Telemetry telemetry_of(const Setup& setup, const io::Part& part, const Participant& solver, double dt,
                              const std::string& reason);
+
+/// Looks for noise every so many steps, and always `now`; what is worst goes into the part, and the log says
+/// when it is too much.
+void watch_noise(io::Part& part, Participant& solver, const io::Standing& at, bool now);
 
 /// The last time at which a solver's boundary conditions held.
 struct LastState {

@@ -68,6 +68,7 @@ class LoneRun {
     clock_.lap(io::Work::boundary);
     count_step(part_, at_.t, at_.dt);
     ++part_.substeps;
+    watch_noise(part_, solver_, at_, step.output || step.end);
     write(step.output);
     clock_.lap(io::Work::output);
     progress_.show(part_.steps, at_.t, at_.dt, part_.participant);

@@ -24,9 +24,29 @@ wire::Telemetry telemetry_of(const Setup& setup, const io::Part& part, const Par
   telemetry.compute_s = part.compute_s;
   telemetry.wait_s = part.wait_s;
   telemetry.health = solver.health();
+  if (part.noise && part.noise->noisy) telemetry.noise = part.noise->words;
   const double updates = static_cast<double>(part.points) * static_cast<double>(part.substeps);
   telemetry.point_updates_per_s = part.compute_s > 0 ? updates / part.compute_s : 0;
   return telemetry;
+}
+
+void watch_noise(io::Part& part, Participant& solver, const io::Standing& at, bool now) {
+  if (at.step == 0 || (!now && at.step % grid::RippleWatch::every != 0)) return;
+  solver.look_for_noise(at.t);
+  const grid::RippleWatch* watch = solver.noise();
+  if (watch == nullptr) return;
+  const grid::Ripple& worst = watch->worst();
+  const bool known = part.noise && part.noise->noisy, noisy = worst.size > grid::noisy;
+  if (part.noise && part.noise->size == worst.size) return;
+  part.noise = {.size = worst.size,
+                .noisy = noisy,
+                .field = watch->component_of(worst),
+                .grid = watch->grid_of(worst),
+                .point = {worst.i, worst.j},
+                .place = {worst.place.x(), worst.place.y()},
+                .t = worst.t,
+                .words = watch->in_words(worst)};
+  if (noisy && !known) log_warning(fmt::format("noise of the grid's scale: {}", part.noise->words));
 }
 
 void participate(const Setup& setup, io::Part& part, Participant& solver) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/core/archive.hpp"
+#include "common/grid/ripple.hpp"
 #include "common/io/part.hpp"
 #include "common/program/program.hpp"
 #include "common/wire/messages.hpp"
@@ -57,6 +58,10 @@ class Participant {
   virtual void write_last_state(double /*t*/, std::uint64_t /*step*/) {}
   /// By default that of a body that does not deform.
   virtual wire::Health health() const { return {.min_det_F = 1}; }
+  /// Looks for noise in the fields at t; once in a while, at output times and at the end.
+  virtual void look_for_noise(double /*t*/) {}
+  /// What was found; null for a solver without fields.
+  virtual const grid::RippleWatch* noise() const { return nullptr; }
   /// Errors, counters and budgets at the end of the run.
   virtual void report(double /*t*/, io::Part& /*part*/) const {}
 

@@ -9,7 +9,7 @@
 
 namespace fsi::wire {
 
-inline constexpr std::uint32_t protocol_version = 5;
+inline constexpr std::uint32_t protocol_version = 6;
 
 /// Where one program meets the gas or a solid.
 struct InterfaceInfo {
@@ -151,6 +151,7 @@ struct Telemetry {
   double compute_s = 0, wait_s = 0;
   double point_updates_per_s = 0;
   Health health;
+  std::string noise;  ///< ripples of the grid's scale in its fields, in words; empty: none to speak of
   std::uint64_t messages = 0;  ///< received and sent
   std::uint64_t bytes = 0;
   double round_trip_p50_us = 0, round_trip_p99_us = 0;

@@ -40,6 +40,13 @@ def _ordered(errors):
     return {name: errors[name] for name in known + sorted(errors.keys() - set(known))}
 
 
+def _noise(parts):
+    """The worst ripple of the grid's scale in any program's fields, or None."""
+    found = [{"value": noise["value"], "participant": name} | noise
+             for name, part in parts.items() if (noise := part.get("noise"))]
+    return max(found, key=lambda noise: noise["value"] or 0, default=None)
+
+
 def merge(directory, case, status, reason, wall_s):
     """The summary of a run, whatever became of it. `case` is the launcher's Case."""
     participants = case.programs
@@ -58,6 +65,8 @@ def merge(directory, case, status, reason, wall_s):
         part = parts.get(name, {"status": "lost"})
         summary["participants"][name] = {"program": program} | {
             key: part[key] for key in PARTICIPANT_KEYS if key in part}
+    if noise := _noise(parts):
+        summary["noise"] = noise
     conservation = {name: part["conservation"] for name, part in parts.items() if part.get("conservation")}
     if conservation:
         summary["conservation"] = conservation
@@ -161,6 +170,16 @@ def _participant_rows(summary):
     return rows
 
 
+def noise_in_words(summary):
+    """One line where the solution is rippled by the grid, or ""."""
+    noise = summary.get("noise") or {}
+    if not noise.get("noisy"):
+        return ""
+    point, place = (", ".join(f"{value:.4g}" for value in noise[key]) for key in ("point", "place"))
+    return (f"noise of the grid's scale: {noise['field']} of {noise['participant']} ripples by {100 * noise['value']:.2g} % of "
+            f"its range, grid \"{noise['grid']}\", point ({point}) at ({place}), t = {noise['t']:.4g}")
+
+
 def describe(summary, directory):
     """The end of a run as lines of text."""
     dt = summary["dt"]
@@ -179,6 +198,8 @@ def describe(summary, directory):
     if summary["counters"].get("first_order_fallbacks") or summary["counters"].get("floors"):
         lines.append("  counters: " + ", ".join(f"{key.replace('_', ' ')} {value:g}"
                                                 for key, value in summary["counters"].items()))
+    if noise := noise_in_words(summary):
+        lines.append(f"  warning: {noise}")
     if summary.get("expectations"):
         met = sum(entry["met"] for entry in summary["expectations"])
         lines.append(f"  expectations: {met} of {len(summary['expectations'])} met")

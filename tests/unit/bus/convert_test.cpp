@@ -132,6 +132,7 @@ wire::Telemetry telemetry() {
           .wait_s = 6,
           .point_updates_per_s = 7,
           .health = {1, 2, 3, 3.5, 4, 5},
+          .noise = "v1 ripples",
           .messages = 8,
           .bytes = 9,
           .round_trip_p50_us = 10,
@@ -167,9 +168,9 @@ TEST(Convert, TelemetryKeepsEveryField) {
             std::tie(out.run, out.from, out.role, out.state, out.host, out.pid, out.step, out.t, out.t_end,
                      out.dt, out.dt_reason));
   EXPECT_EQ(std::tie(in.compute_s, in.wait_s, in.point_updates_per_s, in.messages, in.bytes,
-                     in.round_trip_p50_us, in.round_trip_p99_us, in.health.floors),
+                     in.round_trip_p50_us, in.round_trip_p99_us, in.health.floors, in.noise),
             std::tie(out.compute_s, out.wait_s, out.point_updates_per_s, out.messages, out.bytes,
-                     out.round_trip_p50_us, out.round_trip_p99_us, out.health.floors));
+                     out.round_trip_p50_us, out.round_trip_p99_us, out.health.floors, out.noise));
 }
 
 TEST(Convert, TelemetryKeepsItsInterfaces) {

@@ -40,6 +40,16 @@ class Summary(InScratch):
         self.part("fluid", counters={"floors": 3, "first_order_fallbacks": 1})
         self.assertEqual(self.merged()["counters"], {"first_order_fallbacks": 1, "floors": 5})
 
+    def test_worst_noise_of_all_programs_is_told_with_its_place_where_it_is_much(self):
+        ripple = {"field": "v1", "grid": "outline", "point": [3, 40], "place": [0.25, 1.5], "t": 6.5}
+        self.part("fluid", noise={"value": 0.004, "noisy": False} | ripple)
+        self.assertNotIn("warning", summary.describe(self.merged(), self.folder))
+        self.part("solid", noise={"value": 0.041, "noisy": True} | ripple)
+        merged = self.merged()
+        self.assertEqual(merged["noise"], {"value": 0.041, "participant": "solid", "noisy": True} | ripple)
+        self.assertIn('warning: noise of the grid\'s scale: v1 of solid ripples by 4.1 % of its range, grid "outline", point (3, 40)'
+                      ' at (0.25, 1.5), t = 6.5', summary.describe(merged, self.folder))
+
     def test_program_that_left_nothing_is_lost(self):
         self.part("coupler", steps=3, t=0.1)
         merged = self.merged("failed")

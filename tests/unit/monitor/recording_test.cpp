@@ -36,6 +36,7 @@ class Recordings : public testing::Test {
     one.step = step;
     one.dt_reason = "fluid: step " + std::to_string(step);
     one.host = "here";
+    one.noise = "v1 ripples at step " + std::to_string(step);
     one.pid = 5;
     one.interfaces[0].closed = true;
     one.interfaces.push_back({});  // a solid without traction, without points

@@ -70,6 +70,16 @@ TEST(Screen, ShowsEverythingOnEightyByTwentyFour) {
   }
 }
 
+TEST(Screen, ShowsWhichProgramIsRippledByTheGridAndWhere) {
+  RunState state = coupled();
+  EXPECT_FALSE(shows(screen(state, 2, {}, {.columns = 100, .rows = 30}), "NOISE"));
+  auto solid = telemetry("solid", "beam", 8, 1);
+  solid.noise = "v1 ripples by 4.1 % on grid \"ring\"";
+  state.hear(solid, 2);
+  EXPECT_TRUE(shows(screen(state, 2, {}, {.columns = 100, .rows = 30}),
+                    "NOISE in beam: v1 ripples by 4.1 % on grid \"ring\""));
+}
+
 TEST(Screen, FitsAnyTerminalWhateverTheRunSays) {
   RunState state(entry("a run with a very long name " + std::string(200, 'x')));
   for (int k = 0; k < 40; ++k) {
