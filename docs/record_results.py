@@ -256,6 +256,15 @@ def faults(count):
     return f"`{shlex.join(command)}`, exit code {answer.returncode}\n\n```\n" + "\n".join([answer.stdout.rstrip(), *flaws]) + "\n```\n"
 
 
+def damaged(count):
+    """Case files damaged in every way a test knows: what became of them, and what the worst one cost."""
+    command = [ROOT / "build" / "release" / "bin" / "test_case", "--gtest_filter=DamagedCase.*"]
+    answer = subprocess.run(command, env=os.environ | {"FSI_DAMAGES": str(count)}, capture_output=True, text=True, check=True)
+    line = next(line for line in answer.stdout.splitlines() if "damaged files" in line)
+    line = re.sub(r" \([^)]*seed \d+\)", "", line)
+    return f"`FSI_DAMAGES={count} build/release/bin/test_case --gtest_filter='DamagedCase.*'`\n\n{line}.\n"
+
+
 def disk(delta, projection):
     """Error table of the rotating disk, and its parts of the published errors."""
     name = f"disk-{delta}-{projection}"
@@ -478,6 +487,7 @@ def main(words):
                *beam_studies.studies(sys.modules[__name__]),
                ("What watching costs", lambda: watched("watched")),
                ("Signals to every program at random moments", lambda: faults(200)), *record_faults.studies(sys.modules[__name__]),
+               ("Damaged case files", lambda: damaged(10000)),
                ("Benchmarks", lambda: bench("bench")),
                ("Benchmarks, where the time goes", lambda: profile("profile"))]
     for title, study in studies:
