@@ -12,7 +12,7 @@ struct RunEntry {
   std::string name;   ///< the case
   std::string dir;    ///< folder of the results
   int pid = 0;        ///< the launcher
-  std::string key{};  ///< of requests to the run; never shown, never recorded
+  std::string key{};  ///< of the run; never shown, never recorded
 };
 
 /// Where the launcher puts the entries: $XDG_RUNTIME_DIR/amp-fsi when it can write there, else

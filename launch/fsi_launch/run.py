@@ -37,6 +37,7 @@ class Request:
     monitor: bool = False   # in front, on a terminal
     quiet: bool = False
     judge: bool = True      # hold the results against the case's expectations
+    protection: str = "sign"    # of the bus: off, sign or encrypt
     frames: bool = False    # output times for a movie besides those of the case, unless the overrides say how many
 
 
@@ -271,7 +272,7 @@ def run(request):
     say(f"{case.name}: {', '.join(case.programs.values())}")
 
     start = time.monotonic()
-    with interrupts.held(), registry.Entry(identity, directory.resolve(), case.name) as entry, interrupts.heard():
+    with interrupts.held(), registry.Entry(identity, directory.resolve(), case.name, request.protection) as entry, interrupts.heard():
         outcome = _watched(case, directory, entry, checkpoint, request, say)
     code, status, reason = _judge(outcome, case, directory)
     result = summary.merge(directory, case, status, reason, time.monotonic() - start)
