@@ -4,18 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <array>
-#include <cmath>
-#include <limits>
-#include <numbers>
-#include <regex>
-#include <string>
 #include <vector>
 
-#include "common/core/failure.hpp"
 #include "common/core/field.hpp"
-#include "common/grid/composite_grid.hpp"
 
 namespace fsi::grid {
 namespace {
@@ -81,57 +73,6 @@ TEST(ImplicitInterpolation, WithoutASolutionNamesAPoint) {
   ASSERT_TRUE(unsolved.has_value());
   EXPECT_LT(unsolved->list, 2U);
   EXPECT_EQ(unsolved->point, 0U);
-}
-
-/// Around the unit circle, the domain outside: `lines` lines, clockwise along the circle, a distance h apart.
-Field ring_of(double h, int lines) {
-  const double pi = std::numbers::pi;
-  const int points = static_cast<int>(std::lround(2 * pi / h)) + 1;
-  Field x(Layout(points, lines), 2);
-  for (int j = -Layout::ghosts; j < lines + Layout::ghosts; ++j) {
-    for (int i = -Layout::ghosts; i < points + Layout::ghosts; ++i) {
-      const double angle = -2 * pi * i / (points - 1), r = 1 + j * h;
-      x(0, i, j) = r * std::cos(angle);
-      x(1, i, j) = r * std::sin(angle);
-    }
-  }
-  return x;
-}
-
-/// No values solve equations that are not finite.
-TEST(CompositeGrid, ImplicitPointsWithoutASolutionAreNamedWithPlaceAndTime) {
-  const double h = 0.05;
-  const Field ring = ring_of(h, 6);
-  CompositeGrid grids({.name = "box", .n1 = 81, .n2 = 81, .x_a = -2, .x_b = 2, .y_a = -2, .y_b = 2},
-                      {{.name = "ring", .n1 = ring.layout().n1, .n2 = ring.layout().n2}});
-  const ConstFieldView x[] = {ring.view()};
-  grids.connect(x, 0.25);
-  ASSERT_GT(grids.counts().implicit, 0U);
-  std::vector<Field> fields;
-  std::vector<FieldView> views;
-  for (const int k : {0, 1}) fields.emplace_back(grids.layout(k), 1);
-  for (Field& field : fields) {
-    std::ranges::fill(field.values(), std::numeric_limits<double>::max());
-    views.push_back(field.view());
-  }
-  for (double& value : fields[1].values()) value = -value;
-  try {
-    grids.interpolate(views);
-    FAIL() << "found values";
-  } catch (const NumbersBroke& broke) {
-    const std::regex words(
-        "t = 0\\.25, grid \"(\\w+)\", point \\((\\d+), (\\d+)\\) at \\(([^,]+), ([^)]+)\\): it and "
-        "points of grid \"(\\w+)\" .*");
-    const std::string message = broke.what();
-    std::smatch match;
-    ASSERT_TRUE(std::regex_match(message, match, words)) << message;
-    EXPECT_NE(match[1], match[6]);
-    const int i = std::stoi(match[2]), j = std::stoi(match[3]);
-    const bool in_ring = match[1] == "ring";
-    const Vec2 place = in_ring ? Vec2(ring(0, i, j), ring(1, i, j)) : grids.background().point(i, j);
-    EXPECT_NEAR(std::stod(match[4]), place[0], 1e-5);
-    EXPECT_NEAR(std::stod(match[5]), place[1], 1e-5);
-  }
 }
 
 }  // namespace
