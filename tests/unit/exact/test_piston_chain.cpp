@@ -135,7 +135,7 @@ TEST(PistonChain, KeepsWhatItHasFoundWhenASpringFolds) {
   const PistonRun run = solve_piston_while_sound(problem, 100);
   ASSERT_EQ(run.outputs.size(), 2U);
   EXPECT_EQ(run.outputs.back().t, 0.05);
-  EXPECT_NE(run.broke.find("folded"), std::string::npos) << run.broke;
+  EXPECT_EQ(run.broke.find("one-dimensional reference: t = "), 0U) << run.broke;
   EXPECT_THROW(solve_piston(problem, 100), NumbersBroke);
 }
 
