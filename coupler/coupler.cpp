@@ -17,7 +17,7 @@ constexpr std::size_t most_points_shown = 256;
 
 Coupler::Coupler(const CouplerOptions& options, std::span<const wire::Hello> hellos)
     : options_(options), agreement_(options.time, options.start) {
-  for (InterfacePair& pair : match_interfaces(hellos)) {
+  for (InterfacePair& pair : match_interfaces(hellos, options.periodic)) {
     if (participants_.empty()) participants_.push_back(pair.fluid);
     if (std::ranges::find(participants_, pair.solid) == participants_.end())
       participants_.push_back(pair.solid);

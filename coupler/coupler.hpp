@@ -24,7 +24,8 @@ struct CouplerOptions {
   bool multirate = false;  ///< solids may take substeps inside the step of the gas
   int robin_order = 2;     ///< extrapolation of the Robin data in time: 1 linear, 2 quadratic
   Projection projection = Projection::simplified;
-  Path path = {};  ///< of the interfaces; empty: the solids move them
+  Path path = {};                          ///< of the interfaces; empty: the solids move them
+  std::vector<std::string> periodic = {};  ///< interfaces that go on beyond their ends, a period further
 };
 
 class Coupler {

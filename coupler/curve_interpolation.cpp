@@ -21,14 +21,16 @@ Vec2 point(std::span<const double> x, std::size_t k) {
 
 }  // namespace
 
-CurveInterpolation::CurveInterpolation(std::span<const double> from, std::span<const double> to)
-    : n_(from.size() / 2), closed_(is_closed(from)), s_(n_) {
+CurveInterpolation::CurveInterpolation(std::span<const double> from, std::span<const double> to,
+                                       bool periodic)
+    : n_(from.size() / 2), periodic_(periodic), closed_(periodic || is_closed(from)), s_(n_) {
   arclength(from, s_);
   const std::size_t m = to.size() / 2;
   places_.reserve(m);
   for (std::size_t k = 0; k < m; ++k) {
     // The two copies of a closing point get the same bits.
-    places_.push_back(k > 0 && k + 1 == m && is_closed(to) ? places_.front() : locate(from, point(to, k)));
+    const bool again = k > 0 && k + 1 == m && (periodic || is_closed(to));
+    places_.push_back(again ? places_.front() : locate(from, point(to, k)));
     if (places_[k].distance > places_[farthest_].distance) farthest_ = k;
   }
 }
@@ -41,17 +43,19 @@ CurveInterpolation::Place CurveInterpolation::locate(std::span<const double> fro
   const double length = s_.back();
   double s = s_[nearest];
   std::size_t cell = cell_of(s);
+  const Vec2 period = periodic_ ? period_of(from) : Vec2(Vec2::Zero());
   const auto curve = [&] {
     const Weights w = weights(cell, widest, s);
     Vec2 sum = Vec2::Zero();
-    for (std::size_t k = 0; k < w.count; ++k) sum += w.weight[k] * point(from, w.index[k]);
+    for (std::size_t k = 0; k < w.count; ++k)
+      sum += w.weight[k] * (point(from, w.index[k]) + w.turns[k] * period);
     return sum;
   };
   for (int step = 0; step < most_steps; ++step) {
     const Vec2 chord = point(from, cell + 1) - point(from, cell);
     const double change = (x - curve()).dot(chord) / chord.norm();
     s += change;
-    if (closed_) s -= length * std::floor(s / length);
+    if (closed_ && !periodic_) s -= length * std::floor(s / length);
     s = std::clamp(s, 0.0, length);
     cell = cell_of(s);
     if (std::abs(change) < 1e-15 * length) break;
@@ -79,7 +83,8 @@ CurveInterpolation::Weights CurveInterpolation::weights(std::size_t cell, std::s
     const std::ptrdiff_t i = first + static_cast<std::ptrdiff_t>(k);
     const std::ptrdiff_t turns = closed_ ? (i < 0 ? -1 : i / cells) : 0;
     result.index[k] = static_cast<std::size_t>(i - turns * cells);
-    at[k] = s_[result.index[k]] + static_cast<double>(turns) * s_.back();
+    result.turns[k] = static_cast<double>(turns);
+    at[k] = s_[result.index[k]] + result.turns[k] * s_.back();
   }
   for (std::size_t k = 0; k < result.count; ++k) {
     result.weight[k] = 1;

@@ -4,8 +4,9 @@
 ///     o-----------o-----------o-----------o     points of the curve, s = arclength from the first one
 ///           x                                   another point: where the curve is closest to it
 ///
-/// Cubic through the four nearest points of the curve (periodic where the curve is closed, one-sided at open
-/// ends), or linear between two. The places are found once, in the configuration at t = 0.
+/// Cubic through the four nearest points of the curve (over the ends where the curve is closed or goes on a
+/// period further, one-sided at open ends), or linear between two. The places are found once, in the
+/// configuration at t = 0.
 
 #include <array>
 #include <cstddef>
@@ -19,7 +20,8 @@ namespace fsi::coupler {
 class CurveInterpolation {
  public:
   /// @param from points of the curve, 2 n, at least two  @param to where values are wanted, 2 m
-  CurveInterpolation(std::span<const double> from, std::span<const double> to);
+  /// @param periodic both curves go on beyond their ends, a period further
+  CurveInterpolation(std::span<const double> from, std::span<const double> to, bool periodic = false);
 
   std::size_t points() const { return places_.size(); }
   /// Largest distance of the points wanted from the curve, and the point that has it.
@@ -38,6 +40,7 @@ class CurveInterpolation {
     std::size_t count = 0;
     std::array<std::size_t, widest> index{};
     std::array<double, widest> weight{};
+    std::array<double, widest> turns{};  ///< periods between the points and those with their indices
   };
   struct Place {
     Weights cubic, linear;
@@ -51,7 +54,7 @@ class CurveInterpolation {
   void apply(std::span<const double> values, std::span<double> result, Weights Place::*kind) const;
 
   std::size_t n_;
-  bool closed_;
+  bool periodic_, closed_;
   std::vector<double> s_;
   std::vector<Place> places_;
   std::size_t farthest_ = 0;

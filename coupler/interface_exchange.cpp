@@ -21,7 +21,7 @@ Vec2 vector_at(std::span<const double> values, std::size_t k) {
 
 Curve curve_of(const InterfacePair& pair, const std::vector<double>& x, const std::vector<double>& n0) {
   try {
-    return {x, n0};
+    return {x, n0, pair.periodic};
   } catch (const std::invalid_argument& problem) {
     throw PeerLost(fmt::format("interface \"{}\", solid \"{}\": {}", pair.name, pair.solid, problem.what()));
   }
@@ -338,7 +338,7 @@ wire::Telemetry::Interface InterfaceExchange::profile(std::size_t most) const {
   profile.traction_jump = report_.traction_jump;
   profile.gap = report_.gap;
   profile.power = report_.power;
-  profile.closed = curve_.closed;
+  profile.closed = curve_.closed && !curve_.periodic;
   const std::size_t n = curve_.n;
   const Level& now = levels_.front();
   const auto [v_min, v_max] = std::ranges::minmax(now.v_n);

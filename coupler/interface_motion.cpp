@@ -20,10 +20,11 @@ Vec2 point(std::span<const double> x, std::size_t k) {
 }
 
 /// Derivative of the position with respect to the index at point k.
-Vec2 tangent(std::span<const double> x, bool closed, std::size_t k) {
+Vec2 tangent(std::span<const double> x, const Curve& curve, std::size_t k) {
   const std::size_t last = x.size() / 2 - 1;
   if (k > 0 && k < last) return 0.5 * (point(x, k + 1) - point(x, k - 1));
-  if (closed) return 0.5 * (point(x, 1) - point(x, last - 1));
+  if (curve.periodic) return 0.5 * (point(x, 1) - (point(x, last - 1) - period_of(x)));
+  if (curve.closed) return 0.5 * (point(x, 1) - point(x, last - 1));
   if (last == 1) return point(x, 1) - point(x, 0);
   if (k == 0) return 2.0 * point(x, 1) - 1.5 * point(x, 0) - 0.5 * point(x, 2);
   return 1.5 * point(x, last) - 2.0 * point(x, last - 1) + 0.5 * point(x, last - 2);
@@ -42,14 +43,19 @@ bool is_closed(std::span<const double> x) {
   return n > 3 && (point(x, 0) - point(x, n - 1)).norm() < coincident * length(x);
 }
 
-Curve::Curve(std::span<const double> x, std::span<const double> n0) : n(x.size() / 2) {
+Vec2 period_of(std::span<const double> x) {
+  return point(x, x.size() / 2 - 1) - point(x, 0);
+}
+
+Curve::Curve(std::span<const double> x, std::span<const double> n0, bool is_periodic)
+    : n(x.size() / 2), periodic(is_periodic) {
   if (n < 2 || x.size() != 2 * n) throw std::invalid_argument("an interface needs at least two points");
   if (n0.size() != x.size())
     throw std::invalid_argument("the solid says no normals of its reference boundary");
-  closed = is_closed(x);
+  closed = periodic || is_closed(x);
   double agreement = 0;
   for (std::size_t k = 0; k < n; ++k) {
-    const Vec2 t = tangent(x, closed, k).normalized();
+    const Vec2 t = tangent(x, *this, k).normalized();
     agreement += Vec2(t.y(), -t.x()).dot(point(n0, k)) / static_cast<double>(n);
   }
   if (!(std::abs(agreement) > 0.5)) {
@@ -62,7 +68,7 @@ Curve::Curve(std::span<const double> x, std::span<const double> n0) : n(x.size()
 
 void unit_normals(const Curve& curve, std::span<const double> x, std::span<double> n) {
   for (std::size_t k = 0; k < curve.n; ++k) {
-    const Vec2 t = tangent(x, curve.closed, k).normalized();
+    const Vec2 t = tangent(x, curve, k).normalized();
     n[k] = curve.sign * t.y();
     n[curve.n + k] = -curve.sign * t.x();
   }

@@ -16,10 +16,14 @@ namespace fsi::coupler {
 /// True where the last point of a curve is the first one again.
 bool is_closed(std::span<const double> x);
 
+/// From the first to the last point of a periodic curve.
+Vec2 period_of(std::span<const double> x);
+
 /// Order of the points along an interface curve.
 struct Curve {
   std::size_t n = 0;
-  bool closed = false;  ///< the last point is the first one again
+  bool closed = false;    ///< the last point is the first one again, or the first one of the next period
+  bool periodic = false;  ///< it is that of the next period
   double sign =
       1;  ///< +1: turning the direction of increasing index by -90 degrees gives the normal, -1: by +90
   /// The first and the last point, and their reference normals.
@@ -30,8 +34,9 @@ struct Curve {
   End first = {}, last = {};
 
   /// From the initial positions `x` and the reference normals `n0` of the solid.
+  /// @param is_periodic the curve goes on beyond its ends, a period further
   /// @throws std::invalid_argument where fewer than two points or normals without a clear side are given
-  Curve(std::span<const double> x, std::span<const double> n0);
+  Curve(std::span<const double> x, std::span<const double> n0, bool is_periodic = false);
 };
 
 /// Unit normals, solid -> gas, from central differences along the curve; one-sided of second order at open

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "common/core/failure.hpp"
 #include "common/core/types.hpp"
@@ -77,8 +78,9 @@ struct Points {
 };
 
 /// Throws unless the points of `to` lie on the curve through those of `from`.
-void check_curve(const std::string& name, const Points& from, const Points& to, double tolerance) {
-  const CurveInterpolation curve(from.x, to.x);
+void check_curve(const InterfacePair& pair, const Points& from, const Points& to, double tolerance) {
+  const std::string& name = pair.name;
+  const CurveInterpolation curve(from.x, to.x, pair.periodic);
   if (curve.largest_distance() <= tolerance) return;
   const Vec2 x = point(to.x, curve.farthest());
   throw UserMistake(
@@ -88,46 +90,42 @@ void check_curve(const std::string& name, const Points& from, const Points& to, 
                   name, curve.farthest(), to.of, x.x(), x.y(), curve.largest_distance(), from.of, name));
 }
 
-std::vector<double> normals_at(const std::vector<double>& to, const wire::InterfaceInfo& solid) {
+std::vector<double> normals_at(const std::vector<double>& to, const wire::InterfaceInfo& solid,
+                               bool periodic) {
   std::vector<double> n(to.size());
   if (solid.n.size() != solid.x.size()) return {};  // refused with its reason by `Curve`
-  CurveInterpolation(solid.x, to).linear(solid.n, n);
+  CurveInterpolation(solid.x, to, periodic).linear(solid.n, n);
   return n;
 }
 
 /// Both sides of an interface whose points differ.
-InterfacePair interpolated(const std::string& name, const wire::InterfaceInfo& gas,
+InterfacePair interpolated(InterfacePair pair, const wire::InterfaceInfo& gas,
                            const wire::InterfaceInfo& solid) {
   const bool gas_is_coarser = gas.x.size() < solid.x.size();
   const double tolerance = same_curve * mean_spacing(gas_is_coarser ? gas.x : solid.x);
   const Points of_gas{"gas", gas.x}, of_solid{"solid", solid.x};
-  check_curve(name, of_solid, of_gas, tolerance);
-  check_curve(name, of_gas, of_solid, tolerance);
-  InterfacePair pair{.fluid = {}, .solid = {}, .name = name, .x = {}, .n0 = {}};
+  check_curve(pair, of_solid, of_gas, tolerance);
+  check_curve(pair, of_gas, of_solid, tolerance);
   pair.x = gas_is_coarser ? solid.x : gas.x;
-  pair.n0 = gas_is_coarser ? solid.n : normals_at(gas.x, solid);
+  pair.n0 = gas_is_coarser ? solid.n : normals_at(gas.x, solid, pair.periodic);
   pair.coarser = {.is_gas = gas_is_coarser,
                   .x = gas_is_coarser ? gas.x : solid.x,
-                  .n0 = gas_is_coarser ? normals_at(gas.x, solid) : solid.n};
+                  .n0 = gas_is_coarser ? normals_at(gas.x, solid, pair.periodic) : solid.n};
   return pair;
 }
 
-InterfacePair pair_of(const wire::Hello& fluid, const wire::InterfaceInfo& gas, const wire::Hello& hello,
-                      const wire::InterfaceInfo& solid) {
-  InterfacePair pair;
-  if (same_points(gas.x, solid.x)) {
-    pair = {.fluid = {}, .solid = {}, .name = gas.name, .x = gas.x, .n0 = solid.n};
-  } else {
-    pair = interpolated(gas.name, gas, solid);
-  }
-  pair.fluid = fluid.name;
-  pair.solid = hello.name;
+/// `pair` has the names.
+InterfacePair pair_of(InterfacePair pair, const wire::InterfaceInfo& gas, const wire::InterfaceInfo& solid) {
+  if (!same_points(gas.x, solid.x)) return interpolated(std::move(pair), gas, solid);
+  pair.x = gas.x;
+  pair.n0 = solid.n;
   return pair;
 }
 
 }  // namespace
 
-std::vector<InterfacePair> match_interfaces(std::span<const wire::Hello> hellos) {
+std::vector<InterfacePair> match_interfaces(std::span<const wire::Hello> hellos,
+                                            std::span<const std::string> periodic) {
   const wire::Hello& fluid = the_fluid(hellos);
   std::vector<InterfacePair> pairs;
   for (const wire::InterfaceInfo& gas : fluid.interfaces) {
@@ -137,7 +135,14 @@ std::vector<InterfacePair> match_interfaces(std::span<const wire::Hello> hellos)
       for (const wire::InterfaceInfo& solid : hello.interfaces) {
         if (solid.name != gas.name) continue;
         check_shape(hello, solid);
-        pairs.push_back(pair_of(fluid, gas, hello, solid));
+        const bool goes_on = std::ranges::find(periodic, gas.name) != periodic.end();
+        pairs.push_back(pair_of({.fluid = fluid.name,
+                                 .solid = hello.name,
+                                 .name = gas.name,
+                                 .x = {},
+                                 .n0 = {},
+                                 .periodic = goes_on},
+                                gas, solid));
       }
     }
     if (std::ranges::count(pairs, gas.name, &InterfacePair::name) != 1) {

@@ -16,6 +16,7 @@ struct InterfacePair {
   std::string name;          ///< of the interface: that of the solid
   std::vector<double> x;     ///< initial positions of the points of the exchange, 2 n
   std::vector<double> n0;    ///< reference normals of the solid there, 2 n
+  bool periodic = false;     ///< the interface goes on beyond its ends, a period further
 
   /// The side with fewer points, where the two sides do not have the same ones.
   struct Coarser {
@@ -29,8 +30,10 @@ struct InterfacePair {
 /// All interfaces of a run, in the order of the gas's hello. Where the points of both sides are the same, in
 /// the same order and no farther apart than a thousandth of their spacing, the exchange happens at those of
 /// the gas; otherwise at those of the side with more of them.
+/// @param periodic names of those that go on beyond their ends, a period further
 /// @throws UserMistake naming interface, point, distance and remedy where the sides are not one curve
 /// @throws PeerLost when a program's hello does not make sense
-std::vector<InterfacePair> match_interfaces(std::span<const wire::Hello> hellos);
+std::vector<InterfacePair> match_interfaces(std::span<const wire::Hello> hellos,
+                                            std::span<const std::string> periodic = {});
 
 }  // namespace fsi::coupler

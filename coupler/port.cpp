@@ -29,6 +29,17 @@ Path path_of(const InterfaceSpec& interface) {
   };
 }
 
+/// Interfaces between two periodic sides of the gas.
+std::vector<std::string> periodic_interfaces(const Case& problem) {
+  std::vector<std::string> names;
+  for (const Side side : all_sides) {
+    const BoundarySpec& boundary = problem.fluid->boundary[static_cast<std::size_t>(side)];
+    const bool goes_on = problem.fluid->grid.periodic[static_cast<std::size_t>(1 - direction_of(side))];
+    if (boundary.kind == BoundaryKind::interface && goes_on) names.push_back(boundary.solid);
+  }
+  return names;
+}
+
 CouplerOptions options_of(const Case& problem) {
   const TimeSpec& time = problem.time;
   return {.time = {.end = time.end,
@@ -39,7 +50,8 @@ CouplerOptions options_of(const Case& problem) {
           .multirate = time.multirate,
           .robin_order = time.robin_order,
           .projection = projection_named(problem.interface.projection),
-          .path = path_of(problem.interface)};
+          .path = path_of(problem.interface),
+          .periodic = periodic_interfaces(problem)};
 }
 
 /// The coupler of a run; when the interfaces do not fit, everybody is told why before the run ends.

@@ -60,8 +60,8 @@ void impose_force(std::span<const double> x, std::span<const double> n, const Ve
 InterfaceTransfer::InterfaceTransfer(const Curve& curve, std::span<const double> coarse,
                                      std::span<const double> fine)
     : curve_(curve),
-      to_fine_(coarse, fine),
-      to_coarse_(fine, coarse),
+      to_fine_(coarse, fine, curve.periodic),
+      to_coarse_(fine, coarse, curve.periodic),
       x_0_(coarse.begin(), coarse.end()),
       x_0_fine_(fine.begin(), fine.end()) {}
 

@@ -29,7 +29,8 @@ void impose_force(std::span<const double> x, std::span<const double> n, const Ve
 
 class InterfaceTransfer {
  public:
-  /// @param coarse the coarser side at t = 0, 2 n  @param fine points of the other side, 2 m
+  /// @param curve of the coarser side  @param coarse its points at t = 0, 2 n  @param fine points of the
+  /// other side, 2 m
   InterfaceTransfer(const Curve& curve, std::span<const double> coarse, std::span<const double> fine);
 
   std::size_t coarse_points() const { return curve_.n; }

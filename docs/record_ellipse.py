@@ -59,6 +59,13 @@ def budget(tools, directories):
     return "Change of the totals less what came in over the boundary and the interface:\n\n" + "\n".join(lines) + "\n"
 
 
+def rigid_budget(tools, left):
+    """The same with a rigid ellipse to t = 2, with the inflow side at x = `left`: at -3 what the body sends back comes there."""
+    settings = ["time.end=2", "output.times=[2]", f"fluid.grid.x=[{left}, 5]", "parameters.angle=45"]
+    runs = [tools.run_once(f"rigid-budget{left}-{j}", CASE, [f"grid.factor={j}", *settings], ["ellipse=rigid"]) for j in (2, 4, 8)]
+    return f"last row: `{runs[-1][2]}`\n\n" + budget(tools, [directory for directory, _, _ in runs])
+
+
 def symmetry(tools, factor):
     """The same problem mirrored at y = 0 and turned by 90 degrees, against itself."""
     back = {"mirrored": (["parameters.angle=45"],
@@ -108,6 +115,8 @@ def variants():
 
 def studies(tools):
     """(title, function) of all. `tools`: the module record_results."""
+    for left in (-4, -3):
+        yield f"Shock and rigid ellipse, budgets, left side at {left}", lambda x=left: rigid_budget(tools, x)
     ratios = [(f"gas : solid = {name}", [f"fluid.body_fitted.0.points=round({factor} * 2 * pi / h) + 1"], [])
               for name, factor in (("1 : 1", 1), ("1 : 2", 0.5), ("1 : 4", 0.25), ("2 : 1", 2), ("4 : 1", 4))]
     yield ("Rotating disk, different numbers of points on the two sides, h = 1/80",

@@ -268,6 +268,15 @@ def faults(count):
     return f"`{shlex.join(command)}`, exit code {answer.returncode}\n\n```\n" + "\n".join([answer.stdout.rstrip(), *flaws]) + "\n```\n"
 
 
+def damaged(count):
+    """Case files damaged in every way a test knows: what became of them, and what the worst one cost."""
+    command = [ROOT / "build" / "release" / "bin" / "test_case", "--gtest_filter=DamagedCase.*"]
+    answer = subprocess.run(command, env=os.environ | {"FSI_DAMAGES": str(count)}, capture_output=True, text=True, check=True)
+    line = next(line for line in answer.stdout.splitlines() if "damaged files" in line)
+    line = re.sub(r" \([^)]*seed \d+\)", "", line)
+    return f"`FSI_DAMAGES={count} build/release/bin/test_case --gtest_filter='DamagedCase.*'`\n\n{line}.\n"
+
+
 RATIOS = ["0.001", "0.01", "0.1", "1", "10", "1000"]
 PISTON = [("steps", "steps"), ("v_bar", "errors.v_bar"), ("P_bar", "errors.P_bar"), ("u_bar", "errors.u_bar"),
           ("rho", "errors.rho"), ("v1", "errors.v1"), ("T", "errors.T"), ("gap", "interface.max_gap")]
@@ -466,6 +475,7 @@ def all_studies():
             ("What watching costs", lambda: watched("watched")),
             ("Signals to every program at random moments", lambda: faults(200)), *record_faults.studies(tools),
             ("What protecting the bus costs", lambda: protection("protection")),
+            ("Damaged case files", lambda: damaged(10000)),
             ("Benchmarks", lambda: bench("bench")), ("Benchmarks, where the time goes", lambda: profile("profile"))]
 
 

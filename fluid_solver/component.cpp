@@ -200,9 +200,10 @@ void Component::advance(double t, double dt) {
     if (!has_source_) forcing_->evaluate(grid_.x_old(), t - dt, source_.view());
     forcing_->add(source_.view(), 0.5 * dt, state_.view());
   }
+  for (std::vector<double>& edge : edges_) std::ranges::fill(edge, 0.0);
   const SweepCounts counts =
       sweep({.q = state_.view(), .q_new = next_.view(), .grid = step_grid(), .runs = runs_, .dt = dt},
-            scheme_, {workspace_, row_rates_, fallbacks_});
+            scheme_, {workspace_, row_rates_, fallbacks_, {edges_[0], edges_[1], edges_[2], edges_[3]}});
   count_fallbacks();
   std::swap(state_, next_);
   advanced_ = true;
@@ -210,6 +211,11 @@ void Component::advance(double t, double dt) {
   counters_.steps += 1;
   if (counts.broken > 0) report_broken(t);
   if (forcing_) add_source(t, dt);
+}
+
+void Component::note_edges() {
+  for (const Side side : all_sides)
+    edges_[static_cast<std::size_t>(side)].assign(4 * static_cast<std::size_t>(grid_.side_size(side)), 0.0);
 }
 
 void Component::report_broken(double t) const {

@@ -67,6 +67,12 @@ class Component {
   const Boundary& boundary(Side side) const { return boundaries_[static_cast<std::size_t>(side)]; }
   const WallMotion& wall(Side side) const { return walls_[static_cast<std::size_t>(side)]; }
   const Counters& counters() const { return counters_; }
+  /// From now on each step notes what it carries through the faces half a cell inside the sides.
+  void note_edges();
+  /// Of the last step through the faces inside a side; see EdgeFluxes. Empty where they are not noted.
+  std::span<const double> edge(Side side) const { return edges_[static_cast<std::size_t>(side)]; }
+  /// Area of a cell of a Cartesian grid.
+  double cell_area() const { return spacing_->dx * spacing_->dy; }
   /// True on a rectangular grid at rest with equal spacings along the axes.
   bool cartesian() const { return spacing_.has_value(); }
 
@@ -105,6 +111,7 @@ class Component {
   bool prescribed_ = false;        ///< the grid's motion is known beforehand
   bool moved_ = false, advanced_ = false;  ///< in the step going on
   Counters counters_;
+  std::array<std::vector<double>, 4> edges_;
   std::vector<PointIndex> fallbacks_;  ///< work memory: points of one sweep
   std::optional<Forcing> forcing_;
   Field source_;             ///< of the forcing, at the time and on the grid of the state

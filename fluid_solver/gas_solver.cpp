@@ -194,7 +194,6 @@ std::size_t GasSolver::points() const {
   return points;
 }
 
-/// How the grids overlap depends on where they are only.
 void GasSolver::archive(Archive& archive) {
   for (std::size_t k = 0; k < components_.size(); ++k) {
     archive.inside(fmt::format("grid{}", k), [&] { components_[k].archive(archive); });

@@ -96,7 +96,17 @@ class GasSolver {
   void apply_fluid_bcs(double t, std::span<const InterfaceValues> interfaces = {});
 
   Health health() const;
-  Totals totals() const;
+  Totals totals() const { return totals_without({}); }
+  /// The same without the control volumes of the points on some sides of the background.
+  Totals totals_without(const std::array<bool, 4>& sides) const;
+  /// Whether gas may pass a side of the background: it is neither wall nor mirror.
+  bool lets_pass(Side side) const;
+  /// From now on each step notes what it carries through the faces half a cell inside the background's sides.
+  void note_edges() { components_.front().note_edges(); }
+  /// Mass, momentum (2) and energy that the last step carried through these faces, towards higher indices; n
+  /// points, component-major. The background must be a rectangle at rest.
+  std::span<const double> edge(Side side) const { return components_.front().edge(side); }
+  double background_cell_area() const { return components_.front().cell_area(); }
   /// Largest differences to a given solution at time t.
   GasErrors errors(const StateField& exact, double t) const;
   /// State at a position by bilinear interpolation; nothing where no grid covers it.
@@ -120,9 +130,8 @@ class GasSolver {
   std::size_t points() const;
   double time() const { return t_; }
 
-  /// Everything besides the grid that a restart needs, under fixed names, to be written or overwritten in
-  /// place.
-  /// Everything the next steps depend on.
+  /// Everything the next steps depend on, the grids included, under fixed names: to be written, or
+  /// overwritten in place. How the grids overlap is found again from where they are.
   void archive(Archive& archive);
 
  private:

@@ -103,19 +103,26 @@ void add_point(const GasSolver& solver, int grid, SidePoints::Index at, double a
   totals.angular_momentum += mass * (x(0, i, j) * v2 - x(1, i, j) * v1);
 }
 
+/// Does a point of the background lie on one of the sides?
+bool on_any(const std::array<bool, 4>& sides, const Layout& shape, SidePoints::Index at) {
+  return (sides[0] && at.i == 0) || (sides[1] && at.i == shape.n1 - 1) || (sides[2] && at.j == 0) ||
+         (sides[3] && at.j == shape.n2 - 1);
+}
+
 /// Control volumes of a grid of its own: the same sums that the scheme conserves.
-Totals totals_of_one(const GasSolver& solver) {
+Totals totals_of_one(const GasSolver& solver, const std::array<bool, 4>& without) {
   const grid::MovingGrid& grid = solver.grid();
   Totals totals;
   for (int j = 0; j < grid.layout().n2 - (grid.periodic(1) ? 1 : 0); ++j) {
     for (int i = 0; i < grid.layout().n1 - (grid.periodic(0) ? 1 : 0); ++i)
-      add_point(solver, 0, {i, j}, clipped_volume(grid, i, j), totals);
+      if (!on_any(without, grid.layout(), {i, j}))
+        add_point(solver, 0, {i, j}, clipped_volume(grid, i, j), totals);
   }
   return totals;
 }
 
 /// A smooth partition of the areas of overlapping grids.
-Totals totals_of_all(const GasSolver& solver) {
+Totals totals_of_all(const GasSolver& solver, const std::array<bool, 4>& without) {
   std::vector<ConstFieldView> x;
   for (int k = 0; k < solver.grids(); ++k) x.push_back(solver.grid(k).x());
   const std::vector<Field> areas = grid::area_weights(*solver.composite(), x);
@@ -124,7 +131,10 @@ Totals totals_of_all(const GasSolver& solver) {
     const ConstFieldView area = areas[static_cast<std::size_t>(k)].view();
     for (int j = 0; j < area.layout.n2; ++j) {
       for (const grid::Interval& run : solver.valid(k).row(j)) {
-        for (int i = run.begin; i < run.end; ++i) add_point(solver, k, {i, j}, area(0, i, j), totals);
+        for (int i = run.begin; i < run.end; ++i) {
+          if (k == 0 && on_any(without, area.layout, {i, j})) continue;
+          add_point(solver, k, {i, j}, area(0, i, j), totals);
+        }
       }
     }
   }
@@ -133,8 +143,14 @@ Totals totals_of_all(const GasSolver& solver) {
 
 }  // namespace
 
-Totals GasSolver::totals() const {
-  return composite() == nullptr ? totals_of_one(*this) : totals_of_all(*this);
+Totals GasSolver::totals_without(const std::array<bool, 4>& sides) const {
+  return composite() == nullptr ? totals_of_one(*this, sides) : totals_of_all(*this, sides);
+}
+
+bool GasSolver::lets_pass(Side side) const {
+  const Boundary& boundary = component(0).boundary(side);
+  return std::holds_alternative<Inflow>(boundary) || std::holds_alternative<Outflow>(boundary) ||
+         std::holds_alternative<FarField>(boundary) || std::holds_alternative<Dirichlet>(boundary);
 }
 
 Health GasSolver::health() const {

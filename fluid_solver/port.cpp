@@ -377,6 +377,10 @@ void FluidParticipant::report(double t, io::Part& part) const {
     part.conservation["energy_defect"] = defect.energy;
   }
   if (!reference_ || part.status == "stopped") return;
+  if (const std::string missing = reference_->missing_at(t); !missing.empty()) {
+    if (part.reason.empty()) part.reason = missing;
+    return;
+  }
   const StateField exact = field_of(reference_);
   const GasErrors errors = solver_.errors(exact, t);
   part.errors = {{"rho", errors.rho},

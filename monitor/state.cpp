@@ -20,6 +20,11 @@ constexpr double end_patience_s = 0.5;
 constexpr double silent_after_s = 2;
 /// Entries of the timeline of each program: about a minute.
 constexpr std::size_t timeline_length = 600;
+/// Messages of each program that the rates are taken from, at most.
+constexpr std::size_t longest_pace = 4096;
+/// Programs that are listened to: more than a run has. Anybody may send telemetry under any name.
+constexpr std::size_t most_programs = 256;
+constexpr std::size_t longest_name = 256;  ///< of a program
 
 bool finite(const std::vector<double>& values) {
   return std::ranges::all_of(values, [](double value) { return std::isfinite(value); });
@@ -35,9 +40,17 @@ std::optional<double> share(double compute_s, double wait_s) {
   return std::clamp(compute_s / (compute_s + wait_s), 0.0, 1.0);
 }
 
+/// A name that no program of a run has, or one more than any run has programs, would only fill the memory.
+bool welcome(const std::map<std::string, wire::Telemetry>& programs, const wire::Telemetry& telemetry) {
+  const bool known = programs.contains(telemetry.from);
+  return (known || (telemetry.from.size() <= longest_name && programs.size() < most_programs)) &&
+         telemetry.interfaces.size() <= most_programs;
+}
+
 }  // namespace
 
 void RunState::hear(const wire::Telemetry& telemetry, double now) {
+  if (!welcome(programs_, telemetry)) return;
   note_timeline(telemetry, now);
   programs_[telemetry.from] = telemetry;
   heard_at_[telemetry.from] = now;
@@ -49,7 +62,7 @@ void RunState::hear(const wire::Telemetry& telemetry, double now) {
                   .step = telemetry.step,
                   .messages = telemetry.messages,
                   .bytes = telemetry.bytes});
-  while (pace.front().now < now - pace_window_s) pace.pop_front();
+  while (pace.front().now < now - pace_window_s || pace.size() > longest_pace) pace.pop_front();
   if (leader()->from == telemetry.from) history_.add(telemetry);
 }
 

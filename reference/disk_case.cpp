@@ -110,6 +110,10 @@ bool load_on_reference(const SolidSpec& solid) {
 
 }  // namespace
 
+double angular_velocity(double omega_0, double r_bar) {
+  return omega_0 * std::pow(4 * r_bar * (1 - r_bar), 4);
+}
+
 DiskProblem disk_from_case(const Case& problem) {
   if (!problem.fluid || problem.solids.size() != 1) {
     throw UserMistake(

@@ -352,22 +352,28 @@ DiskOutput Rings<L>::output() const {
 
 }  // namespace
 
-double angular_velocity(double omega_0, double r_bar) {
-  return omega_0 * std::pow(4 * r_bar * (1 - r_bar), 4);
+DiskRun solve_disk_while_sound(const DiskProblem& problem, int points) {
+  return std::visit(
+      [&]<class L>(const L& law) {
+        DiskRun run;
+        try {
+          Rings<L> rings(problem, law, points);
+          for (const double t : problem.times) {
+            rings.run_to(t);
+            run.outputs.push_back(rings.output());
+          }
+        } catch (const NumbersBroke& broke) {
+          run.broke = broke.what();
+        }
+        return run;
+      },
+      law_named(problem.law, problem.lambda, problem.mu));
 }
 
 std::vector<DiskOutput> solve_disk(const DiskProblem& problem, int points) {
-  return std::visit(
-      [&]<class L>(const L& law) {
-        Rings<L> rings(problem, law, points);
-        std::vector<DiskOutput> outputs;
-        for (const double t : problem.times) {
-          rings.run_to(t);
-          outputs.push_back(rings.output());
-        }
-        return outputs;
-      },
-      law_named(problem.law, problem.lambda, problem.mu));
+  DiskRun run = solve_disk_while_sound(problem, points);
+  if (!run.broke.empty()) throw NumbersBroke(run.broke);
+  return std::move(run.outputs);
 }
 
 DiskDifference compare(const DiskOutput& fine, const DiskOutput& coarse) {

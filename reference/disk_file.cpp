@@ -62,19 +62,21 @@ DiskDifference largest(const std::vector<DiskDifference>& all) {
 std::vector<DiskDifference> estimated_errors(const std::vector<DiskOutput>& fine,
                                              const std::vector<DiskOutput>& half) {
   std::vector<DiskDifference> errors;
-  for (std::size_t k = 0; k < fine.size(); ++k) {
+  for (std::size_t k = 0; k < std::min(fine.size(), half.size()); ++k) {
     errors.push_back(compare(fine[k], half[k]));
     for (const auto quantity : quantities) errors.back().*quantity /= 3;
   }
   return errors;
 }
 
-void write_disk_table(const std::string& path, const std::vector<DiskOutput>& outputs,
+void write_disk_table(const std::string& path, const DiskRun& run,
                       const std::vector<DiskDifference>& errors) {
   io::Hdf5 file = io::Hdf5::create(io::aside(path));
   write_errors(file, largest(errors));
-  for (std::size_t k = 0; k < outputs.size(); ++k) {
-    write_output(file.make_group(io::output_name(k)), outputs[k], errors[k]);
+  if (!run.broke.empty()) file.write_attribute("broke", run.broke);
+  for (std::size_t k = 0; k < run.outputs.size(); ++k) {
+    const bool known = k < errors.size();
+    write_output(file.make_group(io::output_name(k)), run.outputs[k], known ? errors[k] : DiskDifference{});
   }
   file.close();
   io::rename_into_place(path);

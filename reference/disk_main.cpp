@@ -21,13 +21,16 @@ void run(const std::string& case_path, const std::string& run_dir) {
   const Case problem = load_case(case_path);
   const DiskProblem disk = disk_from_case(problem);
   const int points = disk_points_from_case(problem);
-  const auto fine = solve_disk(disk, points);
-  const auto half = solve_disk(disk, points / 2);
+  const DiskRun run = solve_disk_while_sound(disk, points);
+  const std::vector<DiskOutput>& fine = run.outputs;
+  const auto half = solve_disk_while_sound(disk, points / 2).outputs;
   const auto errors = estimated_errors(fine, half);
-  const auto errors_of_half = estimated_errors(half, solve_disk(disk, points / 4));
+  const auto errors_of_half = estimated_errors(half, solve_disk_while_sound(disk, points / 4).outputs);
   const double rate = std::log2(largest(errors_of_half).P_bar / largest(errors).P_bar);
   io::make_directory(run_dir);
-  write_disk_table(run_dir + "/reference.h5", fine, errors);
+  write_disk_table(run_dir + "/reference.h5", run, errors);
+  if (!run.broke.empty())
+    fmt::print(stderr, "reference_disk: warning: {}; no errors from then on\n", run.broke);
   const DiskDifference error = largest(errors);
   const DiskTotals& first = fine.front().totals;
   const DiskTotals& last = fine.back().totals;

@@ -33,8 +33,7 @@ void write_output(io::Hdf5 group, const PistonOutput& output) {
   gas.write("p", output.p);
 }
 
-void write_table(const std::string& path, const std::vector<PistonOutput>& outputs,
-                 const PistonDifference& error) {
+void write_table(const std::string& path, const PistonRun& run, const PistonDifference& error) {
   io::Hdf5 file = io::Hdf5::create(io::aside(path));
   file.write_attribute("estimated_error_rho", error.rho);
   file.write_attribute("estimated_error_v", error.v);
@@ -42,8 +41,9 @@ void write_table(const std::string& path, const std::vector<PistonOutput>& outpu
   file.write_attribute("estimated_error_u_bar", error.u_bar);
   file.write_attribute("estimated_error_v_bar", error.v_bar);
   file.write_attribute("estimated_error_P_bar", error.P_bar);
-  for (std::size_t k = 0; k < outputs.size(); ++k)
-    write_output(file.make_group(io::output_name(k)), outputs[k]);
+  if (!run.broke.empty()) file.write_attribute("broke", run.broke);
+  for (std::size_t k = 0; k < run.outputs.size(); ++k)
+    write_output(file.make_group(io::output_name(k)), run.outputs[k]);
   file.close();
   io::rename_into_place(path);
 }
@@ -68,13 +68,16 @@ void run(const std::string& case_path, const std::string& run_dir) {
   const Case problem = load_case(case_path);
   const PistonProblem piston = piston_from_case(problem);
   const int points = points_from_case(problem);
-  const auto fine = solve_piston(piston, points);
-  const auto half = solve_piston(piston, points / 2);
-  const PistonDifference difference = compare(fine, half);
-  const double rate = observed_rate(difference, compare(half, solve_piston(piston, points / 4)));
+  const PistonRun fine = solve_piston_while_sound(piston, points);
+  const auto half = solve_piston_while_sound(piston, points / 2).outputs;
+  const PistonDifference difference = compare(fine.outputs, half);
+  const double rate =
+      observed_rate(difference, compare(half, solve_piston_while_sound(piston, points / 4).outputs));
   const PistonDifference error = error_from(difference);
   io::make_directory(run_dir);
   write_table(run_dir + "/reference.h5", fine, error);
+  if (!fine.broke.empty())
+    fmt::print(stderr, "reference_piston: warning: {}; no errors from then on\n", fine.broke);
   fmt::print(
       "reference_piston: {} points per unit length; observed order {:.2f}; estimated errors rho {:.1e}, v "
       "{:.1e}, "

@@ -223,23 +223,33 @@ PistonOutput Chain<L>::output() const {
 
 }  // namespace
 
-std::vector<PistonOutput> solve_piston(const PistonProblem& problem, int points) {
+PistonRun solve_piston_while_sound(const PistonProblem& problem, int points) {
   return std::visit(
       [&]<class L>(const L& law) {
-        Chain<L> chain(problem, law, points);
-        std::vector<PistonOutput> outputs;
-        for (const double t : problem.times) {
-          chain.run_to(t);
-          outputs.push_back(chain.output());
+        PistonRun run;
+        try {
+          Chain<L> chain(problem, law, points);
+          for (const double t : problem.times) {
+            chain.run_to(t);
+            run.outputs.push_back(chain.output());
+          }
+        } catch (const NumbersBroke& broke) {
+          run.broke = broke.what();
         }
-        return outputs;
+        return run;
       },
       law_named(problem.law, problem.lambda, problem.mu));
 }
 
+std::vector<PistonOutput> solve_piston(const PistonProblem& problem, int points) {
+  PistonRun run = solve_piston_while_sound(problem, points);
+  if (!run.broke.empty()) throw NumbersBroke(run.broke);
+  return std::move(run.outputs);
+}
+
 PistonDifference compare(const std::vector<PistonOutput>& fine, const std::vector<PistonOutput>& coarse) {
   PistonDifference d;
-  for (std::size_t k = 0; k < fine.size(); ++k) {
+  for (std::size_t k = 0; k < std::min(fine.size(), coarse.size()); ++k) {
     const exact::CubicTable gas(fine[k].x, {fine[k].rho, fine[k].v, fine[k].p});
     const exact::CubicTable solid(fine[k].x_bar, {fine[k].u, fine[k].v_bar, fine[k].P11, fine[k].P22});
     const PistonOutput& c = coarse[k];

@@ -101,6 +101,9 @@ class CaseData {
     };
   }
 
+  /// Why the reference solution says nothing of time t; empty where it does.
+  std::string reference_missing_at(double t) const { return solution_ ? solution_->missing_at(t) : ""; }
+
   /// Empty unless the case starts from the reference.
   StateFunction initial_state() const {
     return spec_.initial_from_reference ? reference_state() : StateFunction{};

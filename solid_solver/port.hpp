@@ -175,6 +175,10 @@ class SolidParticipant final : public Participant {
     }
     const StateFunction exact = data_.reference_state();
     if (!exact || part.status == "stopped") return;
+    if (const std::string missing = data_.reference_missing_at(t); !missing.empty()) {
+      if (part.reason.empty()) part.reason = missing;
+      return;
+    }
     const Errors errors = solver_.errors(exact, t);
     part.errors = {{"u_bar", errors.u}, {"v_bar", errors.v}, {"P_bar", errors.P}};
   }

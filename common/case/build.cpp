@@ -31,6 +31,17 @@ std::map<std::string, double> numbers_of(const Node& owner, const char* key) {
   return result;
 }
 
+/// A step so small that the run would never end is a mistake.
+double largest_step_of(const Node& dt, double end) {
+  constexpr double most_steps = 1e9;
+  if (end / *dt.number > most_steps) {
+    fail(dt.place, "time.dt",
+         fmt::format("{:.3g} would take {:.3g} steps to the end, t = {:.6g}; at most {:.0e} are possible",
+                     *dt.number, end / *dt.number, end, most_steps));
+  }
+  return *dt.number;
+}
+
 TimeSpec time_of(const Node& node) {
   TimeSpec result;
   Reader::assign(node, "end", result.end);
@@ -38,7 +49,7 @@ TimeSpec time_of(const Node& node) {
   Reader::assign(node, "growth", result.growth);
   Reader::assign(node, "multirate", result.multirate);
   Reader::assign(node, "robin_order", result.robin_order);
-  if (const Node* dt = node.find("dt")) result.dt = *dt->number;
+  if (const Node* dt = node.find("dt")) result.dt = largest_step_of(*dt, result.end);
   Reader::assign(node, "peer_timeout", result.peer_timeout);
   Reader::assign(node, "step_timeout", result.step_timeout);
   return result;
@@ -210,10 +221,17 @@ Expectation expectation_of(const config::Entry& entry) {
 /// The name of a case becomes part of the names of files.
 std::string case_name_of(const Node& root) {
   const Node& node = *root.find("name");
-  if (node.text.empty() || node.text.front() == '.' || !std::ranges::all_of(node.text, fits_case_name))
-    fail(
-        node.place, "name",
-        fmt::format("{} cannot name files; use letters, digits, _, - and ., not first", in_ticks(node.text)));
+  const bool begins_well = !node.text.starts_with('.') && !node.text.starts_with('-');
+  if (node.text.empty() || !begins_well || !std::ranges::all_of(node.text, fits_case_name)) {
+    fail(node.place, "name",
+         fmt::format("{} cannot name files; use letters, digits, _, - and ., these two not first",
+                     in_ticks(node.text)));
+  }
+  if (node.text.size() > longest_case_name) {
+    fail(node.place, "name",
+         fmt::format("has {} characters; it becomes part of the names of files, at most {} fit",
+                     node.text.size(), longest_case_name));
+  }
   return node.text;
 }
 

@@ -5,14 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <numbers>
 #include <optional>
-#include <sstream>
 #include <utility>
 
 #include "common/case/grid_points.hpp"
 #include "common/core/suggest.hpp"
+#include "common/core/text_file.hpp"
 #include "common/grid/shapes/circle.hpp"
 #include "common/grid/shapes/ellipse.hpp"
 #include "common/grid/shapes/plane_curve.hpp"
@@ -79,7 +78,7 @@ int count_of(const Reader& reader, const Node& shape, double length, bool closed
     fail(spacing->place, path, "give `points` or `spacing`, one of them");
   if (points != nullptr) return static_cast<int>(*points->number);
   const double h = spacing != nullptr ? *spacing->number : reader.scope().constants.at("h");
-  constexpr double fewest = 8, most = 1e5;
+  constexpr double fewest = 8, most = 1e4;
   const double cells = std::round(length / h);
   if (!(cells >= fewest && cells <= most)) {
     fail(spacing != nullptr ? spacing->place : shape.place, path,
@@ -322,17 +321,21 @@ namespace {
 void inline_points(Node& shape, const std::string& folder) {
   for (config::Entry& entry : shape.entries) {
     if (entry.key != "file" || !entry.value.is_scalar()) continue;
-    const std::filesystem::path path = std::filesystem::path(folder) / entry.value.text;
-    std::ifstream file(path);
-    std::ostringstream text;
-    text << file.rdbuf();
-    if (!file) {
+    const std::string path = (std::filesystem::path(folder) / entry.value.text).string();
+    const TextFile file = read_text_file(path, config::longest_file);
+    if (!file.trouble.empty()) {
       fail(entry.value.place, "shape.file",
-           fmt::format("{} cannot be read; its path counts from the folder of the case file",
-                       in_ticks(path.string())));
+           fmt::format("{} {}; its path counts from the folder of the case file", in_ticks(path),
+                       file.trouble));
     }
     Node list{.kind = Node::Kind::list, .place = entry.value.place, .entries = {}};
-    for (const Vec2& point : grid::points_from_csv(text.str(), path.string())) {
+    const std::vector<Vec2> points = grid::points_from_csv(file.text, path);
+    if (points.size() > config::most_items) {
+      fail(entry.value.place, "shape.file",
+           fmt::format("{} has {} points; at most {} are possible", in_ticks(path), points.size(),
+                       config::most_items));
+    }
+    for (const Vec2& point : points) {
       Node pair{.kind = Node::Kind::list, .place = entry.value.place, .entries = {}};
       for (const double x : {point[0], point[1]}) {
         pair.items.push_back({.kind = Node::Kind::scalar,

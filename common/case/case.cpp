@@ -8,12 +8,14 @@
 #include "common/case/build.hpp"
 #include "common/case/build_shape.hpp"
 #include "common/case/check.hpp"
+#include "common/case/memory.hpp"
 #include "common/case/restart.hpp"
 #include "common/case/schema.hpp"
 #include "common/case/scope.hpp"
 #include "common/case/validate.hpp"
 #include "common/core/config.hpp"
 #include "common/core/suggest.hpp"
+#include "common/core/text_file.hpp"
 
 namespace fsi {
 
@@ -103,7 +105,8 @@ void put_name(Node& root, const std::string& path) {
   name.text = std::filesystem::path(path).stem().string();
   std::ranges::replace_if(
       name.text, [](char c) { return !fits_case_name(c); }, '_');
-  if (name.text.starts_with('.')) name.text.front() = '_';
+  if (name.text.starts_with('.') || name.text.starts_with('-')) name.text.front() = '_';
+  if (name.text.size() > longest_case_name) name.text.resize(longest_case_name);
   root.entries.insert(root.entries.begin(), {"name", path, name});
 }
 
@@ -135,6 +138,8 @@ std::string find_case(const std::string& path_or_name, const std::vector<std::st
       if (std::filesystem::is_regular_file(path, error)) return path;
     }
   }
+  const std::string kind = kind_of_no_file(path_or_name);
+  if (!kind.empty()) throw UserMistake(fmt::format("{}: is {}, not a case file", shown(path_or_name), kind));
   const std::vector<std::string> names = names_in_folders(folders);
   const std::string stem = std::filesystem::path(path_or_name).stem().string();
   const std::string hint = did_you_mean(stem, names);
@@ -144,6 +149,11 @@ std::string find_case(const std::string& path_or_name, const std::vector<std::st
 
 Case load_case(const std::string& path, const std::vector<std::string>& overrides,
                const std::vector<std::string>& laws) {
+  return load_case_within(unlimited_memory, path, overrides, laws);
+}
+
+Case load_case_within(double available, const std::string& path, const std::vector<std::string>& overrides,
+                      const std::vector<std::string>& laws) {
   const std::string file = find_case(path, {"configs", configs_folder()});
   Node root = config::parse_file(file);
   if (root.kind == Node::Kind::null)
@@ -158,6 +168,7 @@ Case load_case(const std::string& path, const std::vector<std::string>& override
   validate(root, schema::case_file, scope);
   put_name(root, file);
   Case result = build_case(root, scope);
+  check_memory(result, root, available);
   check_case(result, root);
   result.path = file;
   result.resolved = config::emit(root);

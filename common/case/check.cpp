@@ -188,6 +188,7 @@ void check_interfaces(const Case& problem, const Node& root) {
       fail(at(root, {"fluid", "boundary", name_of(gas[1])}).place, "fluid.boundary",
            fmt::format("two sides meet solid `{}`; keep one", solid.name));
     }
+    check_periods_meet(problem, solid, gas.front(), own.front(), place);
     check_sides_meet(problem, solid, gas.front(), own.front(),
                      at(root, {"fluid", "boundary", name_of(gas.front())}));
   }

@@ -32,7 +32,25 @@ double distance_from(const Vec2& a, const Vec2& b, const Vec2& x) {
   return (a + along * (b - a) - x).norm();
 }
 
+bool repeats_along(const GridSpec& grid, Side side) {
+  return grid.periodic[static_cast<std::size_t>(1 - direction_of(side))];
+}
+
 }  // namespace
+
+void check_periods_meet(const Case& problem, const SolidSpec& solid, Side gas_side, Side solid_side,
+                        const config::Node& place) {
+  const bool gas = repeats_along(problem.fluid->grid, gas_side), own = repeats_along(solid.grid, solid_side);
+  const std::string path = fmt::format("solids.{}.boundary", solid.name);
+  if (gas != own) {
+    config::fail(place.place, path,
+                 fmt::format("the sides beside the interface are {}periodic, those of the gas are {}; write "
+                             "`periodic` in both or in neither",
+                             own ? "" : "not ", own ? "not" : "periodic"));
+  }
+  if (own && solid.law == "rigid")
+    config::fail(place.place, path, "a rigid body ends somewhere: it cannot be periodic; write symmetry");
+}
 
 void check_sides_meet(const Case& problem, const SolidSpec& solid, Side gas_side, Side solid_side,
                       const config::Node& place) {

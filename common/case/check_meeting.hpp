@@ -11,4 +11,8 @@ namespace fsi {
 void check_sides_meet(const Case& problem, const SolidSpec& solid, Side gas_side, Side solid_side,
                       const config::Node& place);
 
+/// An interface between periodic sides goes on beyond its ends, on both sides of it.
+void check_periods_meet(const Case& problem, const SolidSpec& solid, Side gas_side, Side solid_side,
+                        const config::Node& place);
+
 }  // namespace fsi

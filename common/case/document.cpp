@@ -33,6 +33,11 @@ and what to write.
 - **From the command line**: `--set KEY=VALUE` with a dotted key (`time.end`, `solids.solid.rho`, `parameters.NAME`;
   entries of a list by number from 0), `--solid NAME=LAW`. Parameters and solids must exist in the file.
 - YAML aliases, merge keys and second documents are not read; a key that is there twice is an error.
+- Limits: a file of 4 MiB of UTF-8 text, 24 sections and lists within each other, 1000 keys in a section, 20 000 entries in
+  a list (or points in a file of points), 16 384 characters in a value, 100 definitions, 100 parameters that need each other one after the other.
+- **Memory**: `check` estimates what the programs of a run need together, and refuses a case that needs more than the machine
+  has free, or than the control group it runs in may have.
+- **Periodic sides** may meet an interface: it then goes on beyond its ends, a period further, in gas and solid alike.
 
 Units are those of a consistent system of the user's choice; `-` is a pure number.
 )";

@@ -8,6 +8,7 @@
 
 #include "common/case/case.hpp"
 #include "common/case/document.hpp"
+#include "common/case/memory.hpp"
 #include "common/case/restart.hpp"
 #include "common/case/summary.hpp"
 #include "common/core/failure.hpp"
@@ -27,7 +28,8 @@ struct Options {
 };
 
 fsi::Case load(const Options& options) {
-  return fsi::load_case(fsi::find_case(options.name, options.folders()), options.overrides, options.laws);
+  return fsi::load_case_within(fsi::available_memory(), fsi::find_case(options.name, options.folders()),
+                               options.overrides, options.laws);
 }
 
 void check(const Options& options) {

@@ -8,7 +8,6 @@ namespace {
 
 using std::array;
 using std::string_view;
-constexpr Range fraction{.low = 0, .high = 1, .low_open = true};
 /// [s]; Cyclone remembers a silent participant for an hour at most, and must for twice as long.
 constexpr Range at_most_half_an_hour{.low = 0, .high = 1800, .low_open = true};
 constexpr Range at_most_a_day{.low = 0, .high = 86400, .low_open = true};  ///< [s]
@@ -150,7 +149,10 @@ constexpr Section resolution{.title = "Resolution", .keys = grid_keys};
 
 constexpr array time_keys{
     Key{.name = "end", .meaning = "end of the run", .unit = "time", .required = true, .range = positive},
-    Key{.name = "cfl", .meaning = "safety factor of the time step", .fallback = "0.9", .range = fraction},
+    Key{.name = "cfl",
+        .meaning = "safety factor of the time step",
+        .fallback = "0.9",
+        .range = {.low = 1e-4, .high = 1}},
     Key{.name = "growth",
         .meaning = "largest ratio of successive time steps",
         .fallback = "1.2",
@@ -228,6 +230,7 @@ constexpr array output_keys{
         .type = Type::list,
         .meaning = "values at points, every step",
         .fallback = "[]",
+        .most = 1000,
         .element = &probe_element},
     Key{.name = "checkpoint_every",
         .type = Type::integer,
@@ -300,6 +303,7 @@ constexpr array case_keys{
         .type = Type::named,
         .meaning = "the solids by name, each a program of its own",
         .fallback = "no solids",
+        .most = 64,
         .element = &solid_element},
     Key{.name = "interface",
         .type = Type::section,

@@ -2,6 +2,7 @@
 /// What a case file may say: the one description behind validation, docs/case_file.md and the typed case.
 
 #include <array>
+#include <cstddef>
 #include <limits>
 #include <span>
 #include <string_view>
@@ -60,7 +61,8 @@ struct Key {
   bool required = false;
   Range range = {};
   std::span<const std::string_view> words =
-      {};  ///< of a word; for other types: words that may stand in its place
+      {};                     ///< of a word; for other types: words that may stand in its place
+  std::size_t most = 20'000;  ///< entries of a list, or names
   const Section* section = nullptr;
   const Key* element = nullptr;
 };

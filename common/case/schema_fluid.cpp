@@ -189,6 +189,7 @@ constexpr array fluid_keys{
         .type = Type::list,
         .meaning = "grids before `grid`, which then is a rectangle that covers them: around solids and walls",
         .fallback = "[]",
+        .most = 64,
         .element = &gas_fitted_element},
     Key{.name = "scheme",
         .type = Type::section,

@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
+#include <system_error>
 #include <vector>
 
 #include "common/core/expression.hpp"
@@ -88,8 +91,12 @@ class Parameters {
     }
     const bool circle = std::find(chain_.begin(), chain_.end(), name) != chain_.end();
     chain_.push_back(name);
-    if (circle)
-      fail(node.place, key, fmt::format("parameters go round in a circle: {}", fmt::join(chain_, " -> ")));
+    if (circle) fail(node.place, key, fmt::format("parameters go round in a circle: {}", chain_text(chain_)));
+    if (chain_.size() > longest_chain) {
+      fail(
+          node.place, key,
+          fmt::format("parameters need each other more than {} deep: {}", longest_chain, chain_text(chain_)));
+    }
     for (const std::string& used : names_in(node.text)) {
       if (knows(used)) value_of(used);
     }
@@ -99,11 +106,22 @@ class Parameters {
   }
 };
 
+/// The number that a text is, without any formula: most values of a case are.
+std::optional<double> plain_number(const std::string& text) {
+  double value = 0;
+  const char* end = text.data() + text.size();
+  const bool begins_so = !text.empty() && (std::isdigit(static_cast<unsigned char>(text.front())) != 0);
+  const auto [behind, error] = std::from_chars(text.data(), end, value);
+  if (!begins_so || behind != end || error != std::errc() || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
 }  // namespace
 
 double Scope::number(const Node& node, const std::string& key) const {
   if (!node.is_scalar())
     fail(node.place, key, fmt::format("must be a number, is {}", config::describe(node)));
+  if (const auto literal = plain_number(node.text)) return *literal;
   try {
     const Expression expression(node.text, constants);
     for (const char* variable : {"x", "y", "r", "s", "t"}) {
@@ -144,8 +162,11 @@ Scope evaluate_scope(Node& root) {
     fail(definitions->place, "definitions",
          "must be a section `name: formula`, is " + config::describe(*definitions));
   }
+  constexpr std::size_t most_definitions = 100;
   for (const config::Entry& entry : definitions->entries) {
     check_name(entry, "definitions");
+    if (scope.definitions.size() >= most_definitions)
+      fail(entry.place, "definitions", fmt::format("more than {} of them", most_definitions));
     if (scope.constants.contains(entry.key)) {
       fail(entry.place, "definitions",
            fmt::format("`{}` is a parameter already; choose another name", entry.key));

@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "common/case/laws.hpp"
+#include "common/case/memory.hpp"
 #include "common/core/config.hpp"
 #include "common/core/failure.hpp"
 
@@ -83,6 +85,8 @@ std::string summary_as_json(const Case& problem) {
   for (const ParticipantSummary& p : participants_of(problem)) {
     participants.push_back({{"name", p.name}, {"role", p.role}, {"executable", p.executable}});
   }
+  ordered_json memory;
+  for (const MemoryNeed& need : memory_of(problem)) memory[need.program] = std::round(need.bytes);
   ordered_json solids = ordered_json::array();
   for (const SolidSpec& solid : problem.solids) {
     solids.push_back({{"name", solid.name}, {"law", solid.law}, {"points", points_of(solid)}});
@@ -97,6 +101,7 @@ std::string summary_as_json(const Case& problem) {
       {"fluid_points", problem.fluid ? points_of(*problem.fluid) : 0},
       {"solids", solids},
       {"participants", participants},
+      {"memory", memory},
       {"parameters", problem.parameters},
       {"grid_factor", problem.grid_factor},
       {"time", time_json(problem.time)},
@@ -114,7 +119,8 @@ std::string summary_line(const Case& problem) {
   for (const SolidSpec& solid : problem.solids) {
     parts.push_back(fmt::format("{} ({}) {}", solid.name, solid.law, grids_of(solid)));
   }
-  return fmt::format("{}: fine; {}, t = 0 to {}", problem.path, fmt::join(parts, ", "), problem.time.end);
+  return fmt::format("{}: fine; {}, t = 0 to {}; memory about {}", problem.path, fmt::join(parts, ", "),
+                     problem.time.end, bytes_text(total_memory(problem)));
 }
 
 std::vector<std::pair<std::string, std::string>> list_cases(const std::string& folder) {

@@ -233,6 +233,12 @@ class Validator {
     const auto ordinary = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
     const bool good = !word.empty() && std::all_of(word.begin(), word.end(), ordinary);
     if (!good) fail(place, path, fmt::format("{} is no name; use letters, digits and _", in_ticks(word)));
+    constexpr std::size_t longest = 100;  // names of files and topics are made of it
+    if (word.size() > longest) {
+      fail(
+          place, path,
+          fmt::format("{} has {} characters; at most {} are possible", in_ticks(word), word.size(), longest));
+    }
   }
 
   void formula(Node& node, const Key& key, const std::string& path) const {
@@ -289,9 +295,15 @@ class Validator {
     section(node, *key.section, path);
   }
 
+  static void check_count(std::size_t count, const Node& node, const Key& key, const std::string& path) {
+    if (count > key.most)
+      fail(node.place, path, fmt::format("has {} entries; at most {} are possible", count, key.most));
+  }
+
   void named(Node& node, const Key& key, const std::string& path) const {
     if (node.kind == Node::Kind::null) return;
     if (!node.is_map()) fail(node.place, path, "must be a section `name: ...`, is " + config::describe(node));
+    check_count(node.entries.size(), node, key, path);
     for (Entry& entry : node.entries) {
       const bool is_word = key.element->section != nullptr && entry.value.is_scalar() && path == "expect";
       if (path != "expect") check_name(entry.key, entry.place, path);
@@ -301,6 +313,7 @@ class Validator {
 
   void list(Node& node, const Key& key, const std::string& path) const {
     if (!node.is_list()) fail(node.place, path, "must be a list `- ...`, is " + config::describe(node));
+    check_count(node.items.size(), node, key, path);
     for (std::size_t k = 0; k < node.items.size(); ++k)
       value(node.items[k], *key.element, fmt::format("{}[{}]", path, k));
   }

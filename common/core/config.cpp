@@ -9,11 +9,10 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
-#include <filesystem>
-#include <fstream>
 #include <sstream>
 
 #include "common/core/suggest.hpp"
+#include "common/core/text_file.hpp"
 
 namespace fsi::config {
 
@@ -23,7 +22,12 @@ namespace {
 class Builder : public YAML::EventHandler {
  public:
   Builder(const std::string& text, std::string file, bool with_marks)
-      : text_(text), file_(std::move(file)), with_marks_(with_marks) {}
+      : text_(text), file_(std::move(file)), with_marks_(with_marks) {
+    for (std::size_t at = 0; at < text_.size(); at = text_.find('\n', at) + 1) {
+      lines_.push_back(at);
+      if (text_.find('\n', at) == std::string::npos) break;
+    }
+  }
 
   Node take() { return std::move(root_); }
 
@@ -36,6 +40,7 @@ class Builder : public YAML::EventHandler {
   void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t,
                 const std::string& value) override {
     Node node = make(Node::Kind::scalar, mark);
+    limit(value.size(), longest_value, node, "characters in one value");
     node.text = value;
     node.quoted = tag == "!";  // yaml-cpp: "?" for a plain scalar
     if (node.quoted && !is_closed(mark)) {
@@ -66,13 +71,9 @@ class Builder : public YAML::EventHandler {
 
   /// False where a quoted text goes on to the end of the file: yaml-cpp lets that pass.
   bool is_closed(const YAML::Mark& mark) const {
-    std::size_t at = 0;
-    for (int line = 0; line < mark.line; ++line) {
-      const std::size_t end = text_.find('\n', at);
-      if (end == std::string::npos) return true;  // lines that end in another way: no verdict
-      at = end + 1;
-    }
-    at += static_cast<std::size_t>(mark.column);
+    const auto line = static_cast<std::size_t>(mark.line);
+    if (line >= lines_.size()) return true;  // lines that end in another way: no verdict
+    std::size_t at = lines_[line] + static_cast<std::size_t>(mark.column);
     if (at >= text_.size() || (text_[at] != '"' && text_[at] != '\'')) return true;
     const char quote = text_[at];
     for (++at; at < text_.size(); ++at) {
@@ -84,14 +85,20 @@ class Builder : public YAML::EventHandler {
     return false;
   }
 
-  Node make(Node::Kind kind, const YAML::Mark& mark) const {
+  Node make(Node::Kind kind, const YAML::Mark& mark) {
     Node node;
     node.kind = kind;
     node.place = place(mark);
+    limit(++values_, most_values, node, "values in one file");
     return node;
   }
 
+  static void limit(std::size_t count, std::size_t most, const Node& node, const char* what) {
+    if (count > most) throw UserMistake(fmt::format("{}: more than {} {}", node.place, most, what));
+  }
+
   void open(Node node) {
+    limit(open_.size() + 1, deepest, node, "sections and lists within each other");
     if (wants_key()) throw UserMistake(node.place + ": a key must be a word; " + quote_hint);
     open_.push_back({std::move(node), false});
   }
@@ -108,6 +115,7 @@ class Builder : public YAML::EventHandler {
     if (open_.empty()) {
       root_ = std::move(node);
     } else if (open_.back().node.is_list()) {
+      limit(open_.back().node.items.size() + 1, most_items, node, "entries in one list");
       open_.back().node.items.push_back(std::move(node));
     } else if (wants_key()) {
       add_key(node);
@@ -120,6 +128,8 @@ class Builder : public YAML::EventHandler {
   void add_key(const Node& key) {
     if (!key.is_scalar()) throw UserMistake(key.place + ": a key must be a word; " + quote_hint);
     std::vector<Entry>& entries = open_.back().node.entries;
+    limit(entries.size() + 1, most_keys, key, "keys in one section");
+    limit(key.text.size(), longest_key, key, "characters in one key");
     for (const Entry& entry : entries) {
       if (entry.key == key.text) {
         const std::string first = with_marks_ ? " at " + entry.place.substr(file_.size() + 1) : "";
@@ -136,6 +146,8 @@ class Builder : public YAML::EventHandler {
   const std::string& text_;
   std::string file_;
   bool with_marks_;
+  std::vector<std::size_t> lines_;  ///< where each line begins
+  std::size_t values_ = 0;
   Node root_;
   std::vector<Open> open_;
 };
@@ -150,6 +162,35 @@ void refuse_tabs(const std::string& text, const std::string& file) {
     throw UserMistake(
         fmt::format("{}:{}:{}: a tab in the indentation; write spaces", file, number, first + 1));
   }
+}
+
+/// The parser gathers all brackets of a line before it tells of any.
+void refuse_deep_brackets(const std::string& text, const std::string& file) {
+  constexpr int most_brackets = 1000;  // quotes and comments are not looked at: more than any text has
+  int open = 0;
+  std::size_t line = 1, begin = 0;
+  for (std::size_t at = 0; at < text.size(); ++at) {
+    const char c = text[at];
+    if (c == '\n') {
+      ++line;
+      begin = at + 1;
+    }
+    open = std::max(0, open + (c == '[' || c == '{' ? 1 : c == ']' || c == '}' ? -1 : 0));
+    if (open > most_brackets) {
+      throw UserMistake(
+          fmt::format("{}:{}:{}: more than {} brackets are open", file, line, at - begin + 1, most_brackets));
+    }
+  }
+}
+
+void refuse_bad_bytes(const std::string& text, const std::string& file) {
+  const std::size_t bad = first_bad_byte(text);
+  if (bad >= text.size()) return;
+  const std::size_t end = text.rfind('\n', bad), begin = end == std::string::npos ? 0 : end + 1;
+  throw UserMistake(
+      fmt::format("{}:{}:{}: byte 0x{:02x} is not UTF-8 text; save the file as UTF-8", file,
+                  1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(bad), '\n'),
+                  bad - begin + 1, static_cast<unsigned char>(text[bad])));
 }
 
 Node parse_text(const std::string& text, const std::string& file, bool with_marks) {
@@ -285,18 +326,16 @@ Node* Node::find(std::string_view key) {
 }
 
 Node parse(const std::string& text, const std::string& file) {
+  refuse_bad_bytes(text, file);
   refuse_tabs(text, file);
+  refuse_deep_brackets(text, file);
   return parse_text(text, file, true);
 }
 
 Node parse_file(const std::string& path) {
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error)) throw UserMistake(path + ": is a folder, not a case file");
-  std::ifstream file(path);
-  std::ostringstream text;
-  text << file.rdbuf();
-  if (!file) throw UserMistake(path + ": cannot be read");
-  return parse(text.str(), path);
+  const TextFile file = read_text_file(path, longest_file);
+  if (!file.trouble.empty()) throw UserMistake(fmt::format("{}:1:1: {}", path, file.trouble));
+  return parse(file.text, path);
 }
 
 void assign(Node& root, const std::vector<std::string>& path, const std::string& value,

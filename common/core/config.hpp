@@ -2,6 +2,7 @@
 /// The YAML reader: a tree that knows where each of its values was written, so that every mistake can be
 /// located. Differs from YAML: no aliases, no merge keys, no second document; a repeated key is an error.
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -12,6 +13,10 @@
 namespace fsi::config {
 
 struct Entry;
+
+/// More than any case needs; what is beyond is refused with its place before it costs time or memory.
+inline constexpr std::size_t longest_file = 4UL << 20, most_values = 250'000, deepest = 24,
+                             most_items = 20'000, most_keys = 1000, longest_key = 200, longest_value = 16'384;
 
 /// One value of a case file.
 struct Node {

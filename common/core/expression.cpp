@@ -125,6 +125,17 @@ std::set<std::string> names_in(const std::string& text) {
   return names;
 }
 
+std::string chain_text(const std::vector<std::string>& names) {
+  constexpr std::size_t shown_ends = 4;
+  std::vector<std::string> parts;
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    const bool left_out = k >= shown_ends && k + shown_ends < names.size();
+    if (!left_out) parts.push_back(shown(names[k]));
+    if (left_out && k == shown_ends) parts.emplace_back("..");
+  }
+  return fmt::format("{}", fmt::join(parts, " -> "));
+}
+
 const std::vector<std::string>& reserved_names() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> all(variable_names.begin(), variable_names.end());
@@ -194,14 +205,15 @@ struct Expression::Implementation {
   /// depends on.
   Dependence compile(mu::Parser& target, const std::string& formula, std::vector<std::string>& chain) {
     refuse_assignment(formula);
+    const std::set<std::string> names = names_in(formula);
     Dependence result;
-    for (const std::string& name : names_in(formula)) {
+    for (const std::string& name : names) {
       if (definitions.contains(name)) result |= need(name, chain);
       const std::size_t variable = variable_index(name);
       if (variable < variable_names.size()) result.set(variable);
     }
     try {
-      bind(target);
+      bind(target, names);
       target.SetExpr(formula);
       int results = 0;
       target.Eval(results);
@@ -222,8 +234,11 @@ struct Expression::Implementation {
     const bool circle = std::find(chain.begin(), chain.end(), name) != chain.end();
     chain.push_back(name);
     if (circle)
+      throw std::invalid_argument(fmt::format("definitions go round in a circle: {}", chain_text(chain)));
+    if (chain.size() > longest_chain) {
       throw std::invalid_argument(
-          fmt::format("definitions go round in a circle: {}", fmt::join(chain, " -> ")));
+          fmt::format("definitions go more than {} deep: {}", longest_chain, chain_text(chain)));
+    }
     auto helper = std::make_unique<Helper>();
     helper->name = name;
     try {
@@ -238,14 +253,17 @@ struct Expression::Implementation {
     return helpers.back()->depends;
   }
 
-  void bind(mu::Parser& target) {
+  void bind(mu::Parser& target, const std::set<std::string>& names) {
     target.DefineConst("pi", std::numbers::pi);
     for (std::size_t k = 0; k < variable_names.size(); ++k)
       target.DefineVar(std::string(variable_names[k]), &variables[k]);
-    for (const auto& [name, value] : constants) {
-      if (name != "pi") target.DefineConst(name, value);
+    for (const std::string& name : names) {
+      const auto constant = constants.find(name);
+      if (constant != constants.end() && name != "pi") target.DefineConst(name, constant->second);
     }
-    for (const auto& helper : helpers) target.DefineVar(helper->name, &helper->value);
+    for (const auto& helper : helpers) {
+      if (names.contains(helper->name)) target.DefineVar(helper->name, &helper->value);
+    }
   }
 
   std::string explain(const mu::ParserError& error, const std::string& formula) const {

@@ -1,6 +1,7 @@
 #pragma once
 /// A number or formula of a case file, compiled once and evaluated often.
 
+#include <cstddef>
 #include <map>
 #include <memory>
 #include <set>
@@ -41,6 +42,12 @@ class Expression {
 
 /// The names an expression contains, numbers such as 1e-3 left out. Includes names of functions.
 std::set<std::string> names_in(const std::string& text);
+
+/// Parameters, or definitions, that need each other one after the other: more than any case has.
+inline constexpr std::size_t longest_chain = 100;
+
+/// "a -> b -> c" of names that need each other, without the middle of many.
+std::string chain_text(const std::vector<std::string>& names);
 
 /// Names with a meaning of their own in every expression: variables, pi, functions.
 const std::vector<std::string>& reserved_names();

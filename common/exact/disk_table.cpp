@@ -46,6 +46,7 @@ Vec2 ray(double x, double y, double r) {
 
 DiskTable::DiskTable(const std::string& path) {
   const io::Hdf5 file = io::Hdf5::open(path);
+  if (file.has_attribute("broke")) broke_ = file.text_attribute("broke");
   for (const auto& name : file.names()) {
     const io::Hdf5 output = file.group(name);
     times_.push_back(output.number_attribute("t"));

@@ -21,10 +21,12 @@ class DiskTable final : public Solution {
   GasState gas(double x, double y, double t) const override;
   SolidState solid(double x_bar, double y_bar, double t) const override;
   bool only_at_output_times() const override { return true; }
+  std::string missing_at(double t) const override { return reason_beyond(times_, broke_, t); }
   const std::vector<double>& times() const { return times_; }
 
  private:
   std::vector<double> times_;
+  std::string broke_;  ///< why the run that made it ended early; empty where it did not
   std::vector<CubicTable> gas_, solid_;
 };
 

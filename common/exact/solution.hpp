@@ -23,6 +23,8 @@ class Solution {
   virtual GasState gas(double x, double y, double t) const = 0;
   /// State of the solid at the reference point (x_bar, y_bar).
   virtual SolidState solid(double x_bar, double y_bar, double t) const = 0;
+  /// Why nothing is known at time t, for a solution that ends before; empty where something is.
+  virtual std::string missing_at(double /*t*/) const { return ""; }
   /// True where the solution is only known at output times, so that it cannot give boundary data.
   virtual bool only_at_output_times() const { return false; }
 };

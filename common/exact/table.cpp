@@ -55,6 +55,7 @@ CubicTable read_table(const io::Hdf5& group, const std::vector<std::string>& nam
 
 PistonTable::PistonTable(const std::string& path) {
   const io::Hdf5 file = io::Hdf5::open(path);
+  if (file.has_attribute("broke")) broke_ = file.text_attribute("broke");
   for (const auto& name : file.names()) {
     const io::Hdf5 output = file.group(name);
     times_.push_back(output.number_attribute("t"));
@@ -70,6 +71,11 @@ std::size_t index_of_time(const std::vector<double>& times, double t) {
   throw UserMistake(fmt::format(
       "the reference solution is not tabulated at t = {}; it has t = {}. Add the time to output.times", t,
       fmt::join(times, ", ")));
+}
+
+std::string reason_beyond(const std::vector<double>& times, const std::string& broke, double t) {
+  if (broke.empty() || (!times.empty() && t <= times.back() + 1e-9 * std::max(1.0, std::fabs(t)))) return "";
+  return "the reference solution ends before: " + broke;
 }
 
 GasState PistonTable::gas(double x, double /*y*/, double t) const {

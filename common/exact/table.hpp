@@ -29,6 +29,9 @@ class CubicTable {
 /// Index of the time `t` in `times`. @throws UserMistake naming the times there are
 std::size_t index_of_time(const std::vector<double>& times, double t);
 
+/// Why a table that was made to the time where its run `broke` says nothing of time t; empty where it does.
+std::string reason_beyond(const std::vector<double>& times, const std::string& broke, double t);
+
 /// The piston in uniaxial strain: motion along x only, the same for every y. Asked at a time that is not in
 /// the table it throws: the table is a yardstick at output times, not a source of boundary data.
 class PistonTable final : public Solution {
@@ -39,10 +42,12 @@ class PistonTable final : public Solution {
   GasState gas(double x, double y, double t) const override;
   SolidState solid(double x_bar, double y_bar, double t) const override;
   bool only_at_output_times() const override { return true; }
+  std::string missing_at(double t) const override { return reason_beyond(times_, broke_, t); }
   const std::vector<double>& times() const { return times_; }
 
  private:
   std::vector<double> times_;
+  std::string broke_;  ///< why the run that made it ended early; empty where it did not
   std::vector<CubicTable> gas_, solid_;
 };
 

@@ -125,7 +125,8 @@ void CompositeGrid::connect_run(int grid, int j, Interval run, const Level& leve
       continue;
     }
     list_for(lists, grid, *stencil)
-        .append(part(grid).layout.at(i, j), part(stencil->grid).layout.at(stencil->i, stencil->j), *stencil);
+        .append(part(grid).layout.at(i, j), part(stencil->grid).layout.at(stencil->i, stencil->j), *stencil,
+                {x[0], x[1]});
     if (level.before) count_exposed(*stencil);
   }
 }

@@ -122,6 +122,7 @@ void CompositeGrid::update(std::span<const GridPositions> x, double t) {
 }
 
 void CompositeGrid::connect_now(double t) {
+  t_ = t;
   for (int grid = 1; grid < grids(); ++grid) {
     cuts_[static_cast<std::size_t>(grid) - 1].cut(background_, curve_of(grid), name(grid), t);
   }
@@ -210,11 +211,20 @@ void CompositeGrid::interpolate(std::span<const FieldView> fields) const {
     if (!list.implicit) apply(list, fields);
   }
   if (counts_.implicit == 0 || settle_implicit(interpolation_, fields)) return;
-  const auto first = std::ranges::find_if(interpolation_, &InterpolationList::implicit);
+  if (const auto unsolved = solve_implicit(interpolation_, fields)) report_unsolved(*unsolved);
+}
+
+void CompositeGrid::report_unsolved(const ImplicitPoint& point) const {
+  const InterpolationList& list = interpolation_[point.list];
+  const Layout& layout = part(list.target_grid).layout;
+  const int from_lead = list.target[point.point] - Layout::lead + Layout::ghosts;
+  const int j = from_lead / layout.stride - Layout::ghosts, i = from_lead % layout.stride - Layout::ghosts;
   throw NumbersBroke(fmt::format(
-      "grids \"{}\" and \"{}\": points that are interpolated from each other find no common values; "
-      "let the grids overlap more (more lines, or closer ones)",
-      name(first->target_grid), name(first->donor_grid)));
+      "t = {:.6g}, grid \"{}\", point ({}, {}) at ({:.6g}, {:.6g}): it and points of grid \"{}\" are "
+      "interpolated from each other and have no common values ({} such points); let the grids overlap more "
+      "(more lines, or closer ones), and keep bodies apart from each other and from the boundary",
+      t_, name(list.target_grid), i, j, list.x[point.point][0], list.x[point.point][1], name(list.donor_grid),
+      counts_.implicit));
 }
 
 void CompositeGrid::fill_exposed(std::span<const FieldView> fields) const {

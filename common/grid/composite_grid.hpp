@@ -126,6 +126,7 @@ class CompositeGrid {
   std::vector<CurveCut> cuts_;
   std::vector<GridPositions> positions_;
   std::vector<InterpolationList> interpolation_, exposed_;
+  double t_ = 0;  ///< of the connection
   OverlapCounts counts_;
   Orphans orphans_;
   std::vector<Interval> intervals_, runs_;  ///< work memory
@@ -157,6 +158,7 @@ class CompositeGrid {
   std::optional<Stencil> donor_anywhere(int target, const Vec2& x, const Level& level) const;
   void orphan(int grid, int i, int j, const Vec2& x);
   void report_orphans(double t, const char* what) const;
+  [[noreturn]] void report_unsolved(const ImplicitPoint& point) const;
 };
 
 }  // namespace fsi::grid

@@ -13,7 +13,7 @@ std::vector<double> tangents(std::span<const double> x, Curve curve) {
     double* d = t.data() + c * n;
     for (std::size_t k = 1; k + 1 < n; ++k) d[k] = 0.5 * (f[k + 1] - f[k - 1]);
     if (curve == Curve::closed) {
-      d[0] = d[n - 1] = 0.5 * (f[1] - f[n - 2]);
+      d[0] = d[n - 1] = 0.5 * (f[1] - (f[n - 2] - (f[n - 1] - f[0])));
     } else {
       d[0] = -1.5 * f[0] + 2 * f[1] - 0.5 * f[2];
       d[n - 1] = 1.5 * f[n - 1] - 2 * f[n - 2] + 0.5 * f[n - 3];

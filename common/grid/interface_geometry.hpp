@@ -11,7 +11,7 @@ namespace fsi::grid {
 /// How the points continue beyond the ends.
 enum class Curve {
   open,    ///< they do not: second-order one-sided differences at the ends
-  closed,  ///< the last point is the first one again
+  closed,  ///< the last point is the first one again, or the first one of the next period
 };
 
 /// Derivative with respect to the index by second-order differences, 2 n.

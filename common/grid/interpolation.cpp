@@ -51,17 +51,21 @@ void InterpolationList::clear() {
   target.clear();
   donor.clear();
   weight.clear();
+  x.clear();
 }
 
 void InterpolationList::reserve(std::size_t points) {
   target.reserve(points);
   donor.reserve(points);
   weight.reserve(points * static_cast<std::size_t>(width * width));
+  if (implicit) x.reserve(points);
 }
 
-void InterpolationList::append(std::ptrdiff_t at, std::ptrdiff_t donor_at, const Stencil& stencil) {
+void InterpolationList::append(std::ptrdiff_t at, std::ptrdiff_t donor_at, const Stencil& stencil,
+                               const std::array<double, 2>& place) {
   target.push_back(static_cast<std::int32_t>(at));
   donor.push_back(static_cast<std::int32_t>(donor_at));
+  if (implicit) x.push_back(place);
   const auto along = lagrange_weights(stencil.r, width), across = lagrange_weights(stencil.s, width);
   for (int m = 0; m < width; ++m) {
     for (int l = 0; l < width; ++l) {

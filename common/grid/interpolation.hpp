@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -31,11 +32,13 @@ struct InterpolationList {
   std::vector<std::int32_t> target;  ///< position in a plane of the target field
   std::vector<std::int32_t> donor;   ///< position of the stencil's first point in a plane of the donor field
   std::vector<double> weight;
+  std::vector<std::array<double, 2>> x{};  ///< implicit: where the points are, for messages
 
   std::size_t size() const { return target.size(); }
   void clear();
   void reserve(std::size_t points);
-  void append(std::ptrdiff_t at, std::ptrdiff_t donor_at, const Stencil& stencil);
+  void append(std::ptrdiff_t at, std::ptrdiff_t donor_at, const Stencil& stencil,
+              const std::array<double, 2>& place = {});
   bool operator==(const InterpolationList&) const = default;
 };
 
@@ -48,5 +51,17 @@ double apply(const InterpolationList& list, std::span<const FieldView> fields);
 /// over the lists until nothing changes but the last digits. Weights on one another are small in a sound
 /// overlap, and a few sweeps do. @returns whether they settled within 50 sweeps
 bool settle_implicit(std::span<const InterpolationList> lists, std::span<const FieldView> fields);
+
+/// Entry `point` of list `list`.
+struct ImplicitPoint {
+  std::size_t list = 0, point = 0;
+};
+
+/// The same by elimination, whatever the weights: quadratic weights of points near the ends of their stencils
+/// add up to more than 1 in size, and sweeps need not settle where the overlap is thin. For then only: it
+/// takes memory and time.
+/// @returns nothing; or where no common values exist, the point that depends most on others
+std::optional<ImplicitPoint> solve_implicit(std::span<const InterpolationList> lists,
+                                            std::span<const FieldView> fields);
 
 }  // namespace fsi::grid

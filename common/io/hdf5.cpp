@@ -210,6 +210,10 @@ std::string Hdf5::text_attribute(const std::string& name) const {
   return value;
 }
 
+bool Hdf5::has_attribute(const std::string& name) const {
+  return H5Aexists(id_, name.c_str()) > 0;
+}
+
 bool Hdf5::has(const std::string& name) const {
   for (auto slash = name.find('/'); slash != std::string::npos; slash = name.find('/', slash + 1)) {
     if (slash > 0 && H5Lexists(id_, name.substr(0, slash).c_str(), H5P_DEFAULT) <= 0) return false;

@@ -45,6 +45,7 @@ class Hdf5 {
   void write_attribute(const std::string& name, const std::string& value);
   double number_attribute(const std::string& name) const;
   std::string text_attribute(const std::string& name) const;
+  bool has_attribute(const std::string& name) const;
 
   bool has(const std::string& name) const;
   /// Shape of a dataset, without reading it.

@@ -47,6 +47,7 @@ class Sweep {
         rows_(output.work),
         row_rates_(output.row_rates),
         fallbacks_(output.fallbacks),
+        edges_(output.edges),
         viscous_(scheme.viscosity.any()),
         columns_(columns) {}
 
@@ -54,7 +55,7 @@ class Sweep {
     const int n2 = task_.q.layout.n2;
     for (int r = -1; r <= n2; ++r) {
       each(task_.runs.predicted(r), 1, [&](Range run) { predict(r, run); });
-      if (r > -1) each(task_.runs.between(r), 0, [&](Range run) { flux_between(run); });
+      if (r > -1) each(task_.runs.between(r), 0, [&](Range run) { flux_between(r, run); });
       if (r > 0) each(task_.runs.advanced(r - 1), 0, [&](Range run) { update(r - 1, run); });
       if (r == n2) break;
       if constexpr (mapped) next_corners(r);
@@ -74,6 +75,7 @@ class Sweep {
   Rows rows_;
   std::span<double> row_rates_;
   std::vector<PointIndex>& fallbacks_;
+  EdgeFluxes edges_;
   bool viscous_;
   Range columns_;
   PredictedRows predicted_{rows_.state(), rows_.state(), rows_.state(), rows_.state(), rows_.next()};
@@ -129,7 +131,7 @@ class Sweep {
   }
 
   /// Fluxes between the row before and the one just predicted.
-  void flux_between(Range run) {
+  void flux_between(int r, Range run) {
     if constexpr (mapped) {
       face_row_2(above_, task_.dt, face_, run);
       flux_row(upper_before_, predicted_.lower, solve_, face_, upper_, run);
@@ -138,6 +140,38 @@ class Sweep {
                upper_.exchanged(), run);
     }
     if (viscous_) add_viscous_flux_row({conserved_before_, conserved_, kappa_before_, kappa_}, upper_, run);
+    if (r == 1) note_between(edges_[2], run);
+    if (r == task_.q.layout.n2 - 1) note_between(edges_[3], run);
+  }
+
+  void note_between(std::span<double> edge, Range run) const {
+    if (edge.empty()) return;
+    const auto n = static_cast<std::size_t>(task_.q.layout.n1);
+    for (auto i = static_cast<std::size_t>(std::max(run.first, 0));
+         i < std::min<std::size_t>(n, static_cast<std::size_t>(run.last)); ++i)
+      note(edge, {n, i}, upper_.shifted(static_cast<int>(i)));
+  }
+
+  void note_along(int r, Range faces) const {
+    const auto n = static_cast<std::size_t>(task_.q.layout.n2), row = static_cast<std::size_t>(r);
+    for (const int k : {0, 1}) {
+      const int face = k == 0 ? 0 : task_.q.layout.n1 - 2;
+      const std::span<double> edge = edges_[static_cast<std::size_t>(k)];
+      if (!edge.empty() && face >= faces.first && face < faces.last)
+        note(edge, {n, row}, along_.shifted(face));
+    }
+  }
+
+  /// Point `at` of the n points of a side.
+  struct Edge {
+    std::size_t n, at;
+  };
+  static void note(std::span<double> edge, Edge point, FluxRow flux) {
+    const auto [n, at] = point;
+    edge[at] = *flux.mass;
+    edge[n + at] = *flux.momentum1;
+    edge[2 * n + at] = *flux.momentum2;
+    edge[3 * n + at] = *flux.energy;
   }
 
   /// Fluxes through the faces along that row on both sides of the points of a run.
@@ -153,6 +187,7 @@ class Sweep {
     }
     if (viscous_)
       add_viscous_flux_row({conserved_, conserved_.shifted(1), kappa_, kappa_ + 1}, along_, faces);
+    note_along(r, faces);
   }
 
   void list_fallbacks(int r, Range run) {

@@ -6,6 +6,7 @@
 ///
 /// One Riemann problem per face and step.
 
+#include <array>
 #include <optional>
 #include <span>
 #include <vector>
@@ -58,12 +59,18 @@ struct PointIndex {
   int i, j;
 };
 
+/// What a step carried through the faces half a cell inside the sides left, right, bottom, top, towards
+/// higher indices, as it changed the points beside them: mass, momentum (2), energy of each of the n points
+/// of a side, component-major; per volume of a cell on a Cartesian grid. Empty spans: not wanted.
+using EdgeFluxes = std::array<std::span<double>, 4>;
+
 /// What a sweep writes besides the new state.
 struct SweepOutput {
   Workspace& work;              ///< scratch, sweep_rows rows
   std::span<double> row_rates;  ///< n2: largest wave rate of the inner points of each row, for the next time
                                 ///< step; without viscosity only
   std::vector<PointIndex>& fallbacks;  ///< points advanced with first-order states are added
+  EdgeFluxes edges = {};               ///< written where a point beside the face is advanced
 };
 
 /// What is advanced: the points of the runs, boundary points included, from q (with the points around them

@@ -61,6 +61,8 @@ def merge(directory, case, status, reason, wall_s):
         "interface": speaker.get("interface") or {},
         "counters": {"first_order_fallbacks": 0, "floors": 0} | _merged(parts, "counters", lambda a, b: a + b),
     }
+    if missing := next((part["reason"] for part in parts.values() if part["status"] == "completed" and part.get("reason")), None):
+        summary["errors_missing"] = missing
     for name, program in participants.items():
         part = parts.get(name, {"status": "lost"})
         summary["participants"][name] = {"program": program} | {
@@ -192,6 +194,8 @@ def describe(summary, directory):
         names = list(summary["errors"])
         for part in (names[k:k + ERRORS_IN_A_ROW] for k in range(0, len(names), ERRORS_IN_A_ROW)):
             lines += _table([part, [_number(summary["errors"][name], "{:.2e}") for name in part]])
+    if summary.get("errors_missing"):
+        lines.append(f"  no errors: {summary['errors_missing']}")
     if interface := summary["interface"]:
         lines.append("  interface: " + ", ".join(f"{key.replace('_', ' ')} {_number(value, '{:.2e}')}"
                                                  for key, value in interface.items()))

@@ -17,28 +17,22 @@
 
 #include "common/core/failure.hpp"
 #include "monitor/json.hpp"
+#include "monitor/web/guards.hpp"
 #include "monitor/web/pages.hpp"
 
 namespace fsi::monitor {
 
 namespace {
 
-/// Browsers that follow the run at the same time; each has a thread.
+/// Browsers that follow the run at the same time.
 constexpr int most_streams = 12;
-constexpr int threads = most_streams + 4;
+/// Connections at the same time; further ones wait until one of these ends.
+constexpr std::size_t most_connections = 512;
+/// A connection that says nothing for this time in the midst of a request, or between two, is closed.
+constexpr std::chrono::seconds patience{2};
 /// A stream without news says this often that it lives [s].
 constexpr std::chrono::milliseconds heartbeat{1000};
 constexpr const char* token_header = "X-AMP-FSI-Token";
-
-bool is_loopback(const std::string& host) {
-  return host == "localhost" || host == "::1" || host.starts_with("127.");
-}
-
-/// The name in "name:port" or "[address]:port".
-std::string host_of(const std::string& header) {
-  if (header.starts_with("[")) return header.substr(1, header.find(']') - 1);
-  return header.substr(0, header.find(':'));
-}
 
 /// 128 bits that nobody can guess, in hexadecimal.
 std::string random_token() {
@@ -57,7 +51,9 @@ struct WebServer::Implementation {
   };
 
   explicit Implementation(WebOptions wishes) : options(std::move(wishes)), token(random_token()) {
-    server.new_task_queue = [] { return new httplib::ThreadPool(threads); };  // httplib deletes it
+    server.new_task_queue = [] { return new ConnectionThreads(most_connections); };  // httplib deletes it
+    server.set_read_timeout(patience);
+    server.set_keep_alive_timeout(patience.count());
     server.set_write_timeout(std::chrono::seconds(5));
     server.set_keep_alive_max_count(100);
     server.set_default_headers(
@@ -98,10 +94,12 @@ struct WebServer::Implementation {
   void routes() {
     // Another page in the same browser could reach this server under a name of its own (DNS rebinding).
     server.set_pre_routing_handler([this](const httplib::Request& request, httplib::Response& response) {
-      if (!is_loopback(options.host) || is_loopback(host_of(request.get_header_value("Host"))))
-        return httplib::Server::HandlerResponse::Unhandled;
-      response.status = 403;
-      response.set_content("this page is for this machine only\n", "text/plain");
+      const bool foreign =
+          is_loopback(options.host) && !is_loopback(host_of(request.get_header_value("Host")));
+      if (!foreign && !has_large_body(request)) return httplib::Server::HandlerResponse::Unhandled;
+      response.status = foreign ? 403 : 413;
+      response.set_content(foreign ? "this page is for this machine only\n" : "requests here have no body\n",
+                           "text/plain");
       return httplib::Server::HandlerResponse::Handled;
     });
     file("/", page_html, "text/html; charset=utf-8");

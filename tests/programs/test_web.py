@@ -1,9 +1,13 @@
 #!/usr/bin/python3
 """`./launch/fsi monitor --web` serves the state of a run; `test_web.py Page` looks at its page in a headless Chromium."""
 
+import contextlib
 import http.client
 import json
 import os
+import pathlib
+import re
+import socket
 import subprocess
 import sys
 import unittest
@@ -16,6 +20,12 @@ from running import BIN, EndToEnd, FSI, until
 from test_lost_programs import LONG
 
 NOT_INSTALLED = 77  # exit code that CTest shows as skipped
+
+
+def resident_mib(pid):
+    """Memory of a process now."""
+    status = pathlib.Path(f"/proc/{pid}/status").read_text()
+    return int(re.search(r"VmRSS:\s+(\d+) kB", status)[1]) / 1024
 
 
 class WebTest(EndToEnd):
@@ -69,11 +79,33 @@ class Server(WebTest):
             content = self.get(path)
             self.assertGreater(len(content), 1000)
             self.assertNotIn("https://", content)  # nothing is loaded from elsewhere
-        with self.assertRaises(urllib.error.HTTPError) as refused:
-            self.get("api/state.json", Host="elsewhere.example")
-        self.assertEqual(refused.exception.code, 403)
-        refused.exception.close()
+        for host in ("elsewhere.example", "127.elsewhere.example"):
+            with self.assertRaises(urllib.error.HTTPError) as refused:
+                self.get("api/state.json", Host=host)
+            self.assertEqual(refused.exception.code, 403)
+            refused.exception.close()
         self.assertIsNone(run.process.poll())
+
+    def test_silent_connections_and_large_requests_keep_nobody_waiting(self):
+        _, monitor = self.begin()
+        place = urllib.parse.urlsplit(self.url)
+        for _ in range(200):
+            silent = socket.create_connection((place.hostname, place.port))
+            self.addCleanup(silent.close)
+            silent.sendall(b"GET /api/sta")
+        self.assertEqual(self.state()["status"], "running")
+        before = resident_mib(monitor.pid)
+        for head in ("Content-Length: 200000000", "Transfer-Encoding: chunked"):
+            with socket.create_connection((place.hostname, place.port)) as large:
+                large.sendall(f"POST /api/control?command=stop HTTP/1.1\r\nHost: {place.netloc}\r\n{head}\r\n\r\n".encode())
+                chunk = b"100000\r\n" + bytes(0x100000) + b"\r\n"
+                with contextlib.suppress(ConnectionError):  # it need not listen to the end
+                    for _ in range(100):
+                        large.sendall(chunk)
+                with contextlib.suppress(ConnectionError):
+                    self.assertIn(b" 413 ", large.recv(100))
+        self.assertLess(resident_mib(monitor.pid) - before, 30)
+        self.assertEqual(self.state()["status"], "running")
 
     def test_events_tell_every_change_and_the_end(self):
         run, monitor = self.begin()

@@ -93,11 +93,13 @@ const Mistake keys[] = {
      "case.yaml:11:5: fluid.boundary: `right` is missing (a side of the gas; a bare word is its kind, with "
      "data from the reference solution)"},
     {"NameThatLeavesTheFolder", "parameters:", "name: ../above\nparameters:",
-     "case.yaml:1:7: name: `../above` cannot name files; use letters, digits, _, - and ., not first"},
+     "case.yaml:1:7: name: `../above` cannot name files; use letters, digits, _, - and ., these two not "
+     "first"},
     {"NameOfAHiddenFile", "parameters:", "name: .hidden\nparameters:",
-     "case.yaml:1:7: name: `.hidden` cannot name files; use letters, digits, _, - and ., not first"},
+     "case.yaml:1:7: name: `.hidden` cannot name files; use letters, digits, _, - and ., these two not "
+     "first"},
     {"EmptyName", "parameters:", "name: ''\nparameters:",
-     "case.yaml:1:7: name: `` cannot name files; use letters, digits, _, - and ., not first"},
+     "case.yaml:1:7: name: `` cannot name files; use letters, digits, _, - and ., these two not first"},
     {"RepeatedKey", "cfl: 0.9", "end: 2", "case.yaml:5:16: key `end` is there twice, first at 5:8; keep one"},
     {"TwoSolidsOfOneName", "solids:\n", "solids:\n  solid: {law: neo_hookean}\n",
      "case.yaml:18:3: key `solid` is there twice, first at 17:3; keep one"},

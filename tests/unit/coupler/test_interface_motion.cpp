@@ -118,6 +118,28 @@ TEST(UnitNormals, AreTheSameAtTheTwoCopiesOfThePointThatClosesACurve) {
   EXPECT_EQ(n[33], n[65]);
 }
 
+/// One period of a wave along y: its normals at the ends are those inside, a quarter of it further.
+TEST(UnitNormals, OfAPeriodicCurveKnowNoEnds) {
+  constexpr std::size_t n = 17, shift = 4;
+  const auto wave = [](double offset) {
+    return points_of(
+        n, [=](double r) { return 0.1 * std::sin(2 * pi * (r + offset)); }, [](double r) { return 0.5 + r; });
+  };
+  std::vector<double> n0(2 * n);
+  std::fill(n0.begin(), n0.begin() + n, 1.0);
+  std::vector<double> here(2 * n), there(2 * n), ends(2 * n);
+  const std::vector<double> x = wave(0), moved = wave(static_cast<double>(shift) / (n - 1));
+  unit_normals(Curve(x, n0, true), x, here);
+  unit_normals(Curve(moved, n0, true), moved, there);
+  for (std::size_t c : {0U, 1U}) {
+    EXPECT_EQ(here[c * n], here[c * n + n - 1]);
+    for (std::size_t k = 0; k < n; ++k)
+      EXPECT_NEAR(there[c * n + k], here[c * n + (k + shift) % (n - 1)], 1e-14) << k;
+  }
+  unit_normals(Curve(x, n0), x, ends);
+  EXPECT_GT(std::abs(ends[n] - here[n]), 1e-3) << "one-sided differences are others";
+}
+
 TEST(PointLengths, AddUpToTheLengthOfTheCurve) {
   const std::vector<double> x = circle(257, false);
   std::vector<double> ds(257);

@@ -125,5 +125,19 @@ TEST(PistonChain, SaysWhereTheSolidFolds) {
   }
 }
 
+/// A piston that is driven into the gas ever faster: waves steepen until a spring folds.
+TEST(PistonChain, KeepsWhatItHasFoundWhenASpringFolds) {
+  const exact::ElasticPiston piston{{.density_ratio = 1}};
+  PistonProblem problem = exact_problem(piston, 0.8);
+  const auto gentle = problem.drive;
+  problem.drive = [=](double t) { return gentle(t) + 20 * t * t * t; };
+  problem.times = {0, 0.05, 3};
+  const PistonRun run = solve_piston_while_sound(problem, 100);
+  ASSERT_EQ(run.outputs.size(), 2U);
+  EXPECT_EQ(run.outputs.back().t, 0.05);
+  EXPECT_EQ(run.broke.find("one-dimensional reference: t = "), 0U) << run.broke;
+  EXPECT_THROW(solve_piston(problem, 100), NumbersBroke);
+}
+
 }  // namespace
 }  // namespace fsi::reference

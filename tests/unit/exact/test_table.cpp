@@ -92,6 +92,27 @@ TEST_F(PistonTableFile, SaysWhichTimesItHas) {
   }
 }
 
+TEST_F(PistonTableFile, OfARunThatBrokeSaysWhyNothingIsKnownBeyond) {
+  {
+    const PistonTable whole((directory / "reference.h5").string());
+    EXPECT_EQ(whole.missing_at(0.5), "");
+    EXPECT_EQ(whole.missing_at(2), "") << "a time nobody asked for is a mistake, not an end";
+  }
+  io::Hdf5 file = io::Hdf5::create((directory / "broken.h5").string());
+  file.write_attribute("broke", std::string("t = 0.7, gas is folded"));
+  io::Hdf5 output = file.make_group("000000");
+  output.write_attribute("t", 0.5);
+  io::Hdf5 gas = output.make_group("gas");
+  for (const char* name : {"x", "rho", "v", "p"}) gas.write(name, std::vector<double>{0, 1, 2, 3});
+  io::Hdf5 solid = output.make_group("solid");
+  for (const char* name : {"x_bar", "u", "v", "P11", "P22"})
+    solid.write(name, std::vector<double>{-3, -2, -1, 0});
+  file.close();
+  const PistonTable table((directory / "broken.h5").string());
+  EXPECT_EQ(table.missing_at(0.5), "");
+  EXPECT_EQ(table.missing_at(0.8), "the reference solution ends before: t = 0.7, gas is folded");
+}
+
 TEST(PistonTable, SaysWhichFileIsMissing) {
   try {
     make_solution("piston_1d", {}, "/nowhere");

@@ -55,6 +55,18 @@ TEST(RunState, RunIsOverWhenItsProgramsAreGoneOrOneAborts) {
   EXPECT_EQ(other.status(), "aborted");
 }
 
+/// Anybody on the bus may send telemetry under 20,000 names: no answer may grow with them.
+TEST(RunState, ForgedNamesDoNotFillTheMemoryNorHideTheRun) {
+  RunState state(entry("r"));
+  state.hear(telemetry("coupler", "coupler", 1, 0.1), 0);
+  for (int k = 0; k < 20'000; ++k) state.hear(telemetry("fluid", "forged" + std::to_string(k), 1, 1), 0);
+  state.hear(telemetry("fluid", std::string(100'000, 'x'), 1, 1), 0);
+  state.hear(telemetry("coupler", "coupler", 2, 0.2), 1);
+  EXPECT_LE(state.programs().size(), 256U);
+  EXPECT_LT(to_json(state, 1).size(), 300'000U);
+  EXPECT_EQ(state.leader()->step, 2U);
+}
+
 TEST(RunState, JsonHoldsEverythingAndStaysValidWithInfiniteNumbersAndOddNames) {
   RunState state(entry("r"));
   auto coupler = telemetry("coupler", "coupler", 7, 1);

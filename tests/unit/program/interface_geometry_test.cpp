@@ -25,6 +25,16 @@ TEST(InterfaceGeometry, NormalsOfAClosedCircleAreRadialToRoundOff) {
   for (std::size_t k = 0; k < x.size(); ++k) EXPECT_NEAR(n[k], x[k], 1e-14);
 }
 
+/// The last point is the first one of the next period: a straight line has one normal, with few points too.
+TEST(InterfaceGeometry, NormalsOfAPeriodicLineAreOneToRoundOff) {
+  const std::vector<double> x = {0.25, 0.25, 0.25, 0.25, 0.25, 0.0, 0.1, 0.2, 0.3, 0.4};
+  const auto n = normals(x, Curve::closed, 1);
+  for (std::size_t k = 0; k < 5; ++k) {
+    EXPECT_NEAR(n[k], 1, 1e-15);
+    EXPECT_NEAR(n[5 + k], 0, 1e-15);
+  }
+}
+
 TEST(InterfaceGeometry, NormalsOfAnArcAreSecondOrderAtItsEnds) {
   const auto error = [](std::size_t points) {
     const auto x = circle(points, 0.25);

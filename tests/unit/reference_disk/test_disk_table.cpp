@@ -21,7 +21,7 @@ class DiskFile : public testing::Test {
     std::filesystem::create_directories(directory);
     fine = solve_disk(papers_disk(1, 0.3, {0, 0.4}), 100);
     errors = estimated_errors(fine, solve_disk(papers_disk(1, 0.3, {0, 0.4}), 50));
-    write_disk_table((directory / "reference.h5").string(), fine, errors);
+    write_disk_table((directory / "reference.h5").string(), {.outputs = fine, .broke = ""}, errors);
   }
   void TearDown() override { std::filesystem::remove_all(directory); }
 
