@@ -1,7 +1,6 @@
 #include "common/bus/coupler_session.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -11,6 +10,7 @@
 #include "common/bus/convert.hpp"
 #include "common/bus/lengths.hpp"
 #include "common/bus/link.hpp"
+#include "common/bus/newcomer.hpp"
 #include "common/bus/peer.hpp"
 #include "common/bus/seal.hpp"
 
@@ -49,6 +49,7 @@ struct Channel {
 /// One solver of the run.
 struct Member {
   std::string label;
+  Newcomer newcomer;
   wire::Hello hello;
   std::unique_ptr<Peer> peer;  ///< null until its hello came
   std::deque<Channel> channels;
@@ -68,7 +69,12 @@ struct CouplerSession::Implementation {
         gatekeeper(link.options().run, link.options().key) {
     link.waitset().attach(hello_reader.condition());
     link.waitset().attach(control_reader.condition());
-    for (const Expected& one : who) members.emplace_back().label = label_of(one.role, one.name);
+    for (const Expected& one : who) {
+      const auto pid = link.options().pids.find(one.name);
+      const std::string label = label_of(one.role, one.name);
+      members.push_back(
+          {.label = label, .newcomer = {label, pid == link.options().pids.end() ? 0 : pid->second}});
+    }
     try {
       welcome(false);
       wait_for_all();
@@ -94,10 +100,11 @@ struct CouplerSession::Implementation {
       link.sleep();
       drain();
       check_counterparts();
-      for (const Member& member : members) {
-        if (member.peer) member.peer->check_process();
-      }
-      if (since(start) > link.options().hello_timeout_s) throw PeerLost(who_is_missing());
+      // Even who computes must join some day.
+      bool late =
+          since(start) > link.options().hello_timeout_s + clock_over_work * link.options().step_timeout_s;
+      for (Member& member : members) late = is_late(member) || late;
+      if (late) throw PeerLost(who_is_missing(since(start)));
     }
     for (const Member& member : members) {
       for (const Channel& channel : member.channels) {
@@ -106,6 +113,13 @@ struct CouplerSession::Implementation {
       }
     }
     number_slots();
+  }
+
+  bool is_late(Member& member) const {
+    if (member.peer) member.peer->check_process();
+    member.newcomer.look();
+    return member.newcomer.idle_s() > link.options().hello_timeout_s &&
+           !(member.peer && std::ranges::all_of(member.channels, &Channel::matched));
   }
 
   bool all_matched() const {
@@ -126,18 +140,13 @@ struct CouplerSession::Implementation {
     }
   }
 
-  std::string who_is_missing() const {
-    std::vector<std::string> missing, silent, here;
+  std::string who_is_missing(double seconds) const {
+    Attendance now{.strangers = strangers};
     for (const Member& member : members) {
       const bool matched = std::ranges::all_of(member.channels, &Channel::matched);
-      (!member.peer ? missing : !matched ? silent : here).push_back(member.label);
+      (!member.peer ? now.missing : !matched ? now.silent : now.here).push_back(member.label);
     }
-    std::string text = fmt::format("after {} s", link.options().hello_timeout_s);
-    if (!missing.empty()) text += fmt::format(" {} did not join", fmt::join(missing, ", "));
-    if (!silent.empty()) text += fmt::format(" {} joined but cannot be heard", fmt::join(silent, ", "));
-    if (!here.empty()) text += fmt::format("; {} did", fmt::join(here, ", "));
-    if (!strangers.empty()) text += fmt::format("; not expected: {}", fmt::join(strangers, ", "));
-    return text;
+    return describe(now, seconds);
   }
 
   void number_slots() {
@@ -188,6 +197,7 @@ struct CouplerSession::Implementation {
     }
     check_fits(label, hello);
     member.peer = std::make_unique<Peer>(label, hello.host, hello.pid);
+    member.newcomer.joined();
     for (const wire::InterfaceInfo& info : hello.interfaces) {
       Channel& channel = member.channels.emplace_back(link.participant(), hello.name, info);
       link.waitset().attach(channel.reader.condition());
