@@ -33,11 +33,26 @@ struct Size {
 };
 constexpr std::array sizes = {Size{.points = 100, .steps = 3000}, Size{.points = 1000, .steps = 2000},
                               Size{.points = 10000, .steps = 500}};
+/// How the bus is protected: one after the other for each size, so that they can be compared.
+constexpr std::array protections = {"off", "sign", "encrypt"};
+
+/// One measurement.
+struct Trial {
+  Size size;
+  std::string protection;
+};
+Trial trial(std::size_t number) {
+  return {.size = sizes.at(number / protections.size()),
+          .protection = protections.at(number % protections.size())};
+}
+constexpr std::size_t trials = sizes.size() * protections.size();
 constexpr int settling_steps = 20;  ///< memory grows, sockets warm up: not counted
 
+/// `run` is PROTECTION.ANYTHING.
 bus::BusOptions options(const std::string& run) {
   bus::BusOptions result;
   result.run = run;
+  if (!run.starts_with("off")) result.key = run.substr(0, run.find('.')) + ":" + run;
   result.hello_timeout_s = 60;
   return result;
 }
@@ -105,14 +120,14 @@ void play_solid(const std::string& run, std::size_t points) {
 /// A process that plays its part of every size once it is told to; forked before this process joins the bus.
 class Player {
  public:
-  explicit Player(const std::function<void(const Size&)>& play) {
+  explicit Player(const std::function<void(const Trial&)>& play) {
     std::array<int, 2> ends{};
     if (pipe(ends.data()) != 0) throw std::runtime_error("no pipe");
     pid_ = fork();
     if (pid_ == 0) {
       close(ends[1]);
       std::uint8_t number = 0;
-      while (read(ends[0], &number, 1) == 1) play(sizes.at(number));
+      while (read(ends[0], &number, 1) == 1) play(trial(number));
       _exit(0);
     }
     close(ends[0]);
@@ -149,7 +164,9 @@ double step(bus::SolverSession& session, wire::PredictedInterface& state) {
 }
 
 void round_trip(benchmark::State& bench, const std::string& run, std::size_t points) {
+  const auto start = std::chrono::steady_clock::now();
   bus::SolverSession session(options(run), hello("fluid", "fluid", points));
+  const std::chrono::duration<double, std::milli> joining = std::chrono::steady_clock::now() - start;
   wire::PredictedInterface state = gas_state(points);
   for (int k = 0; k < settling_steps; ++k) step(session, state);
   std::vector<double> seconds;
@@ -159,6 +176,7 @@ void round_trip(benchmark::State& bench, const std::string& run, std::size_t poi
   }
   state.p_e = -1;
   step(session, state);
+  bench.counters["joining_ms"] = joining.count();
   bench.counters["p50_us"] = quantile_us(seconds, 0.5);
   bench.counters["p99_us"] = quantile_us(seconds, 0.99);
   bench.counters["predicted_KB"] = 9.0 * 8.0 * static_cast<double>(points) / 1000;
@@ -169,20 +187,21 @@ void round_trip(benchmark::State& bench, const std::string& run, std::size_t poi
 
 int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
-  const auto run_for = [owner = getpid()](const Size& size) {
-    return fmt::format("bench.{}.{}", size.points, owner);
+  const auto run_for = [owner = getpid()](const Trial& trial) {
+    return fmt::format("{}.{}.{}", trial.protection, trial.size.points, owner);
   };
-  const Player coupler([&](const Size& size) { play_coupler(run_for(size), size.points); });
-  const Player solid([&](const Size& size) { play_solid(run_for(size), size.points); });
-  for (std::size_t number = 0; number < sizes.size(); ++number) {
-    const Size size = sizes.at(number);
-    benchmark::RegisterBenchmark(fmt::format("bus_round_trip/points:{}", size.points).c_str(),
-                                 [&, number, size](benchmark::State& bench) {
-                                   coupler.go(static_cast<std::uint8_t>(number));
-                                   solid.go(static_cast<std::uint8_t>(number));
-                                   round_trip(bench, run_for(size), size.points);
-                                 })
-        ->Iterations(size.steps)
+  const Player coupler([&](const Trial& trial) { play_coupler(run_for(trial), trial.size.points); });
+  const Player solid([&](const Trial& trial) { play_solid(run_for(trial), trial.size.points); });
+  for (std::size_t number = 0; number < trials; ++number) {
+    const Trial one = trial(number);
+    benchmark::RegisterBenchmark(
+        fmt::format("bus_round_trip/points:{}/protection:{}", one.size.points, one.protection).c_str(),
+        [&, number, one](benchmark::State& bench) {
+          coupler.go(static_cast<std::uint8_t>(number));
+          solid.go(static_cast<std::uint8_t>(number));
+          round_trip(bench, run_for(one), one.size.points);
+        })
+        ->Iterations(one.size.steps)
         ->UseManualTime()
         ->Unit(benchmark::kMicrosecond);
   }

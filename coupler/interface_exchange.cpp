@@ -98,7 +98,7 @@ void InterfaceExchange::check_solid(const Moment& moment, const wire::PredictedI
   check_values(moment, solid, "the position", solid.x, 2 * n, n);
   check_values(moment, solid, "the velocity", solid.v, 2 * n, n);
   if (!solid.fixed.empty() && solid.fixed.size() != n) {
-    throw PeerLost(fmt::format("\"{}\" sent {} marks of clamped points for interface \"{}\", not {}",
+    throw PeerLost(fmt::format("\"{}\" sent {} marks of fixed points for interface \"{}\", not {}",
                                solid.from, solid.fixed.size(), pair_.name, n));
   }
   check_modes(solid);
@@ -155,6 +155,10 @@ void InterfaceExchange::project(const Moment& moment, const wire::PredictedInter
   x_solid_ = solid.x;
   z_f_ = gas.z_f;
   p_e_ = gas.p_e;
+  const bool says = !solid.fixed.empty();
+  curve_.first.slides = says && solid.fixed.front() == wire::Freedom::slides;
+  curve_.last.slides = says && solid.fixed.back() == wire::Freedom::slides;
+  if (transfer_) transfer_->let_ends_slide(curve_.first.slides, curve_.last.slides);
   unit_normals(curve_, x_gas_, n_);
   point_lengths(x_gas_, ds_);
   for (std::size_t k = 0; k < curve_.n; ++k) {
@@ -186,7 +190,7 @@ void InterfaceExchange::project_deformable(const Moment& moment, const wire::Pre
       throw_broken(moment, pair_, solid.from, k,
                    "the impedance matrix is not positive: the solid is no longer hyperbolic");
     }
-    const bool fixed = !solid.fixed.empty() && solid.fixed[k] != 0;
+    const bool fixed = !solid.fixed.empty() && solid.fixed[k] == wire::Freedom::fixed;
     NormalState state;
     if (fixed && projection_ != Projection::traditional) {
       state = at_wall(solid_v_n_[k], gas_[k]);
@@ -259,7 +263,7 @@ void InterfaceExchange::measure(const wire::PredictedInterface& gas, const wire:
   solid_w_n_.resize(solid.w.size() / 2);
   for (std::size_t k = 0; k < curve_.n; ++k) {
     const Vec2 normal = vector_at(n_, k);
-    const bool fixed = !solid.fixed.empty() && solid.fixed[k] != 0;
+    const bool fixed = !solid.fixed.empty() && solid.fixed[k] == wire::Freedom::fixed;
     if (!fixed)
       report_.velocity_jump = std::max(report_.velocity_jump, std::abs(gas_[k].v_n - solid_v_n_[k]));
     if (!solid.w.empty()) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 namespace fsi::coupler {
 
@@ -55,6 +56,8 @@ Curve::Curve(std::span<const double> x, std::span<const double> n0) : n(x.size()
     throw std::invalid_argument("the solid's reference normals do not stand on the interface curve");
   }
   sign = agreement > 0 ? 1 : -1;
+  first.n0 = point(n0, 0);
+  last.n0 = point(n0, n - 1);
 }
 
 void unit_normals(const Curve& curve, std::span<const double> x, std::span<double> n) {
@@ -62,6 +65,11 @@ void unit_normals(const Curve& curve, std::span<const double> x, std::span<doubl
     const Vec2 t = tangent(x, curve.closed, k).normalized();
     n[k] = curve.sign * t.y();
     n[curve.n + k] = -curve.sign * t.x();
+  }
+  for (const auto& [end, k] : {std::pair(curve.first, std::size_t{0}), std::pair(curve.last, curve.n - 1)}) {
+    if (!end.slides) continue;
+    n[k] = end.n0.x();
+    n[curve.n + k] = end.n0.y();
   }
 }
 

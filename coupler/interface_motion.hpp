@@ -22,6 +22,12 @@ struct Curve {
   bool closed = false;  ///< the last point is the first one again
   double sign =
       1;  ///< +1: turning the direction of increasing index by -90 degrees gives the normal, -1: by +90
+  /// The first and the last point, and their reference normals.
+  struct End {
+    Vec2 n0 = Vec2::Zero();
+    bool slides = false;  ///< along a wall at right angles to the curve: the normal stays n0
+  };
+  End first = {}, last = {};
 
   /// From the initial positions `x` and the reference normals `n0` of the solid.
   /// @throws std::invalid_argument where fewer than two points or normals without a clear side are given
@@ -29,7 +35,8 @@ struct Curve {
 };
 
 /// Unit normals, solid -> gas, from central differences along the curve; one-sided of second order at open
-/// ends.
+/// ends, but for those that slide along a wall. There, the mirror image in the wall continues the curve; a
+/// one-sided difference would turn a ripple of the curve into a normal that pushes the end off the wall.
 void unit_normals(const Curve& curve, std::span<const double> x, std::span<double> n);
 
 /// Length of interface that belongs to each point: half of the adjoining segments (the trapezoidal rule). The

@@ -41,7 +41,7 @@ std::int32_t substeps_of(const Bid& bid, double dt, double t) {
 
 }  // namespace
 
-TimeStepAgreement::TimeStepAgreement(TimeSchedule::Options options, double start)
+TimeStepAgreement::TimeStepAgreement(const TimeSchedule::Options& options, double start)
     : schedule_(options), growth_(options.growth), dt_max_(options.dt_max), t_(start) {}
 
 void TimeStepAgreement::archive(Archive& archive) {

@@ -30,7 +30,7 @@ struct AgreedStep {
 class TimeStepAgreement {
  public:
   /// @param start time of the first exchange
-  TimeStepAgreement(TimeSchedule::Options options, double start);
+  TimeStepAgreement(const TimeSchedule::Options& options, double start);
 
   /// The step from now on; `t()` becomes the time after it.
   /// @throws NumbersBroke when a bid is no positive number, vanishes, or needs more than 10000 substeps

@@ -82,12 +82,16 @@ const wire::PredictedInterface& InterfaceTransfer::bring(const wire::PredictedIn
   fill(coarse.modal.N, brought_.modal.N, &CurveInterpolation::cubic);
   fill(coarse.z_f, brought_.z_f, &CurveInterpolation::linear);
   fill(coarse.Z, brought_.Z, &CurveInterpolation::linear);
-  const std::vector<double> marks(coarse.fixed.begin(), coarse.fixed.end());
-  std::vector<double> fine_marks;
+  std::vector<double> marks(coarse.fixed.size()), fine_marks;
+  std::ranges::transform(coarse.fixed, marks.begin(),
+                         [](std::uint8_t freedom) { return freedom == wire::Freedom::fixed ? 1.0 : 0.0; });
   fill(marks, fine_marks, &CurveInterpolation::linear);
   brought_.fixed.assign(fine_marks.size(), 0);
   std::ranges::transform(fine_marks, brought_.fixed.begin(),
                          [](double mark) { return static_cast<std::uint8_t>(mark >= clamped); });
+  if (coarse.fixed.empty()) return brought_;
+  if (coarse.fixed.front() == wire::Freedom::slides) brought_.fixed.front() = wire::Freedom::slides;
+  if (coarse.fixed.back() == wire::Freedom::slides) brought_.fixed.back() = wire::Freedom::slides;
   return brought_;
 }
 

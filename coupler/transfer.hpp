@@ -34,6 +34,12 @@ class InterfaceTransfer {
 
   std::size_t coarse_points() const { return curve_.n; }
 
+  /// Whether the ends of the curve slide along walls.
+  void let_ends_slide(bool first, bool last) {
+    curve_.first.slides = first;
+    curve_.last.slides = last;
+  }
+
   /// The predicted state of the coarser side at the finer points. Holds until the next call.
   const wire::PredictedInterface& bring(const wire::PredictedInterface& coarse);
 

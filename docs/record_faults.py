@@ -1,4 +1,4 @@
-"""The studies of record_results.py about accidents: damaged case files, sanitizers."""
+"""The studies of record_results.py about accidents: damaged case files, changed sources, sanitizers."""
 
 import os
 import shlex
@@ -39,7 +39,15 @@ def sanitized(root, preset):
     return f"`{shlex.join(command)}`, exit code {answer.returncode}\n\n{answer.stdout.strip()}\n"
 
 
+def changed_sources(root):
+    """One sign, index or term of the sources changed at a time: which unit test notices."""
+    command = ["tests/mutations/run.py"]
+    answer = subprocess.run(command, cwd=root, stdout=subprocess.PIPE, text=True, check=False)
+    return f"`{shlex.join(command)}`, exit code {answer.returncode}\n\n{answer.stdout.strip()}\n"
+
+
 def studies(tools):
     yield "Mutated case files", lambda: mutated(tools.ROOT)
+    yield "Changed sources", lambda: changed_sources(tools.ROOT)
     for preset, kind in PRESETS.items():
         yield f"Sanitizers over coupled runs: {kind}", lambda p=preset: sanitized(tools.ROOT, p)

@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 """Makes docs/results.md: runs every study below by ./launch/fsi and writes down what came out, with the command.
 
-    docs/record_results.py [WORD ...]     all studies, or those whose title contains one of the words
+    docs/record_results.py [WORD ...]             all studies, or those whose title contains one of the words
+    docs/record_results.py --check [WORD ...]     runs them and writes nothing, but says which recorded numbers do not repeat
 
 Studies that are not run keep the text they have in docs/results.md. Nothing in that file is typed by hand.
 """
@@ -22,8 +23,11 @@ import time
 from pathlib import Path
 
 import beam_studies
+import record_check
 import record_ellipse
 import record_faults
+import record_impacts
+import record_paper
 
 ROOT = Path(__file__).resolve().parent.parent
 RUNS = ROOT / "runs" / "results"
@@ -236,16 +240,24 @@ def bench(name):
     return f"`./launch/fsi bench`\n\n```\n{answer.stdout.rstrip()}\n```\n"
 
 
-# Published errors of the rotating disk (tables of section 5.2): rho, v1, v2, T, u_bar, v_bar, P_bar by grid factor.
-DISK = {
-    "10": {2: (1.5e-5, 1.1e-4, 1.1e-4, 3.1e-5, 1.7e-4, 1.0e-3, 1.5e-3), 4: (4.1e-6, 2.9e-5, 3.0e-5, 8.3e-6, 2.9e-5, 2.3e-4, 2.1e-4),
-           8: (9.6e-7, 6.6e-6, 6.7e-6, 1.9e-6, 5.6e-6, 4.8e-5, 3.9e-5), 16: (2.4e-7, 1.6e-6, 1.6e-6, 4.8e-7, 1.2e-6, 1.1e-5, 8.3e-6)},
-    "1": {2: (1.1e-4, 7.3e-5, 7.5e-5, 2.1e-5, 1.7e-4, 1.0e-3, 1.5e-3), 4: (3.2e-5, 2.3e-5, 2.3e-5, 6.6e-6, 2.9e-5, 2.3e-4, 2.1e-4),
-          8: (8.3e-6, 5.8e-6, 5.8e-6, 1.7e-6, 5.6e-6, 4.8e-5, 3.9e-5), 16: (2.1e-6, 1.5e-6, 1.5e-6, 4.3e-7, 1.2e-6, 1.1e-5, 8.1e-6)},
-    "0.1": {2: (1.1e-3, 4.0e-5, 2.7e-5, 5.7e-5, 1.8e-4, 1.2e-3, 1.5e-3), 4: (1.8e-4, 1.3e-5, 1.3e-5, 3.8e-6, 3.2e-5, 2.9e-4, 2.2e-4),
-            8: (6.3e-5, 4.4e-6, 4.4e-6, 1.3e-6, 6.2e-6, 6.4e-5, 4.2e-5), 16: (1.8e-5, 1.3e-6, 1.2e-6, 3.6e-7, 1.3e-6, 1.5e-5, 9.2e-6)},
-}
-COLUMNS = ("rho", "v1", "v2", "T", "u_bar", "v_bar", "P_bar")
+def protection(name):
+    """What an exchange costs with signed and with encrypted messages: the same trials one after the other, several times."""
+    directory = fresh(name)
+    directory.mkdir(parents=True)
+    words = ["chrt", "--fifo", "1", "./build/release/bin/bench_bus", "--benchmark_repetitions=5"]
+    subprocess.run([*words, f"--benchmark_out={directory / 'bus.json'}"], cwd=ROOT, stdin=subprocess.DEVNULL,
+                   capture_output=True, check=True)
+    found = json.loads((directory / "bus.json").read_text(encoding="utf-8"))["benchmarks"]
+    text = "| points | protection | p50 [us] | p99 [us] | joining [ms] |\n|---|---|---|---|---|\n"
+    for one in found:
+        if one.get("aggregate_name") == "median":
+            points, kind = re.search(r"points:(\d+)/protection:(\w+)", one["name"]).groups()
+            text += f"| {points} | {kind} | {one['p50_us']:.0f} | {one['p99_us']:.0f} | {one['joining_ms']:.0f} |\n"
+    return (f"`{shlex.join(words)}` (as root: the processors are the benchmark's own while it runs), medians of 5 runs each; one exchange "
+            f"is a state from the gas and one from the solid to the coupler, and its two answers, of three processes\n\n{text}")
+
+
+COLUMNS = record_paper.COLUMNS
 
 
 def faults(count):
@@ -254,22 +266,6 @@ def faults(count):
     answer = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
     flaws = [line for line in answer.stderr.splitlines() if line.startswith("trial ")]
     return f"`{shlex.join(command)}`, exit code {answer.returncode}\n\n```\n" + "\n".join([answer.stdout.rstrip(), *flaws]) + "\n```\n"
-
-
-def disk(delta, projection):
-    """Error table of the rotating disk, and its parts of the published errors."""
-    name = f"disk-{delta}-{projection}"
-    settings = [f"parameters.delta={delta}", f"interface.projection={projection}"]
-    text = converge(name, "rotating_disk", "2,4,8,16", settings)
-    path = RUNS / name / "converge.json"
-    if not path.is_file():
-        return text
-    found = json.loads(path.read_text(encoding="utf-8"))["errors"]
-    lines = ["| h | " + " | ".join(COLUMNS) + " |", "|" + "---|" * (len(COLUMNS) + 1)]
-    for index, (level, paper) in enumerate(DISK[delta].items()):
-        parts = [f"{found[column][index] / error:.2f}" for column, error in zip(COLUMNS, paper)]
-        lines.append(f"| 1/{10 * level} | " + " | ".join(parts) + " |")
-    return text + "\nThe same errors over those of the paper's table:\n\n" + "\n".join(lines) + "\n"
 
 
 RATIOS = ["0.001", "0.01", "0.1", "1", "10", "1000"]
@@ -340,15 +336,6 @@ def piston_studies():
                             ["parameters.density_ratio=0.1", "parameters.c_p=8", "time.multirate=true"]))
 
 
-def chosen_studies():
-    for law in LAWS:
-        yield (f"Manufactured piston, {law}",
-               lambda l=law: converge(f"chosen-{l}", "manufactured_piston", "2,4,8,16", solids=[f"solid={l}"]))
-    yield ("Manufactured piston, full projection",
-           lambda: converge("chosen-full", "manufactured_piston", "2,4,8,16", ["interface.projection=full"]))
-    yield "Gas: manufactured solution on a moving grid", lambda: converge("chosen-gas", "gas_manufactured", "2,4,8,16")
-
-
 def sides():
     """Every kind of left side with every law, and sides that are mirrors of the grid."""
     key = "solids.solid.boundary"
@@ -391,10 +378,6 @@ def other_studies():
 
 
 def disk_studies():
-    for delta, weight in (("10", "heavy"), ("1", "medium"), ("0.1", "light")):
-        for projection in ("simplified", "full"):
-            yield (f"Rotating disk, {weight} (delta = {delta}), {projection} projection",
-                   lambda d=delta, p=projection: disk(d, p))
     yield ("Rotating disk, the traditional scheme",
            lambda: traditional("disk-traditional", "rotating_disk", 3 ** 0.5, DISK_LIMITS))
     for law in ("neo_hookean", "linear_elastic"):
@@ -466,26 +449,49 @@ def anchor(title):
 
 
 def write(sections, titles):
-    """docs/results.md: how to read it, what is in it, and the sections."""
+    """docs/results.md: how to read it, the summary, what is in it, and the sections."""
     contents = "".join(f"- [{title}](#{anchor(title)})\n" for title in titles)
-    text = HEAD + contents + "\n" + "".join(f"## {title}\n{sections[title]}" for title in titles)
+    text = HEAD + record_paper.summary(sections, anchor) + "## Contents\n\n" + contents + "\n"
+    text += "".join(f"## {title}\n{sections[title]}" for title in titles)
     RESULTS.write_text(text.rstrip() + "\n", encoding="utf-8")
 
 
+def all_studies():
+    """[(title, function)] in the order of the page."""
+    tools = sys.modules[__name__]
+    return [*piston_studies(), *record_paper.manufactured(tools),
+            ("Gas: manufactured solution on a moving grid", lambda: converge("chosen-gas", "gas_manufactured", "2,4,8,16")),
+            *other_studies(), *record_paper.disks(tools), *disk_studies(), *record_ellipse.studies(tools), *beam_studies.studies(tools),
+            *record_impacts.studies(tools),
+            ("What watching costs", lambda: watched("watched")),
+            ("Signals to every program at random moments", lambda: faults(200)), *record_faults.studies(tools),
+            ("What protecting the bus costs", lambda: protection("protection")),
+            ("Benchmarks", lambda: bench("bench")), ("Benchmarks, where the time goes", lambda: profile("profile"))]
+
+
+def check(words):
+    """Repeats studies and prints what differs from what is recorded; the exit code."""
+    recorded, wrong, count = kept_sections(), 0, 0
+    for title, study in all_studies():
+        if title in recorded and (not words or any(word in title for word in words)):
+            found = record_check.differences(title, recorded[title], "\n" + study().strip() + "\n\n")
+            count, wrong = count + 1, wrong + bool(found)
+            print("\n".join(found) if found else f"{title}: repeats", flush=True)
+    print(f"{count - wrong} of {count} sections repeat")
+    return 1 if wrong or not count else 0
+
+
 def main(words):
-    sections = kept_sections()
-    studies = [*piston_studies(), *chosen_studies(), *other_studies(), *disk_studies(), *record_ellipse.studies(sys.modules[__name__]),
-               *beam_studies.studies(sys.modules[__name__]),
-               ("What watching costs", lambda: watched("watched")),
-               ("Signals to every program at random moments", lambda: faults(200)), *record_faults.studies(sys.modules[__name__]),
-               ("Benchmarks", lambda: bench("bench")),
-               ("Benchmarks, where the time goes", lambda: profile("profile"))]
+    if words[:1] == ["--check"]:
+        return check(words[1:])
+    sections, studies = kept_sections(), all_studies()
     for title, study in studies:
         if not words or any(word in title for word in words):
             print(title, flush=True)
             sections[title] = "\n" + study().strip() + "\n\n"
             write(sections, [name for name, _ in studies if name in sections])
+    return 0
 
 
 if __name__ == "__main__":
-    main(sys.argv[1:])
+    sys.exit(main(sys.argv[1:]))

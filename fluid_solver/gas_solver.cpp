@@ -9,7 +9,6 @@
 #include "common/core/failure.hpp"
 #include "fluid_solver/boundary_conditions.hpp"
 #include "fluid_solver/side_points.hpp"
-#include "fluid_solver/time_step.hpp"
 
 namespace fsi::fluid {
 

@@ -20,7 +20,7 @@ constexpr double look_s = 0.25;
 }  // namespace
 
 Live::Live(RunEntry run, const std::string& record)
-    : run_(std::move(run)), listener_(run_.run), host_(bus::host_name()) {
+    : run_(std::move(run)), listener_(run_.run, run_.key), host_(bus::host_name()) {
   if (!record.empty()) recorder_ = std::make_unique<Recorder>(record, run_, now());
 }
 

@@ -14,7 +14,7 @@ struct RunEntry {
   std::string dir;         ///< folder of the results
   int pid = 0;             ///< the launcher
   std::uint64_t born = 0;  ///< start time of its process in clock ticks since boot; 0: not told
-  std::string key{};       ///< of requests to the run; never shown, never recorded
+  std::string key{};       ///< of the run; never shown, never recorded
 };
 
 /// Where the launcher puts the entries: amp-fsi in $XDG_RUNTIME_DIR or /run/user/UID when it can write there,

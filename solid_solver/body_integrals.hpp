@@ -7,6 +7,7 @@
 
 #include "common/core/failure.hpp"
 #include "common/core/raise_to.hpp"
+#include "common/wire/messages.hpp"
 #include "solid_solver/interface.hpp"
 #include "solid_solver/solid_component.hpp"
 
@@ -142,9 +143,12 @@ struct InterfaceMoment {
   double rho, t;
 };
 
+/// A side and a wall whose normals have a smaller cosine than this meet at right angles.
+inline constexpr double right_angle = 1e-3;
+
 /// Fills `state` for the points of a side; of a body with a chosen solution, the differences to it. Uses no
 /// ghost points, so that it may be called on a predicted state; a point that also lies on a side whose motion
-/// is given has that motion, not the predicted one.
+/// is given has that motion, not the predicted one, and one that slides along a wall does not leave it.
 /// @throws NumbersBroke where the stress is not finite
 template <Law L>
 void gather_interface(const SolidComponent<L>& component, const L& law, const InterfaceMoment& moment,
@@ -167,6 +171,8 @@ void gather_interface(const SolidComponent<L>& component, const L& law, const In
     const auto given = component.boundary().given_motion(side, point, moment.t);
     if (given) s.u = given->u, s.v = given->v;
     if (chosen != nullptr) s = sum_of(s, -1.0, chosen->state(x(0, p.i, p.j), x(1, p.i, p.j), moment.t));
+    const auto wall = component.boundary().wall_of(side, point);
+    if (wall && !given) s.u -= *wall * wall->dot(s.u), s.v -= *wall * wall->dot(s.v);
     const Tensor2 F = component.deformation_gradient(p.i, p.j);
     const double eta = component.boundary().follows(side) ? area_ratio(F, n0) : 1.0;
     const SymmetricTensor2 Z = impedance_matrix(law.K(F), n0, rho, eta);
@@ -186,7 +192,8 @@ void gather_interface(const SolidComponent<L>& component, const L& law, const In
     state.Z[k] = Z.a11;
     state.Z[n + k] = Z.a12;
     state.Z[2 * n + k] = Z.a22;
-    state.fixed[k] = given ? 1 : 0;
+    const bool slides = wall && std::abs(wall->dot(n0)) < right_angle;
+    state.fixed[k] = given ? wire::Freedom::fixed : slides ? wire::Freedom::slides : wire::Freedom::free;
   }
 }
 

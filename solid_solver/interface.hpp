@@ -16,7 +16,7 @@ struct SolidInterface {
   std::vector<double> v;            ///< velocity, 2 n
   std::vector<double> w;            ///< traction eta n0^T P per unit current area, 2 n
   std::vector<double> Z;            ///< impedance matrix Z11, Z12, Z22, 3 n
-  std::vector<std::uint8_t> fixed;  ///< 1 where the point also lies on a side with given displacement, n
+  std::vector<std::uint8_t> fixed;  ///< how free the points are, n values of wire::Freedom
   double z_p = 0;                   ///< rho c_p of the rest state, for the simplified projection
 };
 

@@ -57,11 +57,10 @@ class SolidParticipant final : public Participant {
       SolidInterface state;
       solver_.interface_state(*side_, state, grid_);
       move_along(state.x);
-      hello.interfaces.push_back(
-          {.name = spec_.name,
-           .dimension = 2,
-           .x = state.x,
-           .n = grid::normals(solver_.grid(grid_).side_points(*side_), curve(), grid::outward(*side_))});
+      hello.interfaces.push_back({.name = spec_.name,
+                                  .dimension = 2,
+                                  .x = state.x,
+                                  .n = normals(solver_.grid(grid_).side_points(*side_), state.fixed)});
     }
     return hello;
   }
@@ -213,11 +212,23 @@ class SolidParticipant final : public Participant {
       x[n + k] += motion->c2(x_bar[k], x_bar[n + k], solver_.t()) - x_bar[n + k];
     }
   }
+  /// Unit normals of the interface at these positions; of ends that slide along a wall, its direction.
+  std::vector<double> normals(std::span<const double> x, std::span<const std::uint8_t> freedom) const {
+    std::vector<double> n = grid::normals(x, curve(), grid::outward(*side_));
+    const std::size_t points = freedom.size();
+    for (const std::size_t k : {std::size_t{0}, points - 1}) {
+      if (freedom[k] != wire::Freedom::slides) continue;
+      const Vec2 along = solver_.along_wall(*side_, static_cast<int>(k), grid_);
+      n[k] = along.x();
+      n[points + k] = along.y();
+    }
+    return n;
+  }
 
   /// The interface inside a macro step: the gas is known by its outgoing characteristic.
   void close_substep(double t, const wire::ProjectedInterface& p) {
     solver_.interface_state(*side_, interface_, grid_);
-    const std::vector<double> normal = grid::normals(interface_.x, curve(), grid::outward(*side_));
+    const std::vector<double> normal = normals(interface_.x, interface_.fixed);
     const RobinData gas{.z_f = p.z_f, .t = p.robin_t, .r = p.robin_r};
     const ClosedInterface closed = close_with_robin(gas, t, normal, interface_);
     const InterfaceValues values[] = {

@@ -3,6 +3,7 @@
 #include <cstddef>
 
 #include "common/interface/riemann.hpp"
+#include "common/wire/messages.hpp"
 
 namespace fsi::solid {
 
@@ -30,8 +31,9 @@ ClosedInterface close_with_robin(const RobinData& gas, double now, std::span<con
     const SolidPoint<2> solid{.v = {v[k], v[n + k]}, .w = {w[k], w[n + k]}, .Z = Z_k};
     const Vector<2> normal_k(normal[k], normal[n + k]);
     const NormalSide gas_side{.z = gas.z_f[k], .v_n = 0, .w_n = r};
-    const NormalState state = predicted.fixed[k] != 0 ? at_wall(normal_k.dot(solid.v), gas_side)
-                                                      : between(normal_side(solid, normal_k), gas_side);
+    const NormalState state = predicted.fixed[k] == wire::Freedom::fixed
+                                  ? at_wall(normal_k.dot(solid.v), gas_side)
+                                  : between(normal_side(solid, normal_k), gas_side);
     closed.v_n[k] = state.v_n;
     closed.w_n[k] = state.w_n;
   }

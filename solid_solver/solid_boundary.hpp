@@ -65,6 +65,11 @@ class SolidBoundary {
     Vec2 u, v;
   };
   std::optional<Motion> given_motion(Side side, int k, double t) const;
+  /// Normal of the wall, if any, along which point k of a side slides: a slip or symmetry side that meets
+  /// this one there.
+  std::optional<Vec2> wall_of(Side side, int k) const;
+  /// Outward unit normal of the reference body.
+  Vec2 normal(Side side, int k) const { return at(side, k).n0; }
   /// The load of a side follows the deformation: its area and its normal are the present ones.
   bool follows(Side side) const { return boundaries_[index(side)].load == LoadConfiguration::current; }
 
@@ -109,7 +114,7 @@ class SolidBoundary {
   void set_normal_stress(FieldView q, Side side, double t) const;
   void follow_characteristics(FieldView q, Side side, double t) const;
   void set_corner_stress(FieldView q, double t) const;
-  void extend_stress_to_corners(FieldView q, Side side) const;
+  void extend_stress_to_corners(FieldView q, Side side, double t) const;
   void match_side(FieldView q, Side side, double t) const;
   void match_point(FieldView q, Side side, int k, double t) const;
   Tensor2 with_sharper_tangent(ConstFieldView q, Side side, int k, const Tensor2& F) const;
@@ -129,7 +134,7 @@ class SolidBoundary {
   L law_;
   double rho_;
   Boundaries boundaries_;
-  std::array<Kind, 4> kinds_;
+  std::array<Kind, 4> kinds_{};
   std::array<std::vector<int>, 4> advanced_, interpolated_;  ///< points of the sides
   Limiter limiter_;
   double time_scale_;

@@ -12,11 +12,15 @@ void SolidBoundary<L>::apply(FieldView q, double t, std::span<const InterfaceVal
   fill_line(q, t, {.first_plane = plane::u1, .last_plane = plane::u2, .m = -2});
   set_tractions(q, t, projected);
   fill_line(q, t, {.first_plane = plane::v1, .last_plane = plane::P22, .m = -1});
+  // A loaded side takes the difference along it at a slip wall from the ghost point below the wall.
   for (const Side side : all_sides) {
-    if (loaded(side) || kind(side) == Kind::slip) match_side(q, side, t);
+    if (kind(side) == Kind::slip) match_side(q, side, t);
+  }
+  for (const Side side : all_sides) {
+    if (loaded(side)) match_side(q, side, t);
   }
   match_corners(q, t);
-  for (const Side side : all_sides) extend_stress_to_corners(q, side);
+  for (const Side side : all_sides) extend_stress_to_corners(q, side, t);
   fill_line(q, t, {.first_plane = plane::P11, .last_plane = plane::P22, .m = -1});
   fill_line(q, t, {.m = -2});
   fill_frame(q, t);
@@ -194,9 +198,9 @@ void SolidBoundary<L>::set_corner_stress(FieldView q, double t) const {
 
 /// At a corner of a loaded side with a side of given displacement or slip, and of a slip side with one of
 /// given displacement: P by extrapolation along the loaded or slip side, where it is P(F) or free to evolve;
-/// a given traction still holds. Differences of u are only of first order there.
+/// a given traction still holds, and so does slip. Differences of u are only of first order there.
 template <Law L>
-void SolidBoundary<L>::extend_stress_to_corners(FieldView q, Side side) const {
+void SolidBoundary<L>::extend_stress_to_corners(FieldView q, Side side, double t) const {
   const SideIndex line(layout(), side);
   for (const int k : {0, line.n - 1}) {
     if (!advanced(side, k)) continue;
@@ -213,7 +217,15 @@ void SolidBoundary<L>::extend_stress_to_corners(FieldView q, Side side) const {
     if (!loaded(side)) continue;
     SolidState s = load(q, line.at(k, 0));
     const Vec2 n0 = at(side, k).n0;
-    s.P = plus_dyad(s.P, n0, T_[index(side)][static_cast<std::size_t>(k)] - traction_of(s.P, n0));
+    const Vec2 T = T_[index(side)][static_cast<std::size_t>(k)];
+    if (to_slip) {
+      const Vec2 wall = side_normal_at_end(side, k);
+      const Vec2 exact = traction_of(chosen(line.at(k, 0), t).P, wall);
+      const double pressing = wall.dot(traction_of(s.P, wall) - exact);
+      s.P = stress_of_tractions(n0, T, wall, exact + pressing * wall);
+    } else {
+      s.P = plus_dyad(s.P, n0, T - traction_of(s.P, n0));
+    }
     store(q, line.at(k, 0), s);
   }
 }
@@ -231,7 +243,8 @@ template <Law L>
 void SolidBoundary<L>::match_side(FieldView q, Side side, double t) const {
   const SideIndex line(layout(), side);
   for (const int k : points(side)) {
-    if (!inner(side, k)) continue;
+    const bool slip_at_load = kind(side) == Kind::slip && end_of(line, k) && loaded(neighbour(side, k != 0));
+    if (!inner(side, k) && !slip_at_load) continue;
     if (loaded(side)) {
       match_point(q, side, k, t);
     } else {
@@ -379,6 +392,7 @@ Vec2 SolidBoundary<L>::difference_across(ConstFieldView q, const SideIndex& line
 template <Law L>
 void SolidBoundary<L>::broke(Side side, int k, double t) const {
   const GridPoint p = grid_point(layout(), side, k);
+  const Vec2 T = T_[index(side)][static_cast<std::size_t>(k)];
   throw NumbersBroke(
       fmt::format("t = {:.6g}, grid \"{}\", point ({}, {}) on side {}: no displacement of the ghost point "
                   "gives the traction",

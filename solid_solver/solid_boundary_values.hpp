@@ -15,7 +15,6 @@ SolidBoundary<L>::SolidBoundary(BoundaryGrid grid, const L& law, double rho, Bou
       law_(law),
       rho_(rho),
       boundaries_(std::move(boundaries)),
-      kinds_{},
       limiter_(limiter),
       time_scale_(time_scale) {
   for (const Side side : all_sides) {
@@ -93,6 +92,15 @@ std::optional<typename SolidBoundary<L>::Motion> SolidBoundary<L>::given_motion(
   if (kind(other) != Kind::dirichlet) return std::nullopt;
   const SolidState given = boundaries_[index(other)].state(x.x(), x.y(), t);
   return Motion{.u = given.u, .v = given.v};
+}
+
+template <Law L>
+std::optional<Vec2> SolidBoundary<L>::wall_of(Side side, int k) const {
+  const SideIndex line(layout(), side);
+  if (!end_of(line, k)) return std::nullopt;
+  const Kind other = kind(neighbour(side, k != 0));
+  if (other != Kind::slip && other != Kind::symmetry) return std::nullopt;
+  return side_normal_at_end(side, k);
 }
 
 template <Law L>

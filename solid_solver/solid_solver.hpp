@@ -130,6 +130,12 @@ class SolidSolver {
   void interface_state(Side side, SolidInterface& state, int grid = 0) const {
     gather_interface(component(grid), law_, {options_.rho, t_}, side, state);
   }
+  /// Outward direction in which the end k of a side slides along a wall.
+  Vec2 along_wall(Side side, int k, int grid = 0) const {
+    const SolidBoundary<L>& boundary = component(grid).boundary();
+    const Vec2 wall = boundary.wall_of(side, k).value(), n0 = boundary.normal(side, k);
+    return (n0 - wall * wall.dot(n0)).normalized();
+  }
   /// Boundary conditions and ghost points at time t, then interpolation between the grids. `projected` has
   /// one entry per interface side.
   void apply_solid_bcs(double t, std::span<const InterfaceValues> projected = {}) {

@@ -204,11 +204,15 @@ amp_fsi_Abort borrow(const wire::Abort& abort) {
 }
 
 amp_fsi_Control borrow(const wire::Control& control) {
-  return {.run = borrow(control.run),
-          .command = borrow(control.command),
-          .from = borrow(control.from),
-          .number = control.number,
-          .seal = borrow(control.seal)};
+  return {.run = borrow(control.run), .command = borrow(control.command)};
+}
+
+amp_fsi_Waiting borrow(const wire::Waiting& waiting) {
+  return {.run = borrow(waiting.run),
+          .from = borrow(waiting.from),
+          .to = borrow(waiting.to),
+          .topic = borrow(waiting.topic),
+          .step = waiting.step};
 }
 
 void copy(const amp_fsi_Hello& from, wire::Hello& to) {
@@ -333,9 +337,23 @@ void copy(const amp_fsi_Abort& from, wire::Abort& to) {
 void copy(const amp_fsi_Control& from, wire::Control& to) {
   copy(from.run, to.run);
   copy(from.command, to.command);
+}
+
+void copy(const amp_fsi_Waiting& from, wire::Waiting& to) {
+  copy(from.run, to.run);
   copy(from.from, to.from);
-  to.number = from.number;
-  copy(from.seal, to.seal);
+  copy(from.to, to.to);
+  copy(from.topic, to.topic);
+  to.step = from.step;
+}
+
+bool same_state(const amp_fsi_PredictedInterface& incoming, const wire::PredictedInterface& state) {
+  const auto same = [](const amp_fsi_Numbers& one, const std::vector<double>& other) {
+    return one._length == other.size() &&
+           (other.empty() || std::memcmp(one._buffer, other.data(), other.size() * sizeof(double)) == 0);
+  };
+  return same(incoming.x, state.x) && same(incoming.v, state.v) && same(incoming.w, state.w) &&
+         same(incoming.p, state.p) && same(incoming.z_f, state.z_f) && same(incoming.Z, state.Z);
 }
 
 std::size_t payload(const wire::PredictedInterface& m) {

@@ -27,6 +27,7 @@ amp_fsi_PredictedInterface borrow(const wire::PredictedInterface& predicted);
 amp_fsi_ProjectedInterface borrow(const wire::ProjectedInterface& projected);
 amp_fsi_Abort borrow(const wire::Abort& abort);
 amp_fsi_Control borrow(const wire::Control& control);
+amp_fsi_Waiting borrow(const wire::Waiting& waiting);
 /// A string for an outgoing sample.
 char* borrow(const std::string& text);
 
@@ -36,9 +37,13 @@ void copy(const amp_fsi_PredictedInterface& from, wire::PredictedInterface& to);
 void copy(const amp_fsi_ProjectedInterface& from, wire::ProjectedInterface& to);
 void copy(const amp_fsi_Abort& from, wire::Abort& to);
 void copy(const amp_fsi_Control& from, wire::Control& to);
+void copy(const amp_fsi_Waiting& from, wire::Waiting& to);
 
 /// True when an incoming string is `text`.
 bool same(const char* incoming, const std::string& text);
+
+/// True when the arrays of motion and traction of an incoming state are those of `state`, bit by bit.
+bool same_state(const amp_fsi_PredictedInterface& incoming, const wire::PredictedInterface& state);
 
 /// Bytes of all arrays of a message.
 std::size_t payload(const wire::PredictedInterface& predicted);

@@ -8,53 +8,17 @@
 #include <optional>
 
 #include "common/bus/convert.hpp"
+#include "common/bus/coupler_member.hpp"
 #include "common/bus/lengths.hpp"
 #include "common/bus/link.hpp"
-#include "common/bus/newcomer.hpp"
 #include "common/bus/peer.hpp"
-#include "common/bus/seal.hpp"
 
 namespace fsi::bus {
 
 namespace {
 
-std::string label_of(const std::string& role, const std::string& name) {
-  return role == name ? name : fmt::format("{} '{}'", role, name);
-}
-
-/// One interface of one solver: what comes in and what goes out.
-struct Channel {
-  Channel(const Entity& participant, const std::string& owner_name, const wire::InterfaceInfo& info)
-      : owner(owner_name),
-        interface(info.name),
-        size(size_of(info, owner_name)),
-        predicted_topic(topic_name("predicted", {owner, interface})),
-        projected_topic(topic_name("projected", {owner, interface})),
-        reader(participant, predicted_topic, Delivery::lock_step),
-        writer(participant, projected_topic, Delivery::lock_step) {}
-
-  bool matched() const {
-    const bool hears = reader.matched() > 0,
-               heard = writer.matched() > 0;  // ask both: asking resets the wake-up
-    return heard && hears;
-  }
-
-  std::string owner, interface;
-  InterfaceSize size;
-  std::string predicted_topic, projected_topic;
-  Reader<amp_fsi_PredictedInterface> reader;
-  Writer<amp_fsi_ProjectedInterface> writer;
-};
-
-/// One solver of the run.
-struct Member {
-  std::string label;
-  Newcomer newcomer;
-  wire::Hello hello;
-  std::unique_ptr<Peer> peer;  ///< null until its hello came
-  std::deque<Channel> channels;
-  std::size_t first_slot = 0;  ///< place of the first interface among all predicted states
-};
+/// Programs that nobody expects are named up to so many.
+constexpr std::size_t most_strangers = 20;
 
 }  // namespace
 
@@ -63,10 +27,9 @@ struct CouplerSession::Implementation {
       : link(std::move(options), "coupler", "coupler"),
         who(std::move(expected)),
         digest(std::move(config_digest)),
-        welcome_writer(link.participant(), welcome_topic, Delivery::lasting),
+        welcome_writer(link.participant(), welcome_topic, Delivery::newest),
         hello_reader(link.participant(), hello_topic, Delivery::lasting),
-        control_reader(link.participant(), control_topic, Delivery::lasting),
-        gatekeeper(link.options().run, link.options().key) {
+        control_reader(link.participant(), control_topic, Delivery::lasting) {
     link.waitset().attach(hello_reader.condition());
     link.waitset().attach(control_reader.condition());
     for (const Expected& one : who) {
@@ -87,24 +50,27 @@ struct CouplerSession::Implementation {
 
   void welcome(bool complete) {
     const std::string host = host_name();
-    welcome_writer.write({.protocol = wire::protocol_version,
-                          .run = borrow(link.options().run),
-                          .complete = complete,
-                          .host = borrow(host),
-                          .pid = getpid()});
+    const amp_fsi_Welcome word{.protocol = wire::protocol_version,
+                               .run = borrow(link.options().run),
+                               .complete = complete,
+                               .host = borrow(host),
+                               .pid = getpid()};
+    link.send(welcome_writer, welcome_topic, word);
   }
 
   void wait_for_all() {
     const auto start = Clock::now();
+    link.begin_wait();
     while (!all_matched()) {
       link.sleep();
       drain();
+      if (link.time_to_repeat()) welcome(false);
       check_counterparts();
       // Even who computes must join some day.
       bool late =
           since(start) > link.options().hello_timeout_s + clock_over_work * link.options().step_timeout_s;
       for (Member& member : members) late = is_late(member) || late;
-      if (late) throw PeerLost(who_is_missing(since(start)));
+      if (late) throw PeerLost(who_is_missing(members, strangers, since(start)));
     }
     for (const Member& member : members) {
       for (const Channel& channel : member.channels) {
@@ -140,15 +106,6 @@ struct CouplerSession::Implementation {
     }
   }
 
-  std::string who_is_missing(double seconds) const {
-    Attendance now{.strangers = strangers};
-    for (const Member& member : members) {
-      const bool matched = std::ranges::all_of(member.channels, &Channel::matched);
-      (!member.peer ? now.missing : !matched ? now.silent : now.here).push_back(member.label);
-    }
-    return describe(now, seconds);
-  }
-
   void number_slots() {
     std::size_t slots = 0;
     for (Member& member : members) {
@@ -170,7 +127,7 @@ struct CouplerSession::Implementation {
     control_reader.take([&](const amp_fsi_Control& sample) {
       wire::Control request;
       copy(sample, request);
-      if (gatekeeper.lets_in(request)) requests.push_back(std::move(request));
+      if (request.run == link.options().run) requests.push_back(std::move(request));
     });
     if (predicted.empty()) return;
     for (Member& member : members) {
@@ -186,7 +143,8 @@ struct CouplerSession::Implementation {
     const std::string label = label_of(hello.role, hello.name);
     const auto place = std::ranges::find(who, hello.name, &Expected::name);
     if (place == who.end() || place->role != hello.role) {
-      strangers.push_back(label);
+      const bool known = std::ranges::find(strangers, label) != strangers.end();
+      if (!known && strangers.size() < most_strangers) strangers.push_back(label);
       return;
     }
     Member& member = members[static_cast<std::size_t>(place - who.begin())];
@@ -195,7 +153,7 @@ struct CouplerSession::Implementation {
       throw Failure(ExitCode::user_mistake, fmt::format("two programs call themselves {} (pids {} and {})",
                                                         label, member.hello.pid, hello.pid));
     }
-    check_fits(label, hello);
+    check_fits(label, hello, digest);
     member.peer = std::make_unique<Peer>(label, hello.host, hello.pid);
     member.newcomer.joined();
     for (const wire::InterfaceInfo& info : hello.interfaces) {
@@ -207,21 +165,20 @@ struct CouplerSession::Implementation {
     member.hello = std::move(hello);
   }
 
-  void check_fits(const std::string& label, const wire::Hello& hello) const {
-    if (hello.protocol != wire::protocol_version) {
-      throw PeerLost(fmt::format("{} speaks protocol {}, the coupler speaks {}: build them from one version",
-                                 label, hello.protocol, wire::protocol_version));
-    }
-    if (hello.config_digest != digest) {
-      throw PeerLost(fmt::format("{} read another case than the coupler (digest {}, not {})", label,
-                                 hello.config_digest, digest));
-    }
-  }
-
   void accept(const Channel& channel, std::size_t slot, const amp_fsi_PredictedInterface& sample) {
     const bool ours = same(sample.run, link.options().run) && same(sample.from, channel.owner) &&
                       same(sample.interface_name, channel.interface);
     if (!ours || sample.step < awaited) {
+      ++link.counters().stale;
+      return;
+    }
+    if (fresh[slot] && sample.step == predicted[slot].step) {  // sent again before it was taken
+      if (!same_state(sample, predicted[slot])) {
+        throw PeerLost(
+            fmt::format("two different states of step {} came from {}: does another program speak in its "
+                        "name? A protected run (README.md) cannot be falsified that way",
+                        sample.step, channel.owner));
+      }
       ++link.counters().stale;
       return;
     }
@@ -234,12 +191,19 @@ struct CouplerSession::Implementation {
 
   std::span<const wire::PredictedInterface> gather(std::uint64_t step) {
     expect(step);
-    for (const Member& member : members) member.peer->begin_step();
+    for (Member& member : members) {
+      member.peer->begin_step();
+      for (Channel& channel : member.channels) {
+        channel.not_arrived.forget();
+        channel.behind.forget();
+      }
+    }
     drain();
+    link.begin_wait();
     while (std::ranges::find(fresh, false) != fresh.end()) {
       link.sleep();
       drain();
-      if (link.time_to_check()) check_peers(step);
+      if (link.time_to_check()) watch(step);
     }
     for (const Member& member : members) member.peer->end_step();
     for (const wire::PredictedInterface& one : predicted) {
@@ -265,15 +229,47 @@ struct CouplerSession::Implementation {
     }
   }
 
-  /// Looks after those who have not delivered `step`.
-  void check_peers(std::uint64_t step) {
+  /// Looks after those who have not delivered `step`: do they live, have they sent it, do they hear us?
+  void watch(std::uint64_t step) {
+    const std::vector<wire::Waiting> words = link.others_waiting();
+    const bool time_to_repeat = link.time_to_repeat();
     for (Member& member : members) {
       for (std::size_t k = 0; k < member.channels.size(); ++k) {
         if (fresh[member.first_slot + k]) continue;
-        check_peer(member, member.channels[k]);
+        Channel& channel = member.channels[k];
+        check_peer(member, channel);
         member.peer->check_step(step, link.options().step_timeout_s);
+        for (const wire::Waiting& word : words) hear(word, channel, step);
+        if (time_to_repeat) repeat(channel, step);
+        judge(channel, step);
       }
     }
+  }
+
+  /// The owner of the channel waits: for the answer to a state that is not here, or to the one before.
+  void hear(const wire::Waiting& word, Channel& channel, std::uint64_t step) const {
+    if (word.from != channel.owner || word.topic != channel.projected_topic) return;
+    if (word.step == step) channel.not_arrived.add(link.repetition_s());
+    if (word.step < step) channel.behind.add(link.repetition_s());
+  }
+
+  /// Says what is missing, and what its sender heard last.
+  void repeat(Channel& channel, std::uint64_t step) {
+    link.say_waiting(channel.owner, channel.predicted_topic, step);
+    if (channel.sent) {
+      link.send(channel.writer, channel.projected_topic, borrow(*channel.sent));
+    } else {
+      welcome(true);
+    }
+    ++link.counters().repeated;
+  }
+
+  void judge(const Channel& channel, std::uint64_t step) const {
+    const double timeout = link.options().peer_timeout_s;
+    if (channel.not_arrived.convincing(timeout))
+      end_by(channel.predicted_of(step), link.waited_s(), "its sender waits for the answer");
+    if (channel.sent && channel.behind.convincing(timeout))
+      end_by(channel.projected_of(channel.sent->step), link.waited_s(), "its receiver still asks for it");
   }
 
   void check_peer(Member& member, const Channel& channel) const {
@@ -285,9 +281,16 @@ struct CouplerSession::Implementation {
     for (const wire::ProjectedInterface& one : projected) {
       amp_fsi_ProjectedInterface sample = borrow(one);
       sample.run = borrow(link.options().run);
-      channel_of(one.to, one.interface).writer.write(sample);
+      Channel& channel = channel_of(one.to, one.interface);
+      link.send(channel.writer, channel.projected_topic, sample);
       ++link.counters().messages;
       link.counters().bytes += payload(one);
+    }
+    for (const wire::ProjectedInterface& one :
+         projected) {  // all are on their way: nobody waits for the copies
+      Channel& channel = channel_of(one.to, one.interface);
+      channel.sent = one;
+      channel.sent->run = link.options().run;
     }
   }
 
@@ -306,6 +309,7 @@ struct CouplerSession::Implementation {
     while (requests.empty() && since(start) < seconds) {
       link.sleep(seconds - since(start), "paused");
       drain();
+      if (link.time_to_repeat()) link.say_waiting("", "", awaited);
       if (!link.time_to_check()) continue;
       for (Member& member : members) {
         for (const Channel& channel : member.channels) check_peer(member, channel);
@@ -327,7 +331,6 @@ struct CouplerSession::Implementation {
   Writer<amp_fsi_Welcome> welcome_writer;
   Reader<amp_fsi_Hello> hello_reader;
   Reader<amp_fsi_Control> control_reader;
-  Gatekeeper gatekeeper;
   std::deque<Member> members;  ///< in the order of `who`
   std::vector<std::string> strangers;
   std::vector<wire::Hello> all_hellos;

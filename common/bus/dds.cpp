@@ -1,10 +1,12 @@
 #include "common/bus/dds.hpp"
 
+#include <dlfcn.h>
 #include <fmt/format.h>
 #include <malloc.h>
 
 #include <cctype>
 #include <cstdlib>
+#include <filesystem>
 #include <map>
 #include <mutex>
 
@@ -69,6 +71,48 @@ dds_entity_t checked_place(dds_entity_t handle, const std::string& run) {
       run, dds_strretcode(handle), last_log_line(), domain_of(run)));
 }
 
+/// The plugins lie in a folder beside the library itself (Debian: libddsc0debian/).
+std::string plugin_path(const std::string& name) {
+  Dl_info info{};
+  if (dladdr(reinterpret_cast<const void*>(&dds_create_participant), &info) != 0) {
+    const std::filesystem::path folder = std::filesystem::weakly_canonical(info.dli_fname).parent_path();
+    if (std::filesystem::exists(folder / name)) return folder / name;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+      const std::string inside = entry.path().filename().string();
+      if (inside.starts_with("libddsc") && std::filesystem::exists(entry.path() / name))
+        return entry.path() / name;
+    }
+  }
+  throw Failure(ExitCode::user_mistake,
+                fmt::format("bus: {} of Cyclone DDS is not where libddsc.so is: packets cannot be signed "
+                            "(fsi run --no-security does without)",
+                            name));
+}
+
+Qos participant_qos(const std::string& run, const RunKey& key, const std::string& role) {
+  Qos qos(dds_create_qos(), &dds_delete_qos);
+  if (key.protection == Protection::off) return qos;
+  const auto set = [&](const std::string& name, const std::string& value) {
+    dds_qset_prop(qos.get(), ("dds.sec." + name).c_str(), value.c_str());
+  };
+  const auto load = [&](const std::string& kind, const std::string& library, const std::string& function) {
+    set(kind + ".library.path", plugin_path("libdds_security_" + library + ".so"));
+    set(kind + ".library.init", "init_" + function);
+    set(kind + ".library.finalize", "finalize_" + function);
+  };
+  load("auth", "auth", "authentication");
+  load("access", "ac", "access_control");
+  load("crypto", "crypto", "crypto");
+  const Credentials own = make_credentials(key, run, role);
+  set("auth.identity_ca", "data:," + own.authority);
+  set("auth.identity_certificate", "data:," + own.certificate);
+  set("auth.private_key", "data:," + own.private_key);
+  set("access.permissions_ca", "data:," + own.authority);
+  set("access.governance", "data:," + own.governance);
+  set("access.permissions", "data:," + own.permissions);
+  return qos;
+}
+
 }  // namespace
 
 dds_return_t checked(dds_return_t result, const std::string& doing) {
@@ -103,8 +147,9 @@ std::shared_ptr<const Entity> join_domain(const std::string& run, double partici
   return entity;
 }
 
-Entity create_participant(const std::string& run) {
-  return {checked_place(dds_create_participant(domain_of(run), nullptr, nullptr), run), "participant"};
+Entity create_participant(const std::string& run, const RunKey& key, const std::string& role) {
+  const Qos qos = participant_qos(run, key, role);
+  return {checked_place(dds_create_participant(domain_of(run), qos.get(), nullptr), run), "participant"};
 }
 
 Qos writer_qos(Delivery delivery) {
@@ -123,12 +168,19 @@ Qos reader_qos(Delivery delivery) {
       dds_qset_durability(qos.get(), DDS_DURABILITY_VOLATILE);
       dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, lock_step_depth);
       break;
+    case Delivery::passing:
+      dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, DDS_SECS(1));
+      dds_qset_durability(qos.get(), DDS_DURABILITY_VOLATILE);
+      dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, lasting_depth);
+      break;
+    case Delivery::newest:
     case Delivery::lasting:
       dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, DDS_SECS(1));
       dds_qset_durability(qos.get(), DDS_DURABILITY_TRANSIENT_LOCAL);
-      dds_qset_durability_service(qos.get(), 0, DDS_HISTORY_KEEP_LAST, lasting_depth, DDS_LENGTH_UNLIMITED,
+      dds_qset_durability_service(qos.get(), 0, DDS_HISTORY_KEEP_LAST,
+                                  delivery == Delivery::newest ? 1 : lasting_depth, DDS_LENGTH_UNLIMITED,
                                   DDS_LENGTH_UNLIMITED, DDS_LENGTH_UNLIMITED);
-      dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, lasting_depth);
+      dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, delivery == Delivery::newest ? 1 : lasting_depth);
       break;
     case Delivery::listening:
       dds_qset_reliability(qos.get(), DDS_RELIABILITY_BEST_EFFORT, 0);
@@ -195,6 +247,10 @@ const dds_topic_descriptor_t& descriptor<amp_fsi_Abort>() {
 template <>
 const dds_topic_descriptor_t& descriptor<amp_fsi_Control>() {
   return amp_fsi_Control_desc;
+}
+template <>
+const dds_topic_descriptor_t& descriptor<amp_fsi_Waiting>() {
+  return amp_fsi_Waiting_desc;
 }
 template <>
 const dds_topic_descriptor_t& descriptor<amp_fsi_Telemetry>() {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "amp_fsi.h"
+#include "common/bus/credentials.hpp"
 
 namespace fsi::bus {
 
@@ -44,7 +45,9 @@ using Qos = std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)>;
 /// The kinds of topics. Everything is keyless but telemetry, whose key is the sender.
 enum class Delivery {
   lock_step,  ///< reliable, volatile, last 8: one writer, one reader, one sample per step
-  lasting,    ///< reliable, late joiners get the last samples: hello, welcome, abort, control
+  lasting,    ///< reliable, late joiners get the last samples: abort, control; what hears hello, welcome
+  newest,     ///< the same, but only the last sample of each sender: who says hello, welcome
+  passing,    ///< reliable, nothing for late joiners: waiting
   listening,  ///< best effort, newest only: telemetry, and everything a monitor reads
 };
 
@@ -54,9 +57,9 @@ Qos reader_qos(Delivery delivery);
 /// Handle of the run's domain, shared by all sessions of this process.
 std::shared_ptr<const Entity> join_domain(const std::string& run, double participant_lease_s);
 
-/// A participant in the run's domain.
+/// A participant in the run's domain; `role` becomes its identity where the run is protected.
 /// @throws PeerLost when the machine has no place for one more
-Entity create_participant(const std::string& run);
+Entity create_participant(const std::string& run, const RunKey& key = {}, const std::string& role = {});
 
 /// What Cyclone DDS logged last (it never writes to the terminal): words for a failure.
 std::string last_log_line();

@@ -17,8 +17,12 @@ namespace {
 constexpr double abort_patience_s = 0.3;
 /// Cyclone forgets a silent participant after this time [s]; it must outlive `peer_timeout`.
 constexpr double shortest_participant_lease_s = 10;
-/// Who waits for long says so this often [s].
-constexpr double repetition_s = 0.2;
+/// Who waits for long repeats its telemetry this often [s].
+constexpr double telemetry_repetition_s = 0.2;
+/// And says this often what it lacks [s], more often where `peer_timeout` is so short that it would come to
+/// nothing.
+constexpr double longest_repetition_s = 1;
+constexpr double repetitions_per_timeout = 4;
 
 ExitCode exit_code_of(std::int32_t number) {
   constexpr std::array known = {ExitCode::user_mistake,  ExitCode::numbers_broke, ExitCode::peer_lost,
@@ -51,17 +55,34 @@ double RoundTrips::quantile_us(double fraction) const {
   return 1e6 * sorted[static_cast<std::size_t>(rank)];
 }
 
+void Complaints::forget() {
+  count_ = 0;
+  since_ = last_ = Clock::now();
+}
+
+void Complaints::add(double repetition_s) {
+  if (since(last_) < repetition_s / 2) return;
+  last_ = Clock::now();
+  ++count_;
+}
+
+bool Complaints::convincing(double timeout_s) const {
+  return count_ >= convincing_count && since(since_) > timeout_s;
+}
+
 Link::Link(BusOptions options, std::string role, std::string name)
     : options_(std::move(options)),
       role_(std::move(role)),
       name_(std::move(name)),
       host_(host_name()),
       domain_(join_domain(options_.run, std::max(shortest_participant_lease_s, 2 * options_.peer_timeout_s))),
-      participant_(create_participant(options_.run)),
+      participant_(create_participant(options_.run, parse_key(options_.key), role_)),
       waitset_(participant_),
       abort_reader_(participant_, abort_topic, Delivery::lasting),
       abort_writer_(participant_, abort_topic, Delivery::lasting),
-      telemetry_writer_(participant_, telemetry_topic, Delivery::listening) {
+      telemetry_writer_(participant_, telemetry_topic, Delivery::listening),
+      waiting_reader_(participant_, waiting_topic, Delivery::passing),
+      waiting_writer_(participant_, waiting_topic, Delivery::passing) {
   waitset_.attach(abort_reader_.condition());
 }
 
@@ -90,6 +111,29 @@ bool Link::time_to_check() {
   return true;
 }
 
+double Link::repetition_s() const {
+  return std::min(longest_repetition_s, options_.peer_timeout_s / repetitions_per_timeout);
+}
+
+bool Link::time_to_repeat() {
+  if (since(last_word_) < repetition_s()) return false;
+  last_word_ = Clock::now();
+  return true;
+}
+
+void Link::say_waiting(const std::string& to, const std::string& topic, std::uint64_t step) {
+  const wire::Waiting word{.run = options_.run, .from = name_, .to = to, .topic = topic, .step = step};
+  send(waiting_writer_, waiting_topic, borrow(word));
+}
+
+std::vector<wire::Waiting> Link::others_waiting() {
+  std::vector<wire::Waiting> heard;
+  waiting_reader_.take([&](const amp_fsi_Waiting& sample) {
+    if (same(sample.run, options_.run)) copy(sample, heard.emplace_back());
+  });
+  return heard;
+}
+
 void Link::publish(wire::Telemetry telemetry) {
   last_telemetry_ = Clock::now();
   const Statistics now = statistics();
@@ -111,7 +155,7 @@ void Link::publish(wire::Telemetry telemetry) {
 /// The latest telemetry once more, so that a program that waits is not taken for one that is gone. It does
 /// not count as new: `telemetry_due` holds as before.
 void Link::repeat_telemetry(const char* state) {
-  if (telemetry_.run.empty() || since(last_repetition_) < repetition_s) return;
+  if (telemetry_.run.empty() || since(last_repetition_) < telemetry_repetition_s) return;
   last_repetition_ = Clock::now();
   telemetry_.state = state;
   telemetry_.wait_s += statistics_.wait_s - waited_before_it_s_;
@@ -125,7 +169,7 @@ void Link::abort(ExitCode code, const std::string& reason) noexcept {
   try {
     const wire::Abort message{
         .run = options_.run, .from = name_, .exit_code = static_cast<std::int32_t>(code), .reason = reason};
-    abort_writer_.write(borrow(message));
+    send(abort_writer_, abort_topic, borrow(message));
     abort_writer_.arrived(abort_patience_s);
   } catch (const std::exception&) {  // the program ends anyway; its own failure is the one to report
     return;
@@ -137,6 +181,13 @@ Statistics Link::statistics() const {
   result.round_trip_p50_us = round_trips_.quantile_us(0.5);
   result.round_trip_p99_us = round_trips_.quantile_us(0.99);
   return result;
+}
+
+void end_by(const LostMessage& message, double waited_s, const std::string& how_known) {
+  throw PeerLost(
+      fmt::format("a message was lost: {} of step {} from {} to {} (topic '{}') did not arrive within "
+                  "{:.3g} s (time.peer_timeout), though it was sent again and again: {}",
+                  message.kind, message.step, message.from, message.to, message.topic, waited_s, how_known));
 }
 
 void check_compatible(const std::string& topic, std::uint32_t policy) {

@@ -26,6 +26,7 @@ inline constexpr const char* welcome_topic = "amp_fsi/welcome";
 inline constexpr const char* abort_topic = "amp_fsi/abort";
 inline constexpr const char* control_topic = "amp_fsi/control";
 inline constexpr const char* telemetry_topic = "amp_fsi/telemetry";
+inline constexpr const char* waiting_topic = "amp_fsi/waiting";
 
 /// Times of the latest round trips.
 class RoundTrips {
@@ -38,6 +39,23 @@ class RoundTrips {
   static constexpr std::size_t kept = 1024;
   std::vector<double> seconds_;
   std::size_t next_ = 0;
+};
+
+/// How often another program said that it lacks a message which was sent to it. What it said while the
+/// message was on its way, or twice in a row, counts little: only who complains again and again has really
+/// lost it.
+class Complaints {
+ public:
+  /// The message has just been sent, or has come.
+  void forget();
+  void add(double repetition_s);
+  bool convincing(double timeout_s) const;
+  int count() const { return count_; }
+
+ private:
+  static constexpr int convincing_count = 3;
+  int count_ = 0;
+  Clock::time_point since_{}, last_{};
 };
 
 /// One program's connection. Not for use by several threads at once.
@@ -58,6 +76,24 @@ class Link {
   void check_aborts();
   /// True once per `slice_s`: time to look after the peers.
   bool time_to_check();
+
+  /// Sends a message of the lock-step exchange or of the beginning.
+  template <class T>
+  void send(Writer<T>& writer, const std::string& topic, const T& sample) const {
+    if (options_.loses && options_.loses(topic)) return;
+    writer.write(sample);
+  }
+
+  /// Who waits says once per so many seconds what it lacks, and sends its last messages again [s].
+  double repetition_s() const;
+  void begin_wait() { wait_began_ = last_word_ = Clock::now(); }
+  double waited_s() const { return since(wait_began_); }
+  /// True once per `repetition_s` since the wait began.
+  bool time_to_repeat();
+  /// Tells everybody that the message of `step` on `topic` that comes from `to` is missing here.
+  void say_waiting(const std::string& to, const std::string& topic, std::uint64_t step);
+  /// What the others said of that kind since the last call.
+  std::vector<wire::Waiting> others_waiting();
 
   bool telemetry_due() const { return since(last_telemetry_) > slice_s; }
   void publish(wire::Telemetry telemetry);
@@ -88,13 +124,24 @@ class Link {
   Reader<amp_fsi_Abort> abort_reader_;
   Writer<amp_fsi_Abort> abort_writer_;
   Writer<amp_fsi_Telemetry> telemetry_writer_;
+  Reader<amp_fsi_Waiting> waiting_reader_;
+  Writer<amp_fsi_Waiting> waiting_writer_;
   bool aborted_ = false;  ///< somebody's Abort was heard, or ours was sent
-  Clock::time_point last_telemetry_{}, last_repetition_{}, last_check_{};
+  Clock::time_point last_telemetry_{}, last_repetition_{}, last_check_{}, wait_began_{}, last_word_{};
   wire::Telemetry telemetry_;      ///< the latest
   double waited_before_it_s_ = 0;  ///< time waited until then
   Statistics statistics_;
   RoundTrips round_trips_;
 };
+
+/// A message that was sent and did not arrive, however often it was sent again.
+struct LostMessage {
+  std::string kind;  ///< PredictedInterface, ProjectedInterface
+  std::string from, to, topic;
+  std::uint64_t step = 0;
+};
+/// Ends the run: who -> whom, which topic, which step.
+[[noreturn]] void end_by(const LostMessage& message, double waited_s, const std::string& how_known);
 
 /// One sentence for a reader or writer of `topic` that met an incompatible counterpart.
 /// @throws PeerLost when `policy` is not 0

@@ -7,7 +7,6 @@
 #include "common/bus/convert.hpp"
 #include "common/bus/dds.hpp"
 #include "common/bus/link.hpp"
-#include "common/bus/seal.hpp"
 #include "common/core/failure.hpp"
 
 namespace fsi::bus {
@@ -19,10 +18,10 @@ constexpr double participant_lease_s = 10;
 }  // namespace
 
 struct Listener::Implementation {
-  explicit Implementation(std::string run_id)
+  Implementation(std::string run_id, const std::string& key)
       : run(std::move(run_id)),
         domain(join_domain(run, participant_lease_s)),
-        participant(create_participant(run)),
+        participant(create_participant(run, parse_key(key), "monitor")),
         waitset(participant),
         telemetry_reader(participant, telemetry_topic, Delivery::listening),
         abort_reader(participant, abort_topic, Delivery::listening) {
@@ -51,7 +50,8 @@ struct Listener::Implementation {
   std::optional<wire::Abort> abort;
 };
 
-Listener::Listener(const std::string& run) : implementation_(std::make_unique<Implementation>(run)) {}
+Listener::Listener(const std::string& run, const std::string& key)
+    : implementation_(std::make_unique<Implementation>(run, key)) {}
 Listener::Listener(Listener&&) noexcept = default;
 Listener& Listener::operator=(Listener&&) noexcept = default;
 Listener::~Listener() = default;
@@ -71,7 +71,7 @@ int Listener::programs() const {
 void send_control(const std::string& run, const std::string& key, const std::string& command,
                   double timeout_s) {
   const auto domain = join_domain(run, participant_lease_s);
-  const Entity participant = create_participant(run);
+  const Entity participant = create_participant(run, parse_key(key), "control");
   Waitset waitset(participant);
   Writer<amp_fsi_Control> writer(participant, control_topic, Delivery::lasting);
   writer.announce_matches(waitset);
@@ -81,7 +81,7 @@ void send_control(const std::string& run, const std::string& key, const std::str
       throw PeerLost(fmt::format("nobody of run '{}' takes requests; is it running?", run));
     waitset.wait(timeout_s - since(start));
   }
-  const wire::Control request = Sealer(run, key).request(command);
+  const wire::Control request{.run = run, .command = command};
   writer.write(borrow(request));
   if (!writer.arrived(timeout_s))
     throw PeerLost(fmt::format("run '{}' did not take '{}' within {} s", run, command, timeout_s));

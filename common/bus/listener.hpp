@@ -13,7 +13,8 @@ namespace fsi::bus {
 /// Best-effort reader of everybody's telemetry: a listener that freezes costs the run nothing.
 class Listener {
  public:
-  explicit Listener(const std::string& run);
+  /// `key` is that of the run; without it a protected run cannot be heard.
+  explicit Listener(const std::string& run, const std::string& key = {});
   Listener(Listener&&) noexcept;
   Listener& operator=(Listener&&) noexcept;
   ~Listener();
@@ -30,8 +31,8 @@ class Listener {
   std::unique_ptr<Implementation> implementation_;
 };
 
-/// Sends a request ("pause", "resume", "checkpoint", "stop") to a run and returns when it has arrived. Only
-/// with the `key` of the run it is obeyed.
+/// Sends a request ("pause", "resume", "checkpoint", "stop") to a run and returns when it has arrived. A
+/// protected run hears only who knows its `key`.
 /// @throws PeerLost nobody takes requests for that run within `timeout_s`
 void send_control(const std::string& run, const std::string& key, const std::string& command,
                   double timeout_s = 3);

@@ -1,7 +1,6 @@
 #include "common/bus/newcomer.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <optional>
 #include <utility>
@@ -33,18 +32,6 @@ void Newcomer::look() {
 void Newcomer::joined() {
   pid_ = 0;
   idle_s_ = 0;
-}
-
-std::string describe(const Attendance& attendance, double seconds) {
-  std::string text = fmt::format("after {:.3g} s (time.join_timeout)", seconds);
-  if (!attendance.missing.empty())
-    text += fmt::format(" {} did not join", fmt::join(attendance.missing, ", "));
-  if (!attendance.silent.empty())
-    text += fmt::format(" {} joined but cannot be heard", fmt::join(attendance.silent, ", "));
-  if (!attendance.here.empty()) text += fmt::format("; {} did", fmt::join(attendance.here, ", "));
-  if (!attendance.strangers.empty())
-    text += fmt::format("; not expected: {}", fmt::join(attendance.strangers, ", "));
-  return text;
 }
 
 }  // namespace fsi::bus

@@ -1,10 +1,9 @@
 #pragma once
-/// Programs that the coupler waits for at the beginning of a run.
+/// A program that the coupler waits for at the beginning of a run.
 
 #include <chrono>
 #include <cstdint>
 #include <string>
-#include <vector>
 
 namespace fsi::bus {
 
@@ -31,12 +30,5 @@ class Newcomer {
   double idle_s_ = 0;
   std::chrono::steady_clock::time_point last_look_ = std::chrono::steady_clock::now();
 };
-
-/// Labels of the programs of a run by how far they have come, and of those that nobody expects.
-struct Attendance {
-  std::vector<std::string> missing, silent, here, strangers;
-};
-/// Who is missing after so many seconds, in words.
-std::string describe(const Attendance& attendance, double seconds);
 
 }  // namespace fsi::bus

@@ -16,7 +16,8 @@ namespace fsi::bus {
 struct BusOptions {
   /// Identity of the run; programs of different runs never see each other.
   std::string run;
-  /// Requests count when they are sealed with this key (seal.hpp); empty: none does.
+  /// What the programs of the run know and nobody else does (credentials.hpp); empty: anybody on this machine
+  /// can take part, and falsify it.
   std::string key = {};
   /// A peer whose liveliness lease expired (stopped, starved) has this long to return [s].
   double peer_timeout_s = 4;
@@ -31,6 +32,8 @@ struct BusOptions {
   /// Called at least every 100 ms while waiting; ends the wait by throwing (`fsi::throw_if_interrupted`
   /// fits). May be empty.
   std::function<void()> throw_if_interrupted = {};
+  /// For tests: true when a message that is sent now on this topic is to be lost. May be empty.
+  std::function<bool(const std::string& topic)> loses = {};
 };
 
 /// The end of a run because another program failed, as that one told it.
@@ -48,7 +51,8 @@ class FailureElsewhere : public Failure {
 struct Statistics {
   std::uint64_t messages = 0;  ///< lock-step messages sent and received
   std::uint64_t bytes = 0;     ///< payload of their arrays [byte]
-  std::uint64_t stale = 0;     ///< messages of another run or an older step, ignored
+  std::uint64_t stale = 0;     ///< messages of another run or an older step, or repeated ones, ignored
+  std::uint64_t repeated = 0;  ///< messages sent once more because their answer did not come
   double wait_s = 0;           ///< time spent waiting for the others [s]
   /// Solver: from `publish` to the answer; coupler: from `scatter` to the last answer; the others' work
   /// included. Median over the last 1024 steps [us].

@@ -16,6 +16,11 @@ namespace {
 
 constexpr int between_state_and_user_time = 10;
 
+/// Who waits wakes up ten times a second to look around; on a busy machine less often.
+constexpr double wakes_per_s = 2;
+/// And computes no more than this share of the time.
+constexpr double looking_around = 0.2;
+
 /// Of a process' first thread. Nothing where the system does not tell.
 std::optional<Pulse> pulse_of(int pid) {
   std::ifstream stat(fmt::format("/proc/{0}/task/{0}/stat", pid)),
@@ -134,6 +139,21 @@ void Peer::check_endless(double step_timeout_s) {
   throw PeerLost(
       fmt::format("{} (pid {}) hangs: it computes without end, for {:g} s (time.step_timeout) by now", label_,
                   pid_, step_timeout_s));
+}
+
+bool Peer::rested(double seconds) {
+  const std::optional<Pulse> now = born_ != 0 ? pulse_of(pid_) : std::nullopt;
+  if (!now) return false;
+  const auto time = std::chrono::steady_clock::now();
+  const bool can_go_on = now->sleeping || now->ready;  // not stopped, not waiting for a disk
+  if (!quiet_ || !can_go_on) {
+    quiet_ = now;
+    quiet_since_ = time;
+    return false;
+  }
+  const double quiet_s = std::chrono::duration<double>(time - *quiet_since_).count();
+  return quiet_s > seconds && static_cast<double>(now->waited - quiet_->waited) >= wakes_per_s * quiet_s &&
+         work_between(*quiet_, *now) <= looking_around * quiet_s;
 }
 
 bool Peer::goes_on() {

@@ -60,15 +60,19 @@ class Peer {
   void check_endless(double step_timeout_s);
   /// Only whether its process lives, for a program whose writers are not known yet.
   void check_process() const;
+  /// It has just been heard.
+  void spoke() { quiet_.reset(); }
+  /// True when it has only slept and woken up for so many seconds since it was heard: it waits for something.
+  bool rested(double seconds);
   const std::string& label() const { return label_; }
 
  private:
   std::string label_;
   int pid_;
   std::uint64_t born_ = 0;  ///< start time of the process; 0: not visible from here, only liveliness tells
-  std::optional<std::chrono::steady_clock::time_point> silent_since_, asleep_since_;
+  std::optional<std::chrono::steady_clock::time_point> silent_since_, asleep_since_, quiet_since_;
   Pulse pulse_;
-  std::optional<Pulse> step_began_, last_nap_;
+  std::optional<Pulse> step_began_, last_nap_, quiet_;
   std::optional<std::chrono::steady_clock::time_point> owes_since_;
   double work_s_ = 0, longest_work_s_ = 0;  ///< processor time of this step and of the longest one [s]
 

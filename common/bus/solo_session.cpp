@@ -2,15 +2,13 @@
 
 #include "common/bus/convert.hpp"
 #include "common/bus/link.hpp"
-#include "common/bus/seal.hpp"
 
 namespace fsi::bus {
 
 struct SoloSession::Implementation {
   Implementation(BusOptions options, const std::string& role, const std::string& name)
       : link(std::move(options), role, name),
-        control_reader(link.participant(), control_topic, Delivery::lasting),
-        gatekeeper(link.options().run, link.options().key) {
+        control_reader(link.participant(), control_topic, Delivery::lasting) {
     link.waitset().attach(control_reader.condition());
   }
 
@@ -18,7 +16,7 @@ struct SoloSession::Implementation {
     control_reader.take([&](const amp_fsi_Control& sample) {
       wire::Control request;
       copy(sample, request);
-      if (gatekeeper.lets_in(request)) requests.push_back(std::move(request));
+      if (request.run == link.options().run) requests.push_back(std::move(request));
     });
   }
 
@@ -30,7 +28,6 @@ struct SoloSession::Implementation {
 
   Link link;
   Reader<amp_fsi_Control> control_reader;
-  Gatekeeper gatekeeper;
   std::vector<wire::Control> requests;
 };
 

@@ -11,7 +11,6 @@
 #include "common/bus/lengths.hpp"
 #include "common/bus/link.hpp"
 #include "common/bus/peer.hpp"
-#include "common/bus/seal.hpp"
 
 namespace fsi::bus {
 
@@ -19,6 +18,7 @@ namespace {
 
 /// The coupler notices first who is missing and says so; only then does a solver give up on it [s].
 constexpr double later_than_coupler_s = 2;
+constexpr const char* coupler_name = "coupler";
 
 /// One interface: what goes out and what comes in.
 struct Channel {
@@ -42,8 +42,12 @@ struct Channel {
   Writer<amp_fsi_PredictedInterface> writer;
   Reader<amp_fsi_ProjectedInterface> reader;
   wire::ProjectedInterface incoming;
-  bool fresh = false;         ///< `incoming` has not been handed out yet
-  std::uint64_t awaited = 0;  ///< older steps are stale
+  bool fresh = false;             ///< `incoming` has not been handed out yet
+  std::uint64_t awaited = 0;      ///< older steps are stale
+  wire::PredictedInterface sent;  ///< the last one, to be sent again
+  bool unanswered = false;
+  Complaints not_arrived;  ///< the coupler lacks what was sent
+  Complaints overtaken;    ///< the coupler waits for the step after it: its answer was lost
 };
 
 }  // namespace
@@ -52,9 +56,8 @@ struct SolverSession::Implementation {
   Implementation(BusOptions options, wire::Hello hello)
       : self(std::move(hello)),
         link(std::move(options), self.role, self.name),
-        hello_writer(link.participant(), hello_topic, Delivery::lasting),
+        hello_writer(link.participant(), hello_topic, Delivery::newest),
         control_writer(link.participant(), control_topic, Delivery::lasting),
-        sealer(link.options().run, link.options().key),
         welcome_reader(link.participant(), welcome_topic, Delivery::lasting) {
     self.run = link.options().run;
     self.host = host_name();
@@ -62,13 +65,15 @@ struct SolverSession::Implementation {
     link.waitset().attach(welcome_reader.condition());
     try {
       open_channels();
-      hello_writer.write(borrow(self).sample);
+      say_hello();
       wait_for_welcome();
     } catch (const Failure& failure) {
       link.abort(failure.code(), failure.what());
       throw;
     }
   }
+
+  void say_hello() { link.send(hello_writer, hello_topic, borrow(self).sample); }
 
   void open_channels() {
     for (const wire::InterfaceInfo& info : self.interfaces) {
@@ -81,10 +86,15 @@ struct SolverSession::Implementation {
 
   void wait_for_welcome() {
     auto start = Clock::now();
-    while (!all_matched() || !complete) {
+    link.begin_wait();
+    while (!all_matched() || !complete || !coupler) {
       link.sleep();
       drain();
       check_counterparts();
+      // It waits for our first state only when everybody is here: so that word is as good as its welcome.
+      for (const wire::Waiting& word : link.others_waiting())
+        complete = complete || (word.from == coupler_name && word.to == self.name);
+      if (link.time_to_repeat()) say_hello();
       if (coupler && !complete &&
           link.time_to_check()) {  // it says who is missing: others may initialise for long
         coupler->check(welcome_reader.matched(), welcome_reader.alive(), link.options().peer_timeout_s);
@@ -138,6 +148,10 @@ struct SolverSession::Implementation {
       ++link.counters().stale;
       return;
     }
+    if (channel.fresh) {  // sent again before it was taken
+      ++link.counters().stale;
+      return;
+    }
     copy(sample, channel.incoming);
     check_lengths(channel.incoming, channel.size);
     channel.fresh = true;
@@ -167,32 +181,97 @@ struct SolverSession::Implementation {
     sample.from = borrow(self.name);
     expect(channel, predicted.step);
     sent_at = Clock::now();
-    channel.writer.write(sample);
+    coupler->spoke();  // it cannot be expected to have said more than it has
+    link.send(channel.writer, channel.predicted_topic, sample);
     ++link.counters().messages;
     link.counters().bytes += payload(predicted);
+    channel.sent = predicted;  // after it was sent: nobody waits for the copy
+    channel.sent.run = self.run;
+    channel.sent.from = self.name;
+    channel.unanswered = true;
+    channel.not_arrived.forget();
+    channel.overtaken.forget();
   }
 
   const wire::ProjectedInterface& receive(const std::string& interface, std::uint64_t step) {
     Channel& channel = channel_of(interface);
     expect(channel, step);
     drain();
+    link.begin_wait();
     while (!channel.fresh) {
       link.sleep();
       drain();
-      if (!channel.fresh && link.time_to_check()) {
-        coupler->check(welcome_reader.matched(), welcome_reader.alive(), link.options().peer_timeout_s);
-        coupler->check_endless(link.options().step_timeout_s);
-      }
+      if (!channel.fresh && link.time_to_check()) watch(channel, step);
     }
     if (channel.incoming.step != step) {
       throw PeerLost(fmt::format("the coupler answered step {} of interface '{}' while {} waited for step {}",
                                  channel.incoming.step, interface, self.name, step));
     }
-    channel.fresh = false;
+    channel.fresh = channel.unanswered = false;
     channel.awaited = step + 1;
     if (sent_at) link.round_trips().add(since(*sent_at));
     sent_at.reset();
     return channel.incoming;
+  }
+
+  /// Looks around while the answer to `step` is missing: does the coupler live, and does it hear us?
+  void watch(const Channel& missing, std::uint64_t step) {
+    const double timeout = link.options().peer_timeout_s;
+    try {
+      coupler->check(welcome_reader.matched(), welcome_reader.alive(), timeout);
+      coupler->check_endless(link.options().step_timeout_s);
+    } catch (const PeerLost& lost) {
+      throw PeerLost(fmt::format("{}; {} waited for its ProjectedInterface of step {} (topic '{}')",
+                                 lost.what(), self.name, step, missing.projected_topic));
+    }
+    for (const wire::Waiting& word : link.others_waiting()) hear(word);
+    if (link.time_to_repeat()) repeat();
+    for (const Channel& channel : channels) judge(channel);
+    if (coupler->rested(timeout))
+      end_by(answer_to(missing, step), link.waited_s(), "the coupler waits too, and nothing it says arrives");
+  }
+
+  void hear(const wire::Waiting& word) {
+    if (word.from != coupler_name) return;
+    coupler->spoke();
+    if (word.to != self.name) return;
+    for (Channel& channel : channels) {
+      if (word.topic != channel.predicted_topic || !channel.unanswered) continue;
+      if (word.step == channel.sent.step) channel.not_arrived.add(link.repetition_s());
+      if (word.step > channel.sent.step) channel.overtaken.add(link.repetition_s());
+    }
+  }
+
+  /// What was sent and not answered, once more; and whose answer is missing.
+  void repeat() {
+    for (Channel& channel : channels) {
+      if (!channel.unanswered || channel.fresh) continue;
+      link.send(channel.writer, channel.predicted_topic, borrow(channel.sent));
+      link.say_waiting(coupler_name, channel.projected_topic, channel.sent.step);
+      ++link.counters().repeated;
+    }
+  }
+
+  void judge(const Channel& channel) const {
+    const double timeout = link.options().peer_timeout_s;
+    if (channel.not_arrived.convincing(timeout)) {
+      end_by({.kind = "PredictedInterface",
+              .from = self.name,
+              .to = coupler_name,
+              .topic = channel.predicted_topic,
+              .step = channel.sent.step},
+             link.waited_s(), "the coupler still asks for it");
+    }
+    if (channel.overtaken.convincing(timeout))
+      end_by(answer_to(channel, channel.sent.step), link.waited_s(), "the coupler is ahead by a step");
+  }
+
+  LostMessage answer_to(const Channel& channel, std::uint64_t step) const {
+    return {.kind = "ProjectedInterface",
+            .from = coupler_name,
+            .to = self.name,
+            .topic = channel.projected_topic,
+            .step = step};
   }
 
   void leave() const {
@@ -205,7 +284,6 @@ struct SolverSession::Implementation {
   Link link;
   Writer<amp_fsi_Hello> hello_writer;
   Writer<amp_fsi_Control> control_writer;
-  Sealer sealer;
   Reader<amp_fsi_Welcome> welcome_reader;
   std::deque<Channel> channels;
   std::unique_ptr<Peer> coupler;  ///< null until its welcome came
@@ -230,7 +308,7 @@ const wire::ProjectedInterface& SolverSession::receive(const std::string& interf
 }
 
 void SolverSession::request(const std::string& command) {
-  const wire::Control request = implementation_->sealer.request(command);
+  const wire::Control request{.run = implementation_->self.run, .command = command};
   implementation_->control_writer.write(borrow(request));
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <utility>
 
 #include "common/case/laws.hpp"
@@ -153,8 +154,9 @@ void check_within_gas(const Outline& outline, const GridSpec& gas) {
 /// The outline's bounds, rounded outwards.
 std::array<double, 2> bounds(const Outline& outline, int direction) {
   const std::vector<double>& x = outline.curve.x;
-  const auto first = x.begin() + direction * outline.curve.points();
-  const auto [low, high] = std::minmax_element(first, first + outline.curve.points());
+  const std::ptrdiff_t points = outline.curve.points();
+  const auto first = x.begin() + direction * points;
+  const auto [low, high] = std::minmax_element(first, first + points);
   const double unit = std::pow(10, std::floor(std::log10(*high - *low)) - 2);
   constexpr double round_off = 1e-6;
   return {std::floor(*low / unit + round_off) * unit, std::ceil(*high / unit - round_off) * unit};

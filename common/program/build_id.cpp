@@ -37,8 +37,8 @@ int look_into(dl_phdr_info* object, std::size_t, void* result) {
   for (ElfW(Half) k = 0; k < object->dlpi_phnum; ++k) {
     const ElfW(Phdr)& segment = object->dlpi_phdr[k];
     if (segment.p_type != PT_NOTE) continue;
-    // NOLINTNEXTLINE(performance-no-int-to-ptr,cppcoreguidelines-pro-type-reinterpret-cast): what the loader
-    // says
+    // The loader says where things are in numbers.
+    // NOLINTNEXTLINE(performance-no-int-to-ptr,cppcoreguidelines-pro-type-reinterpret-cast)
     const auto* begin = reinterpret_cast<const std::byte*>(object->dlpi_addr + segment.p_vaddr);
     std::string hash = hash_in({begin, segment.p_memsz});
     if (!hash.empty()) *static_cast<std::string*>(result) = std::move(hash);

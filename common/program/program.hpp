@@ -23,7 +23,7 @@ struct Setup {
   std::string run;           ///< identity of the run on the bus
   std::string name;          ///< participant's name: "fluid", "coupler" or the solid's name
   std::string restart = {};  ///< folder of the checkpoint the run goes on from; empty: it begins
-  std::string key = {};      ///< of requests to the run, from the environment's AMP_FSI_KEY
+  std::string key = {};      ///< of the run, from the environment's AMP_FSI_KEY
   std::optional<std::uint64_t> pause_at = {};  ///< the run pauses after so many steps
   std::map<std::string, int> pids = {};        ///< coupler: the processes of the others, where they are known
 

@@ -9,7 +9,7 @@
 
 namespace fsi::wire {
 
-inline constexpr std::uint32_t protocol_version = 4;
+inline constexpr std::uint32_t protocol_version = 5;
 
 /// Where one program meets the gas or a solid.
 struct InterfaceInfo {
@@ -53,6 +53,14 @@ struct ModalResponse {
   std::vector<double> f_own;  ///< springs, gravity, damping, k
 };
 
+/// How free a point of a solid's interface is.
+struct Freedom {
+  static constexpr std::uint8_t free = 0;
+  static constexpr std::uint8_t fixed = 1;   ///< it keeps the velocity it shows: a displacement boundary
+  static constexpr std::uint8_t slides = 2;  ///< an end on a wall at right angles: its normal stays that of
+                                             ///< the reference body
+};
+
 /// Solver -> coupler, one per step and interface: the state predicted without interface conditions.
 struct PredictedInterface {
   std::string run;
@@ -62,17 +70,16 @@ struct PredictedInterface {
   double t = 0;            ///< time of the state
   double dt_bid =
       0;  ///< largest step the solver can take next, safety factor included [time]; inf = no limit
-  std::string dt_reason;    ///< what limits it, for people
-  std::vector<double> x;    ///< solid: x_bar + u; gas: its grid's interface, n_d * n
-  std::vector<double> v;    ///< velocity, n_d * n
-  std::vector<double> w;    ///< solid: traction eta n0^T P per current area, n_d * n
-  std::vector<double> p;    ///< gas: pressure, n
-  std::vector<double> z_f;  ///< gas: impedance rho a, n
-  std::vector<double> Z;    ///< solid: impedance matrix Z11, Z12, Z22, 3 * n
-  double z_p = 0;           ///< solid: rest impedance rho_bar c_p of the simplified projection (29)
-  std::vector<std::uint8_t>
-      fixed;       ///< solid: 1 where the point lies on a displacement boundary (keeps its velocity), n
-  double p_e = 0;  ///< gas: equilibrium pressure
+  std::string dt_reason;            ///< what limits it, for people
+  std::vector<double> x;            ///< solid: x_bar + u; gas: its grid's interface, n_d * n
+  std::vector<double> v;            ///< velocity, n_d * n
+  std::vector<double> w;            ///< solid: traction eta n0^T P per current area, n_d * n
+  std::vector<double> p;            ///< gas: pressure, n
+  std::vector<double> z_f;          ///< gas: impedance rho a, n
+  std::vector<double> Z;            ///< solid: impedance matrix Z11, Z12, Z22, 3 * n
+  double z_p = 0;                   ///< solid: rest impedance rho_bar c_p of the simplified projection (29)
+  std::vector<std::uint8_t> fixed;  ///< solid: how free the points are, n values of `Freedom`
+  double p_e = 0;                   ///< gas: equilibrium pressure
   ModalResponse modal;
   Health health;
   double compute_s = 0;  ///< since the run began
@@ -115,13 +122,19 @@ struct Abort {
   std::string reason;
 };
 
-/// An outside request: pause, resume, checkpoint or stop. common/bus/seal.hpp makes and checks it.
+/// An outside request: pause, resume, checkpoint or stop.
 struct Control {
   std::string run;
   std::string command;
-  std::string from;          ///< the sender: a name drawn at random
-  std::uint64_t number = 0;  ///< of the request among those of the sender, growing
-  std::string seal;          ///< proof that the sender knows the key of the run
+};
+
+/// What a program lacks, said once a second while it waits.
+struct Waiting {
+  std::string run;
+  std::string from;        ///< who waits
+  std::string to;          ///< whose message it lacks; empty: none, the run is paused
+  std::string topic;       ///< of that message
+  std::uint64_t step = 0;  ///< of that message
 };
 
 /// What the monitor shows; best effort, never waited for.

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "fluid_solver/time_step.hpp"
+#include "fluid_solver/kernels/time_step.hpp"
 
 namespace fsi::fluid {
 

@@ -31,7 +31,7 @@ def _run(options):
     from fsi_launch.run import Request, run
     result = run(Request(case=options.case, overrides=options.overrides, laws=options.laws, out=options.out,
                          overwrite=options.overwrite, restart=options.restart, progress=options.progress, pause_at=options.pause_at,
-                         monitor=options.monitor, frames=options.movie))
+                         monitor=options.monitor, protection=options.protection, frames=options.movie))
     if options.movie and result.code == DONE:
         from fsi_launch import plot
         plot.draw_movie(result.directory)
@@ -133,6 +133,13 @@ def _parser():
                       "or to attach a debugger, at the same place every time")
     verb.add_argument("--movie", action="store_true", help="more output times, and an animated file DIR/plots/movie.mp4 of "
                       "them (.gif without ffmpeg)")
+    protection = verb.add_mutually_exclusive_group()
+    protection.add_argument("--encrypt", dest="protection", action="store_const", const="encrypt", default="sign",
+                            help="nobody else on this machine can read what the programs say to each other; that they "
+                            "cannot falsify it is so by default")
+    protection.add_argument("--no-security", dest="protection", action="store_const", const="off",
+                            help="messages of the programs are not signed: a little faster, but whoever is on this machine "
+                            "can read and falsify them")
     verb.set_defaults(act=_run)
 
     verb = verbs.add_parser("check", description="Checks a case file and starts nothing.")
@@ -180,6 +187,8 @@ def _parser():
     verb = verbs.add_parser("plot", description="Draws the results of a run, or the table of fsi converge, as PNG "
                             "pictures into DIR/plots. Of several runs it draws what can be compared.")
     verb.add_argument("directories", metavar="DIR", nargs="+", help="folder of a run or of fsi converge")
+    verb.add_argument("--at", metavar="TIME", type=float, action="append", default=[], help="draw this output time alone; "
+                      "may be given several times")
     verb.add_argument("--contours", action="store_true", help="contour lines over the fields")
     verb.add_argument("--movie", action="store_true", help="also an animated file, one frame per output (.mp4, .gif without "
                       "ffmpeg)")

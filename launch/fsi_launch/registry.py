@@ -1,5 +1,5 @@
 """Which runs are going on here: one small file per run, for the monitor and for control from outside. It holds the key
-that requests to the run are sealed with, so nobody but its user may read it."""
+of the run: who has it takes part in the run on the bus. So nobody but its user may read it."""
 
 import json
 import os
@@ -44,12 +44,13 @@ def _make_folder(path):
 
 
 class Entry:
-    """A run's entry; exists while the context is open. `key`: what programs and monitors of the run share."""
+    """A run's entry; exists while the context is open. `key`: what programs and monitors of the run share
+    (common/bus/credentials.hpp). `protection`: "off", "sign" or "encrypt"."""
 
-    def __init__(self, run, directory, case):
+    def __init__(self, run, directory, case, protection):
         self.path = folder() / f"{run}.json"
         self.run = run
-        self.key = secrets.token_hex(KEY_BYTES)
+        self.key = "" if protection == "off" else f"{protection}:{secrets.token_hex(KEY_BYTES)}"
         self.content = {"run": run, "dir": str(directory), "case": case, "pid": os.getpid(),
                         "born": processes.start_time(os.getpid()), "key": self.key}
 

@@ -38,6 +38,7 @@ class Request:
     pause_at: int = None    # after so many steps
     quiet: bool = False
     judge: bool = True      # hold the results against the case's expectations
+    protection: str = "sign"    # of the bus: off, sign or encrypt
     frames: bool = False    # output times for a movie besides those of the case, unless the overrides say how many
 
 
@@ -222,7 +223,8 @@ def run(request):
 
     start = time.monotonic()
     with _in_memory(case.programs) as reports:
-        with interrupts.held(), registry.Entry(identity, directory.resolve(), case.name) as entry, interrupts.heard():
+        entered = registry.Entry(identity, directory.resolve(), case.name, request.protection)
+        with interrupts.held(), entered as entry, interrupts.heard():
             programs = _programs(case, directory, entry, checkpoint, reports, request.pause_at)
             outcome = _watched(case, directory, programs, identity, request, say)
         parts = summary.read_parts(directory, case.programs, _copies(reports))

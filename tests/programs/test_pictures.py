@@ -119,7 +119,7 @@ class Folders(unittest.TestCase):
     def plot(self, folder):
         """Names of the pictures."""
         with contextlib.redirect_stdout(io.StringIO()) as printed:
-            plot.main(types.SimpleNamespace(directories=[folder], out=None, contours=False, movie=False))
+            plot.main(types.SimpleNamespace(directories=[folder], out=None, contours=False, movie=False, at=[]))
         return [Path(line).stem for line in printed.getvalue().split("\n") if line]
 
     def test_tables_are_drawn_before_the_first_output_time(self):
@@ -138,6 +138,22 @@ class Folders(unittest.TestCase):
         self.write_state(self.run_ / "fields" / "solid_block_000000.h5")
         with self.assertRaisesRegex(UserMistake, "not the series"):
             self.plot(self.run_ / "fields")
+
+
+class Times(unittest.TestCase):
+    def setUp(self):
+        self.series = [data.Series(name, [data.Output(t, []) for t in (0.0, 0.5, 1.0 + 1e-13)]) for name in ("fluid", "block")]
+
+    def test_only_the_times_asked_for_are_drawn(self):
+        for one in data.at_times(self.series, [1.0, 0.0]):
+            self.assertEqual([output.t for output in one.outputs], [0.0, 1.0 + 1e-13])
+
+    def test_all_are_drawn_unless_some_are_asked_for(self):
+        self.assertEqual(data.at_times(self.series, []), self.series)
+
+    def test_a_time_without_output_is_refused_and_the_others_named(self):
+        with self.assertRaisesRegex(UserMistake, "fluid has no output at t = 0.7: it has 0, 0.5, 1"):
+            data.at_times(self.series, [0.5, 0.7])
 
 
 class SideBySide(unittest.TestCase):
@@ -215,6 +231,29 @@ class Disk(unittest.TestCase):
         normal, shear = disk._stress_on_circle(F, nominal, np.array(0.3), np.array(-0.4))
         self.assertAlmostEqual(float(normal), -7.0, places=12)
         self.assertAlmostEqual(float(shear), 0.0, places=12)
+
+    def test_the_stress_along_the_axis_is_the_normal_one_of_the_circle(self):
+        """On y = 0 the radius is the x axis: sigma_11 there is the traction's normal part that the other picture shows."""
+        grid = ring()
+        grid.fields |= {key: values + 0 * grid.x1 for key, values in (("P11", 2.0), ("P12", 0.5), ("P21", 0.25), ("P22", -1.0))}
+        grid.fields |= {key: 0 * grid.x1 for key in ("v1", "v2")}
+        grid = data.Grid(grid.name, grid.x1 + grid.fields["u1"], grid.x2 + grid.fields["u2"], grid.kind, grid.fields, grid.closed)
+        x = np.array([-0.95, 0.95])
+        found = disk._on_axis([grid], x, lambda one: {"normal": disk._sigma_11(one)})["normal"]
+        F = disk._deformation_gradient(grid)
+        normal, _ = disk._stress_on_circle(F, disk._nominal(grid.fields), np.ones_like(grid.x1), np.zeros_like(grid.x1))
+        self.assertLess(np.abs(found - normal[4, 0]).max(), 1e-11)
+
+    def test_the_axis_is_free_where_no_grid_is(self):
+        found = disk._on_axis([ring()], np.array([0.0, 0.6, -0.6, 2.0]), lambda one: {"x": one.x1})["x"]
+        self.assertTrue(np.isnan(found[[0, 3]]).all())
+        self.assertLess(np.abs(found[1:3] - [0.6, -0.6]).max(), 1e-12)
+
+    def test_the_reference_goes_on_on_the_other_side_of_the_centre(self):
+        r = np.linspace(0, 1, 5)
+        points = disk.Points(r, r, {"v_r": r, "normal": r ** 2})
+        x, v = disk._even(points, "v_r")
+        self.assertTrue(np.allclose(v, x) and np.allclose(disk._even(points, "normal")[1], x ** 2))
 
 
 if __name__ == "__main__":

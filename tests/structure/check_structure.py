@@ -3,6 +3,7 @@
 
 equations  every required equation of the paper has tagged code and a tagged test
 includes   who may include what: the arrows between the folders point one way
+kernels    the loops over points know common/core and each other; they neither throw nor write
 headers    a file includes, itself or through headers of this tree, what declares the names it uses
 lengths    no source file is longer than 400 lines
 words      no notes of unfinished work in the sources
@@ -15,9 +16,9 @@ import re
 import sys
 from pathlib import Path
 
-# Equations of the paper that this program implements. (6) is (4) in another form, (14)-(15) and (17)-(18) are steps of
-# the derivation of (16) and (19), (30) restates (29).
-REQUIRED_EQUATIONS = [*range(1, 6), *range(7, 14), 16, *range(19, 30), *range(31, 51)]
+# Equations of the paper that this program or a case of it implements. (6) is (4) in another form, (14)-(15) and (17)-(18)
+# are steps of the derivation of (16) and (19).
+REQUIRED_EQUATIONS = [*range(1, 6), *range(7, 14), 16, *range(19, 53)]
 CODE_FOLDERS = ("common", "fluid_solver", "solid_solver", "coupler", "reference")
 PROGRAM_FOLDERS = ("fluid_solver", "solid_solver", "coupler", "monitor")
 CXX = (".cpp", ".hpp", ".h")
@@ -57,9 +58,9 @@ TEST_TAG = re.compile(r"Eq(\d+)")
 
 
 def tagged_code(root):
-    """{equation: places} in the code of the programs."""
+    """{equation: places} in the code of the programs and in the cases."""
     places = {}
-    for path in files(root, CXX, CODE_FOLDERS):
+    for path in [*files(root, CXX, CODE_FOLDERS), *files(root, (".yaml",), ("configs",))]:
         for number, line in lines_of(root, path):
             for tag in CODE_TAG.findall(line):
                 places.setdefault(int(tag), []).append(f"{path}:{number}")
@@ -101,11 +102,13 @@ def top(target):
     return target.split("/")[0]
 
 
-def is_kernel(path):
-    return "kernel" in path.stem
+# What a program must not know, although it is none of the other programs.
+UNKNOWN = {"coupler": ("common/grid/", "common/exact/"),
+           "monitor": ("common/grid/", "common/exact/", "common/interface/")}
+OUTSIDE_GRIDS = ("common/bus/", "common/wire/", "common/case/", "common/io/", "common/program/", "common/interface/", "dds/")
 
 
-def forbidden(path, quoted, target, generated):
+def forbidden(path, target, generated):
     """The reason why `path` must not include `target`, or None."""
     folder, where = path.parts[0], path.as_posix()
     if folder in PROGRAM_FOLDERS and top(target) in PROGRAM_FOLDERS and top(target) != folder:
@@ -113,11 +116,10 @@ def forbidden(path, quoted, target, generated):
     if folder in ("common", "reference", "examples") and top(target) in PROGRAM_FOLDERS:
         if not (target.startswith("solid_solver/laws/") and where.startswith(("reference/", "common/exact/"))):
             return f"{folder} must not know the program {top(target)}"
-    if where.startswith("common/grid/") and (target.startswith(("common/bus/", "dds/")) or target in generated):
-        return "grids know no bus"
-    if is_kernel(path) and quoted and "/" in target:
-        if not target.startswith("common/core/") and Path(target).parent != path.parent:
-            return "kernels include common/core and their own folder only"
+    if target.startswith(UNKNOWN.get(folder, ())):
+        return f"{folder} must not know {Path(target).parent}"
+    if where.startswith("common/grid/") and (target.startswith(OUTSIDE_GRIDS) or target in generated):
+        return "grids know no bus, no case and no file"
     if not where.startswith("common/bus/") and (Path(target).name in generated or target.startswith(("dds/", "ddsc/"))):
         return "only common/bus knows DDS and the types generated from idl/"
     if not where.startswith("common/io/") and re.match(r"(hdf5|H5)\w*\.h|highfive/", target):
@@ -131,9 +133,47 @@ def check_includes(root):
     generated = {path.stem + ".h" for path in files(root, (".idl",), ("idl",))}
     folders = (*PROGRAM_FOLDERS, "common", "reference", "examples")
     for path in files(root, CXX, folders):
-        for number, quoted, target in includes_of(root, path):
-            if reason := forbidden(path, quoted, target, generated):
+        for number, _, target in includes_of(root, path):
+            if reason := forbidden(path, target, generated):
                 yield f"{path}:{number}: includes {target}: {reason}"
+
+
+# --- kernels -------------------------------------------------------------------------------------------------------
+
+KERNEL_FOLDERS = ("fluid_solver/kernels", "solid_solver/laws")
+# Kernels of the solid that have no folder yet, and what they know besides: the runs of points they pass over, and the
+# limiter's name.
+SOLID_KERNELS = tuple(f"solid_solver/{name}.hpp" for name in (
+    "dissipation", "godunov_sweep", "sweep_rows", "metrics_rows", "reference_metrics", "riemann", "impedance", "state"))
+BESIDE_SOLID_KERNELS = ("solid_solver/solid_points.hpp", "solid_solver/options.hpp")
+# Of common/core, what logs, reads a case or throws.
+NOT_FOR_KERNELS = tuple(f"common/core/{name}.hpp" for name in ("log", "config", "failure", "expression", "suggest", "archive"))
+EFFECTS = re.compile(r"\bthrow\b|\bspdlog::|\bstd::c(?:out|err)\b|\bf?printf\s*\(|\bfmt::print\b")
+
+
+def is_kernel(where):
+    return where in SOLID_KERNELS or Path(where).parent.as_posix() in KERNEL_FOLDERS
+
+
+def known_to_kernels(where, target):
+    if target.startswith("common/core/"):
+        return target not in NOT_FOR_KERNELS
+    same_program = top(target) == top(where)
+    return same_program and (is_kernel(target) or (where in SOLID_KERNELS and target in BESIDE_SOLID_KERNELS))
+
+
+def check_kernels(root):
+    kernels = [path for path in files(root, CXX, PROGRAM_FOLDERS) if is_kernel(path.as_posix())]
+    found = {path.as_posix() for path in kernels} | {path.parent.as_posix() for path in kernels}
+    for missing in sorted({*SOLID_KERNELS, *KERNEL_FOLDERS} - found):
+        yield f"{missing}: the rule for kernels speaks of it, and it is not there"
+    for path in kernels:
+        for number, quoted, target in includes_of(root, path):
+            if quoted and not known_to_kernels(path.as_posix(), target):
+                yield f"{path}:{number}: includes {target}: kernels know common/core and each other only"
+        for number, line in lines_of(root, path):
+            if EFFECTS.search(line.split("//")[0]):
+                yield f"{path}:{number}: kernels neither throw nor write: what is wrong is in their result"
 
 
 # --- headers -------------------------------------------------------------------------------------------------------
@@ -213,8 +253,8 @@ def check_words(root):
                 yield f"{path}:{number}: '{match.group(1)}' marks unfinished work"
 
 
-RULES = {"equations": check_equations, "includes": check_includes, "headers": check_headers, "lengths": check_lengths,
-         "words": check_words}
+RULES = {"equations": check_equations, "includes": check_includes, "kernels": check_kernels, "headers": check_headers,
+         "lengths": check_lengths, "words": check_words}
 
 
 def main(arguments):

@@ -17,7 +17,7 @@ def _folder(name):
     return directory
 
 
-def _one(directory, out, contours):
+def _one(directory, out, options):
     """(name, figure) of everything the results of one run hold."""
     from fsi_launch.plot import beams, convergence, curves, data, disk, fields, grids, scales, schlieren, streamlines
     series, tables, table = data.all_series(directory), data.all_tables(directory), data.convergence(directory)
@@ -26,7 +26,8 @@ def _one(directory, out, contours):
         raise UserMistake(f"'{directory}' holds no results: no fluid.h5, solid_*.h5, tables or converge.json")
     out.mkdir(parents=True, exist_ok=True)
     size = scales.of_run(series or last)
-    look = fields.Look(size, contours)
+    look = fields.Look(size, options.contours)
+    series = data.at_times(series, options.at)
     return itertools.chain(
         convergence.pictures(table), fields.pictures(series, look), fields.last_picture(last, look), grids.pictures(series),
         disk.pictures(series, data.disk_reference(directory)), schlieren.pictures(series, size),
@@ -34,10 +35,10 @@ def _one(directory, out, contours):
         curves.pictures(series, tables, size, data.piston_reference(directory)))
 
 
-def _several(directories, out):
+def _several(directories, out, options):
     """(name, figure) of what several runs have to compare."""
     from fsi_launch.plot import compare
-    return compare.pictures(directories, out)
+    return compare.pictures(directories, out, options.at)
 
 
 def _style():
@@ -64,7 +65,7 @@ def main(options):
     directories = [_folder(name) for name in options.directories]
     out = Path(options.out) if options.out else directories[0] / "plots"
     style.use()
-    pictures = _one(directories[0], out, options.contours) if len(directories) == 1 else _several(directories, out)
+    pictures = _one(directories[0], out, options) if len(directories) == 1 else _several(directories, out, options)
     for name, figure in pictures:
         path = out / f"{name}.png"
         style.save(figure, path)

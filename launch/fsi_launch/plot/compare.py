@@ -21,10 +21,10 @@ def _beams(series, cases, out):
             print(f"{label}: j = {coarse:g} against {fine:g}, t = {t:g}: {distance:.2e}")
 
 
-def pictures(directories, out):
-    """(name, figure) for each kind of thing at least one of the runs holds."""
+def pictures(directories, out, times=()):
+    """(name, figure) for each kind of thing at least one of the runs holds, at `times` alone where some are given."""
     out.mkdir(parents=True, exist_ok=True)
-    series, cases = [data.all_series(one) for one in directories], [_case_of(one) for one in directories]
+    series, cases = [data.at_times(data.all_series(one), times) for one in directories], [_case_of(one) for one in directories]
     told = several.labels(cases, [one.name for one in directories])
     same = len({several.entries(case).get("name") for case in cases}) == 1
     parts = [*_beams(series, cases, out), *outlines.pictures(series, told, out),

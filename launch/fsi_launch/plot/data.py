@@ -2,7 +2,7 @@
 
 import csv
 import json
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import h5py
 import numpy as np
@@ -11,6 +11,7 @@ from fsi_launch.failure import UserMistake
 
 NOT_FIELDS = ("x", "x1", "x2", "kind")  # "x" holds x1 and x2 side by side, for ParaView
 UNUSED, DISCRETISED, INTERPOLATED = 0, 1, 2
+SAME_TIME = 1e-9    # part of the time (or time, below 1) by which an output may differ from the one asked for
 
 
 @dataclass
@@ -121,6 +122,21 @@ def _files(directory):
 def all_series(directory):
     """The gas first, then the solids by name."""
     return [one for one in (_read_series(path, name) for path, name in _files(directory)) if one.outputs]
+
+
+def _at(one, times):
+    """The outputs of a program at these times, in their order; one that is not there is the user's mistake."""
+    chosen = [output for output in one.outputs if any(abs(output.t - t) <= SAME_TIME * max(1, abs(t)) for t in times)]
+    for t in times:
+        if not any(abs(output.t - t) <= SAME_TIME * max(1, abs(t)) for output in chosen):
+            there = ", ".join(f"{output.t:g}" for output in one.outputs)
+            raise UserMistake(f"{one.name} has no output at t = {t:g}: it has {there}; name these, or add the time to output.times")
+    return replace(one, outputs=chosen)
+
+
+def at_times(series, times):
+    """The series with their outputs at `times` alone; all of them where no time is given."""
+    return [_at(one, times) for one in series] if times else series
 
 
 def last_state(directory):

@@ -1,4 +1,5 @@
-"""The rotating disk over its radius, its one-dimensional reference and the difference (the paper's figure 11)."""
+"""The rotating disk beside its one-dimensional reference: all points over their radius with the difference, and the horizontal
+velocity and stress along y = 0 (the paper's figure 11)."""
 
 from dataclasses import dataclass
 
@@ -6,11 +7,12 @@ import numpy as np
 from matplotlib import pyplot
 from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
+from matplotlib.tri import LinearTriInterpolator
 
-from fsi_launch.plot import style
+from fsi_launch.plot import mesh, style
 
 SAME_TIME = 1e-9
-
+AXIS_POINTS = 1601  # along y = 0
 
 # Components along and across the current radius: (key, title)
 PANELS = (("v_r", "radial velocity $v_r$"), ("v_theta", "tangential velocity $v_\\theta$"),
@@ -145,6 +147,56 @@ def _picture(gas, solid, t):
     return figure
 
 
+# --- along y = 0
+
+
+def _on_axis(grids, x, values_of):
+    """{key: values at (x, 0)} of a program; grids that come last win, NaN outside. `values_of`: {key: field} of a grid."""
+    found = {}
+    for grid in grids:
+        cells = mesh.triangles(grid)
+        for key, field in values_of(grid).items() if cells else ():
+            part = LinearTriInterpolator(cells, np.where(np.isfinite(field), field, 0).ravel())(x, np.zeros_like(x)).filled(np.nan)
+            before = found.get(key, np.full_like(x, np.nan))
+            found[key] = np.where(np.isnan(part), before, part)
+    return found
+
+
+def _sigma_11(grid):
+    """Cauchy stress F P / det F of a solid, component 11; NaN beside unused points."""
+    F, P = _deformation_gradient(grid), _nominal(grid.fields)
+    return (F[0, 0] * P[0, 0] + F[0, 1] * P[1, 0]) / (F[0, 0] * F[1, 1] - F[0, 1] * F[1, 0])
+
+
+def _even(points, key):
+    """The reference on both sides of the centre: a radial velocity changes its sign there as a horizontal one."""
+    sign = -1 if key == "v_r" else 1
+    return np.concatenate([-points.r[::-1], points.r]), np.concatenate([sign * points.values[key][::-1], points.values[key]])
+
+
+def _axis_picture(gas, solid, reference, t, p_e):
+    """`gas`, `solid`: grids; `reference`: Points of gas and solid."""
+    reach = max(np.abs(grid.x1).max() for grid in gas)
+    x = np.linspace(-reach, reach, AXIS_POINTS)
+    parts = ((_on_axis(solid, x, lambda grid: {"v_r": grid.fields["v1"], "normal": _sigma_11(grid)}), reference[1], style.SOLID_LINE),
+             (_on_axis(gas, x, lambda grid: {"v_r": grid.fields["v1"], "normal": p_e - grid.fields["p"]}), reference[0],
+              style.GAS_LINE))
+    titles = {"v_r": "horizontal velocity: $\\bar v_1$ of the solid, $v_1$ of the gas",
+              "normal": "$\\bar\\sigma_{11}$ of the solid, $p_e - p$ of the gas"}
+    figure, axes = pyplot.subplots(1, 2, figsize=(10.4, 3.9))
+    for panel, (key, title) in zip(axes, titles.items()):
+        for values, exact, colour in parts:
+            panel.plot(x, values[key], color=colour, linewidth=1.4)
+            panel.plot(*_even(exact, key), color="black", linewidth=0.8, linestyle=(0, (4, 4)))
+        panel.set_title(title, loc="left")
+        panel.set_xlabel("$x_1$")
+        panel.set_xlim(-reach, reach)
+    axes[0].legend(handles=[Line2D([], [], color=style.SOLID_LINE, label="solid"), Line2D([], [], color=style.GAS_LINE, label="gas"),
+                            Line2D([], [], color="black", linewidth=0.8, linestyle=(0, (4, 4)), label="reference")])
+    figure.suptitle(f"along $x_2$ = 0, t = {t:.4g}", x=0.01, ha="left", fontsize=10)
+    return figure
+
+
 def pictures(series, reference):
     """(name, figure) of each output time that the reference holds, but the start, where all is known."""
     gas = next((one for one in series if one.is_gas()), None)
@@ -156,6 +208,7 @@ def pictures(series, reference):
         table = next((table for t, table in reference.items() if abs(t - of_gas.t) < SAME_TIME), None)
         if table is None or of_gas.t == 0:
             continue
-        yield f"radius_{index:04}", _picture(
-            (_joined([_gas_points(grid, p_e) for grid in of_gas.grids]), _gas_reference(table["gas"], p_e)),
-            (_joined([_solid_points(grid) for grid in of_solid.grids]), _solid_reference(table["solid"])), of_gas.t)
+        exact = _gas_reference(table["gas"], p_e), _solid_reference(table["solid"])
+        yield f"radius_{index:04}", _picture((_joined([_gas_points(grid, p_e) for grid in of_gas.grids]), exact[0]),
+                                             (_joined([_solid_points(grid) for grid in of_solid.grids]), exact[1]), of_gas.t)
+        yield f"axis_{index:04}", _axis_picture(of_gas.grids, of_solid.grids, exact, of_gas.t, p_e)

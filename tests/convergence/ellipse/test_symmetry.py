@@ -43,7 +43,7 @@ class Symmetry(unittest.TestCase):
                 self.assertAlmostEqual(a, b, delta=ROUND_OFF)
 
     def test_mirrored_at_the_x_axis(self):
-        self.check([(x, -y, u, -v, -angle) for x, y, u, v, angle in motion("parameters.angle=-45")])
+        self.check([(x, -y, u, -v, -angle) for x, y, u, v, angle in motion("parameters.angle=45")])
 
     def test_turned_by_ninety_degrees(self):
         self.check([(y, -x, v, -u, angle) for x, y, u, v, angle in motion(*TURNED)])

@@ -12,8 +12,7 @@
 #include <thread>
 
 #include "common/bus/solo_session.hpp"
-#include "tests/programs/bus/processes.hpp"
-#include "tests/unit/bus/seats.hpp"
+#include "tests/programs/bus/trio.hpp"
 
 namespace fsi::bus::test {
 namespace {
@@ -62,7 +61,7 @@ class Monitor : public testing::Test {
 
 /// A gas that runs alone until it is told to stop.
 void run_alone(const std::string& run, const Process::Say& say) {
-  SoloSession session(options(run), "fluid", "fluid");
+  SoloSession session(protected_options(run), "fluid", "fluid");
   say("begun");
   wire::Telemetry telemetry;
   telemetry.t_end = 1;

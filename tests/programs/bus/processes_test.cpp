@@ -1,8 +1,6 @@
 /// Three processes at the bus: they exchange, and when one is killed, stopped or watched the others know what
 /// to do.
 
-#include "tests/programs/bus/processes.hpp"
-
 #include <netinet/in.h>
 #include <sys/socket.h>
 
@@ -11,85 +9,15 @@
 #include <random>
 
 #include "common/bus/listener.hpp"
-#include "tests/unit/bus/seats.hpp"
+#include "tests/programs/bus/trio.hpp"
 
 namespace fsi::bus::test {
 namespace {
 
-constexpr std::uint64_t endless = ~std::uint64_t{0};
-
-/// A solver that answers at once, until it is told to stop. Says "begun" after its first step.
-void solve(const BusOptions& options, const wire::Hello& self, std::uint64_t steps, std::size_t points,
-           const Process::Say& say) {
-  SolverSession session(options, self);
-  wire::PredictedInterface state = predicted(0, points);
-  for (std::uint64_t step = 0; step < steps; ++step) {
-    state.step = step;
-    state.v.front() = state.v.back() = static_cast<double>(step);
-    session.publish(state);
-    const auto& answer = session.receive("beam", step);
-    EXPECT_EQ(answer.v_n.size(), points);
-    EXPECT_EQ(answer.v_n.back(), -static_cast<double>(step));
-    if (step == 0) say("begun");
-    if (session.telemetry_due()) session.publish(wire::Telemetry{});
-    if (answer.stop) break;
-  }
-}
-
-void couple(const BusOptions& options, const Shared& shared, std::uint64_t steps, std::size_t points,
-            const Process::Say& say) {
-  CouplerSession session(options, gas_and_solid(), "one case");
-  std::vector<wire::ProjectedInterface> answers = {projected("fluid", 0, points),
-                                                   projected("beam", 0, points)};
-  try {
-    bool end = false;
-    for (std::uint64_t step = 0; step < steps && !end; ++step) {
-      for (const wire::PredictedInterface& state : session.gather(step)) {
-        EXPECT_EQ(state.v.size(), 2 * points);
-        EXPECT_EQ(state.v.back(), static_cast<double>(step));
-      }
-      end = shared.end();
-      for (wire::ProjectedInterface& answer : answers) {
-        answer.step = step;
-        answer.stop = end;
-        answer.v_n.back() = -static_cast<double>(step);
-      }
-      session.scatter(answers);
-      shared.step() = step + 1;
-      if (step == 0) say("begun");
-    }
-  } catch (const Failure& failure) {
-    session.abort(failure.code(), failure.what());
-    throw;
-  }
-}
-
-/// Gas, solid and coupler of one run, each a process.
-struct Trio {
-  explicit Trio(const BusOptions& options, std::uint64_t steps = endless, std::size_t points = 3)
-      : fluid([=](const auto& say) { solve(options, gas(points), steps, points, say); }),
-        beam([=](const auto& say) { solve(options, solid(points), steps, points, say); }),
-        coupler([=, this](const auto& say) { couple(options, shared, steps, points, say); }) {}
-
-  void wait_until_begun() {
-    for (Process* process : {&fluid, &beam, &coupler}) ASSERT_EQ(process->hear(), "begun");
-  }
-
-  /// Goes on for so many steps, then ends well.
-  void end_after(std::uint64_t steps) {
-    EXPECT_TRUE(shared.go_on_for(steps));
-    shared.end() = true;
-    for (Process* process : {&fluid, &beam, &coupler}) EXPECT_EQ(process->end(), 0) << process->hear();
-  }
-
-  Shared shared;
-  Process fluid, beam, coupler;
-};
-
 class Exchanging : public testing::TestWithParam<std::size_t> {};
 
 TEST_P(Exchanging, ThousandStepsArriveCompleteAndInOrder) {
-  Trio run(options(own_run()), 1000, GetParam());
+  Trio run(protected_options(own_run()), 1000, GetParam());
   for (Process* process : {&run.fluid, &run.beam, &run.coupler})
     EXPECT_EQ(process->end(), 0) << process->hear();
 }
@@ -100,7 +28,7 @@ class Killing : public testing::TestWithParam<const char*> {};
 
 /// They see its death, and do not wait until it has been silent for too long.
 TEST_P(Killing, NamesTheVictimAndEndsTheOthersWithCode4) {
-  Trio run(options(own_run()));
+  Trio run(protected_options(own_run()));
   run.wait_until_begun();
   const std::string victim_name = GetParam();
   Process& victim = victim_name == "fluid" ? run.fluid : victim_name == "beam" ? run.beam : run.coupler;
@@ -117,7 +45,7 @@ TEST_P(Killing, NamesTheVictimAndEndsTheOthersWithCode4) {
 INSTANTIATE_TEST_SUITE_P(Programs, Killing, testing::Values("fluid", "beam", "coupler"));
 
 TEST(Stopping, ShortStopOnlyDelaysTheRun) {
-  BusOptions impatient = options(own_run());
+  BusOptions impatient = protected_options(own_run());
   impatient.step_timeout_s = 0.5;  // who is stopped computes nothing
   impatient.peer_timeout_s = fsi::test::watchdog_s;
   Trio run(impatient);
@@ -129,7 +57,7 @@ TEST(Stopping, ShortStopOnlyDelaysTheRun) {
 }
 
 TEST(Stopping, LongStopIsASilentPeer) {
-  BusOptions impatient = options(own_run());
+  BusOptions impatient = protected_options(own_run());
   impatient.peer_timeout_s = 1;
   Trio run(impatient);
   run.wait_until_begun();
@@ -143,7 +71,7 @@ TEST(Stopping, LongStopIsASilentPeer) {
 
 /// Its other threads live on and renew the lease: only what its first thread does tells.
 TEST(Hanging, SolverThatSleepsWithoutEndIsNamed) {
-  BusOptions impatient = options(own_run());
+  BusOptions impatient = protected_options(own_run());
   impatient.peer_timeout_s = 1;
   Process fluid([=](const auto& say) { solve(impatient, gas(), endless, 3, say); });
   Process beam([=](const auto&) {
@@ -165,7 +93,7 @@ TEST(Hanging, SolverThatSleepsWithoutEndIsNamed) {
 
 /// It neither sleeps nor ends its step, and its other threads renew the lease.
 TEST(Hanging, SolverThatComputesWithoutEndIsNamed) {
-  BusOptions impatient = options(own_run());
+  BusOptions impatient = protected_options(own_run());
   impatient.step_timeout_s = 0.5;
   Process fluid([=](const auto& say) { solve(impatient, gas(), endless, 3, say); });
   Process beam([=](const auto&) {
@@ -185,7 +113,7 @@ TEST(Hanging, SolverThatComputesWithoutEndIsNamed) {
 }
 
 TEST(Hanging, CouplerThatComputesWithoutEndIsNamed) {
-  BusOptions impatient = options(own_run());
+  BusOptions impatient = protected_options(own_run());
   impatient.step_timeout_s = 0.5;
   Process fluid([=](const auto& say) { solve(impatient, gas(), endless, 3, say); });
   Process coupler([=](const auto&) {
@@ -199,7 +127,7 @@ TEST(Hanging, CouplerThatComputesWithoutEndIsNamed) {
 }
 
 TEST(Hanging, StepMayTakeTwentyTimesAsLongAsTheLongestBefore) {
-  BusOptions impatient = options(own_run());
+  BusOptions impatient = protected_options(own_run());
   impatient.step_timeout_s = 0.4;
   Process fluid([=](const auto&) {
     SolverSession session(impatient, gas());
@@ -225,13 +153,13 @@ TEST(Hanging, StepMayTakeTwentyTimesAsLongAsTheLongestBefore) {
 TEST(Watching, FrozenMonitorDoesNotHoldUpTheRun) {
   const std::string run_id = own_run();
   Process monitor([=](const auto& say) {
-    Listener listener(run_id);
+    Listener listener(run_id, test_key);
     while (listener.wait(1).empty()) {
     }
     say("listening");
     while (true) listener.wait(1);
   });
-  Trio run(options(run_id), endless, 1000);
+  Trio run(protected_options(run_id), endless, 1000);
   ASSERT_EQ(monitor.hear(), "listening");
   monitor.send(SIGSTOP);
   run.end_after(2000);
@@ -242,7 +170,7 @@ TEST(SideBySide, RunsInOneDomainDoNotSeeEachOther) {
   std::string other;
   for (int k = 0; domain_of(other) != domain_of(one) || other.empty(); ++k)
     other = fmt::format("{}/{}", one, k);
-  Trio first(options(one), 500), second(options(other), 500);
+  Trio first(protected_options(one), 500), second(protected_options(other), 500);
   Process lonely(
       [=](const auto&) { EXPECT_THROW(send_control(one + ".", test_key, "stop", 0.3), PeerLost); });
   for (Process* process :
@@ -253,11 +181,12 @@ TEST(SideBySide, RunsInOneDomainDoNotSeeEachOther) {
 }
 
 TEST(Interrupting, WaitEndsWithTheSignalsOwnCodeAndTheOthersLearnIt) {
-  BusOptions interrupted = options(own_run());
+  BusOptions interrupted = protected_options(own_run());
   interrupted.throw_if_interrupted = [watch = fsi::test::Stopwatch()] {
     if (watch.seconds() > 1) throw Failure(ExitCode::terminated, "ended on request (SIGTERM)");
   };
-  Process fluid([=](const auto&) { SolverSession(options(interrupted.run), gas()).receive("beam", 0); });
+  Process fluid(
+      [=](const auto&) { SolverSession(protected_options(interrupted.run), gas()).receive("beam", 0); });
   Process coupler([=](const auto&) {
     CouplerSession session(interrupted, {{.role = "fluid", .name = "fluid"}}, "one case");
     try {
@@ -299,7 +228,7 @@ TEST(Damaged, PacketsFromStrangersNeitherEndNorFalsifyTheRun) {
   const std::string run_id = own_run();
   Process stranger([=](const auto& say) { send_damaged_packets(domain_of(run_id), say); });
   ASSERT_EQ(stranger.hear(), "sending");
-  Trio run(options(run_id), 2000, 1000);
+  Trio run(protected_options(run_id), 2000, 1000);
   for (Process* process : {&run.fluid, &run.beam, &run.coupler})
     EXPECT_EQ(process->end(), 0) << process->hear();
 }

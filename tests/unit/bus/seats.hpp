@@ -20,11 +20,12 @@ inline std::string own_run() {
   return fmt::format("{}.{}.{}", info->test_suite_name(), info->name(), getpid());
 }
 
-/// Of every run in the tests.
-inline constexpr const char* test_key = "a key";
+/// Of a run in the tests that is protected, as runs are by default. Within one process there is nothing to
+/// protect.
+inline constexpr const char* test_key = "sign:0123456789abcdef0123456789abcdef";
 
 inline BusOptions options(const std::string& run) {
-  return {.run = run, .key = test_key, .peer_timeout_s = 4, .hello_timeout_s = 20, .step_timeout_s = 60};
+  return {.run = run, .peer_timeout_s = 4, .hello_timeout_s = 20, .step_timeout_s = 60};
 }
 
 /// A solver at the interface "beam" of `points` points in two dimensions.

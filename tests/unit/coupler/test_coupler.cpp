@@ -95,6 +95,24 @@ TEST(Coupler, PointsOnAClampedBoundaryKeepTheirVelocityAndBearTheLoadOfAWall) {
   EXPECT_GT(answers[0].v_n[1], 0.0);
 }
 
+TEST(Coupler, EndsThatSlideAlongAWallStayOnIt) {
+  Coupler coupler(until(1), piston_hellos(n));
+  for (std::uint64_t k = 0; k < 3; ++k) {
+    auto gas = gas_state(n, k);
+    auto solid = solid_state(n, k);
+    gas.v = everywhere(n, -0.3, 0);
+    gas.x[0] += 0.02;  // the interface is not straight
+    solid.fixed = {wire::Freedom::slides, 0, 0, wire::Freedom::slides};
+    const auto answers = coupler.step(std::vector{gas, solid});
+    for (const std::size_t end : {std::size_t{0}, n - 1}) {
+      EXPECT_EQ(answers[0].x_next[n + end], solid.x[n + end]);
+      EXPECT_EQ(answers[0].v[n + end], 0.0);
+      EXPECT_LT(answers[0].v_n[end], 0.0);
+    }
+    EXPECT_NE(answers[0].x_next[n + 1], solid.x[n + 1]);  // other points follow their normal
+  }
+}
+
 TEST(Coupler, WhatTheTwoSidesDifferByIsGoneWithTheNextCommand) {
   Coupler coupler(until(1), piston_hellos(n));
   auto gas = gas_state(n, 0);

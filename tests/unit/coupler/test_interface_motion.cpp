@@ -95,6 +95,20 @@ TEST(UnitNormals, AreExactOnAStraightLineWithAnySpacing) {
   EXPECT_LE(largest_difference(n, n0), 1e-15);
 }
 
+// A ripple of one part in a thousand would tilt a one-sided difference there by as much as eight.
+TEST(UnitNormals, OfEndsThatSlideAlongWallsStayThoseOfTheReferenceBody) {
+  std::vector<double> x = points_of(
+                          9, [](double) { return 0.0; }, [](double r) { return r; }),
+                      n0(18), n(18);
+  std::fill(n0.begin(), n0.begin() + 9, 1.0);
+  Curve curve(x, n0);
+  curve.first.slides = true;
+  for (std::size_t k = 0; k < 9; ++k) x[k] = 0.3 + (k % 2 == 0 ? 1e-3 : -1e-3);
+  unit_normals(curve, x, n);
+  EXPECT_EQ(Vec2(n[0], n[9]), Vec2(1, 0));
+  EXPECT_GT(std::abs(n[9 + 8]), 1e-3);
+}
+
 TEST(UnitNormals, AreTheSameAtTheTwoCopiesOfThePointThatClosesACurve) {
   const std::vector<double> x = circle(33, false);
   const Curve curve(x, x);

@@ -61,7 +61,7 @@ struct Outcome {
 
 class ModelProblem {
  public:
-  ModelProblem(Medium solid, std::size_t cells, CouplerOptions options)
+  ModelProblem(Medium solid, std::size_t cells, const CouplerOptions& options)
       : h_(1.0 / static_cast<double>(cells)),
         solid_(solid, -1, static_cast<std::size_t>(std::ceil(1.2 * solid.c * static_cast<double>(cells))) + 1,
                h_),

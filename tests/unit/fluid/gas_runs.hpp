@@ -15,14 +15,14 @@ namespace fsi::fluid::test {
 inline constexpr double pi = std::numbers::pi;
 
 /// Rectangle [x_a, x_b] x [y_a, y_b], at rest.
-inline grid::GridDescription rectangle(int n1, int n2, Vec2 low, Vec2 high) {
+inline grid::GridDescription rectangle(int n1, int n2, const Vec2& low, const Vec2& high) {
   return {.n1 = n1, .n2 = n2, .mapping = [low, high](double r, double s, double) {
             return Vec2(low[0] + r * (high[0] - low[0]), low[1] + s * (high[1] - low[1]));
           }};
 }
 
 /// The same rectangle with interior lines that bend and swing; its outline stays where it is.
-inline grid::GridDescription wavy(int n1, int n2, Vec2 low, Vec2 high) {
+inline grid::GridDescription wavy(int n1, int n2, const Vec2& low, const Vec2& high) {
   return {.n1 = n1,
           .n2 = n2,
           .mapping =

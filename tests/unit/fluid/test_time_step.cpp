@@ -5,7 +5,7 @@
 #include <cmath>
 #include <complex>
 
-#include "fluid_solver/time_step.hpp"
+#include "fluid_solver/kernels/time_step.hpp"
 #include "tests/unit/fluid/gas_runs.hpp"
 
 namespace fsi::fluid {
@@ -32,7 +32,7 @@ TEST(Eq45StableStep, ShrinksWithEveryCause) {
   EXPECT_GT(stable_rate({1, 3}), rate);
 }
 
-GasSolver box(const GasOptions& options, const State& state, Vec2 size, double rotation = 0) {
+GasSolver box(const GasOptions& options, const State& state, const Vec2& size, double rotation = 0) {
   const Mat2 turn{{std::cos(rotation), -std::sin(rotation)}, {std::sin(rotation), std::cos(rotation)}};
   grid::GridDescription description{.n1 = 11, .n2 = 11, .mapping = [size, turn](double r, double s, double) {
                                       return Vec2(turn * Vec2(r * size[0], s * size[1]));

@@ -146,7 +146,7 @@ TEST(HyperbolicMarch, BeamGridsAreUnfoldedAndTheirEndsStayOnTheWall) {
 TEST(HyperbolicMarch, LinesStayOffTheWallOverWhichTheirCurveLeans) {
   constexpr int points = 81, lines = 9;
   for (const double lean : {0.2, 0.4, 0.6}) {  // radians from the vertical
-    std::vector<double> curve(2 * points);
+    std::vector<double> curve(std::size_t{2} * points);
     for (std::size_t k = 0; k < points; ++k) {
       curve[k] = 0.0125 * static_cast<double>(k) * std::sin(lean);
       curve[points + k] = 0.0125 * static_cast<double>(k) * std::cos(lean);

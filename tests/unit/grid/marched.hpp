@@ -15,7 +15,7 @@ struct Marched {
   Field x;
 };
 
-inline Marched march(const PlaneCurve& shape, HyperbolicGrid description, double t = 0) {
+inline Marched march(const PlaneCurve& shape, const HyperbolicGrid& description, double t = 0) {
   Marched result{description, points_on(shape, description.points),
                  Field(Layout(description.points, description.lines), 2)};
   HyperbolicMarch(description).march(result.curve, result.x.view(), t);

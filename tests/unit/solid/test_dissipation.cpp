@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "solid_solver/dissipation.hpp"
 #include "solid_solver/ghost_lines.hpp"
@@ -18,32 +20,36 @@ TEST(Eq38Dissipation, HasNormOneAndIgnoresCubics) {
   EXPECT_NEAR(fourth_difference(cubic(-2), cubic(-1), cubic(0), cubic(1), cubic(2)), 0, 1e-14);
 }
 
-/// Stress that varies along r1 only, in a sawtooth.
-Field sawtooth_along_r1(const Layout& layout) {
+/// Displacement, velocity and stress that vary along one direction only, in a sawtooth.
+Field sawtooth_along(int direction, const Layout& layout) {
   Field q(layout, plane::count);
   for (int j = -2; j < layout.n2 + 2; ++j) {
     for (int i = -2; i < layout.n1 + 2; ++i) {
-      const double s = i % 2 == 0 ? 1.0 : -1.0;
+      const double s = (direction == 0 ? i : j) % 2 == 0 ? 1.0 : -1.0;
       store(q.view(), layout.at(i, j),
-            {.u = Vec2(s, 2 * s), .v = Vec2::Zero(), .P = {s, 2 * s, 3 * s, 4 * s}});
+            {.u = Vec2(s, 2 * s), .v = Vec2(-s, 3 * s), .P = {s, 2 * s, 3 * s, 4 * s}});
     }
   }
   return q;
 }
 
-TEST(Eq39Dissipation, LeavesTheTractionOnTheFacesAlone) {
+class Eq39Dissipation : public testing::TestWithParam<int> {};
+
+TEST_P(Eq39Dissipation, LeavesTheTractionOnTheFacesAloneAndDampsTheRestByHalfOfBeta) {
+  const int direction = GetParam();
   const grid::MovingGrid grid = test::skewed_grid(12);
   const ReferenceMetrics metrics(grid.x());
-  const Field q = sawtooth_along_r1(grid.layout());
+  const Field q = sawtooth_along(direction, grid.layout());
   Field next(grid.layout(), plane::count);
   for (int j = 0; j < 13; ++j) {
     add_tangential_stress_dissipation<MappedRow>(q.view(), next.view(), metrics, 0.5, {j, 0, 13});
     for (int i = 0; i < 13; ++i) {
-      const Vec2 n = metrics.at(i, j).r1.normalized(), t(-n.y(), n.x());
+      const PointMetrics at = metrics.at(i, j);
+      const Vec2 n = (direction == 0 ? at.r1 : at.r2).normalized(), t(-n.y(), n.x());
       const Tensor2 change = load(next.view(), grid.layout().at(i, j)).P,
                     P = load(q.view(), grid.layout().at(i, j)).P;
-      // n^T P belongs to waves along r1; t^T P is damped by beta / 2 = 0.25 of its sawtooth. Round-off of P
-      // = 4.
+      // n^T P belongs to waves along that direction; t^T P is damped by beta / 2 = 0.25 of its sawtooth.
+      // Round-off of P = 4.
       EXPECT_NEAR(n.x() * change.a11 + n.y() * change.a21, 0, 1e-15 * 20);
       EXPECT_NEAR(n.x() * change.a12 + n.y() * change.a22, 0, 1e-15 * 20);
       EXPECT_NEAR(t.x() * change.a11 + t.y() * change.a21, -0.25 * (t.x() * P.a11 + t.y() * P.a21), 1e-14);
@@ -52,15 +58,21 @@ TEST(Eq39Dissipation, LeavesTheTractionOnTheFacesAlone) {
   }
 }
 
-TEST(Eq40Dissipation, DampsASawtoothOfTheDisplacement) {
+INSTANTIATE_TEST_SUITE_P(BothHalves, Eq39Dissipation, testing::Values(0, 1),
+                         [](const auto& direction) { return direction.param == 0 ? "AlongR1" : "AlongR2"; });
+
+TEST(Eq40Dissipation, DampsASawtoothOfTheDisplacementAlongEitherDirection) {
   const Layout layout(12, 12);
-  const Field q = sawtooth_along_r1(layout);
-  Field next(layout, plane::count);
-  add_displacement_dissipation(q.view(), next.view(), 0.5, {4, 0, 12});
-  for (int i = 0; i < 12; ++i) {
-    EXPECT_DOUBLE_EQ(next(plane::u1, i, 4),
-                     -0.25 * q(plane::u1, i, 4));  // half of beta: one of two directions
-    EXPECT_EQ(next(plane::P11, i, 4), 0);
+  for (const int direction : {0, 1}) {
+    const Field q = sawtooth_along(direction, layout);
+    Field next(layout, plane::count);
+    add_displacement_dissipation(q.view(), next.view(), 0.5, {4, 0, 12});
+    for (int i = 0; i < 12; ++i) {
+      EXPECT_DOUBLE_EQ(next(plane::u1, i, 4),
+                       -0.25 * q(plane::u1, i, 4));  // half of beta: one of two directions
+      EXPECT_DOUBLE_EQ(next(plane::u2, i, 4), -0.25 * q(plane::u2, i, 4));
+      EXPECT_EQ(next(plane::P11, i, 4), 0);
+    }
   }
 }
 
@@ -98,6 +110,58 @@ TEST(BulkDiffusion, LeavesLinearFieldsAlone) {
   }
   add_bulk_diffusion(q.view(), next.view(), 0.1, {3, 0, 8});
   for (int i = 0; i < 8; ++i) EXPECT_EQ(next(plane::v1, i, 3), 0);
+}
+
+/// Largest ratio of what is left of a sawtooth of v or P after a step of bulk diffusion, over all interior
+/// points.
+double left_of(const Field& q, double factor) {
+  const Layout& layout = q.layout();
+  Field next(layout, plane::count);
+  std::ranges::copy(q.values(), next.values().begin());
+  for (int j = 0; j < layout.n2; ++j) add_bulk_diffusion(q.view(), next.view(), factor, {j, 0, layout.n1});
+  double most = 0;
+  for (int k = plane::v1; k <= plane::P22; ++k) {
+    for (int j = 0; j < layout.n2; ++j) {
+      for (int i = 0; i < layout.n1; ++i) most = std::max(most, next(k, i, j) / q(k, i, j));
+    }
+  }
+  return most;
+}
+
+TEST(BulkDiffusion, DampsASawtoothAlongEitherDirectionAndCancelsItAtAQuarter) {
+  for (const int direction : {0, 1}) {
+    const Field q = sawtooth_along(direction, Layout(8, 8));
+    EXPECT_NEAR(left_of(q, 0.01), 1 - 4 * 0.01, 1e-15);  // the undivided second difference of +-1 is -+4
+    EXPECT_NEAR(left_of(q, 0.25), 0, 1e-15);
+  }
+}
+
+TEST(BulkDiffusion, MovesValuesWithoutMakingOrLosingAny) {
+  const Layout layout(9, 9);
+  Field q(layout, plane::count), next(layout, plane::count);
+  q(plane::P12, 4, 4) = 1;
+  for (int j = 0; j < 9; ++j) add_bulk_diffusion(q.view(), next.view(), 0.1, {j, 0, 9});
+  EXPECT_DOUBLE_EQ(next(plane::P12, 4, 4), -0.4);
+  for (const auto& [i, j] : {std::pair{3, 4}, {5, 4}, {4, 3}, {4, 5}})
+    EXPECT_DOUBLE_EQ(next(plane::P12, i, j), 0.1);
+  double sum = 0, others = 0;
+  for (int k = 0; k < plane::count; ++k) {
+    for (int j = 0; j < 9; ++j) {
+      for (int i = 0; i < 9; ++i) (k == plane::P12 ? sum : others) += next(k, i, j);
+    }
+  }
+  EXPECT_NEAR(sum, 0, 1e-15);
+  EXPECT_EQ(others, 0);
+}
+
+TEST(BulkDiffusion, LeavesTheDisplacementAlone) {
+  const Field q = sawtooth_along(0, Layout(8, 8));
+  Field next(q.layout(), plane::count);
+  for (int j = 0; j < 8; ++j) add_bulk_diffusion(q.view(), next.view(), 0.1, {j, 0, 8});
+  for (int i = 0; i < 8; ++i) {
+    EXPECT_EQ(next(plane::u1, i, 3), 0);
+    EXPECT_EQ(next(plane::u2, i, 3), 0);
+  }
 }
 
 }  // namespace

@@ -62,6 +62,25 @@ TEST(InterfaceState, ShowsTheGivenMotionOfAPointThatAlsoLiesOnAMovingClampAndThe
   EXPECT_EQ(Vec2(state.v[1], state.v[18]), Vec2(q(plane::v1, 1, 16), q(plane::v2, 1, 16)));
 }
 
+TEST(InterfaceState, OfAnEndOnASlipOrSymmetryWallStaysOnTheWallAndSlidesWhereTheyMeetAtRightAngles) {
+  for (const Kind wall : {Kind::slip, Kind::symmetry}) {
+    Boundaries boundaries = interface_on_top();
+    boundaries[0].kind = wall;
+    SolidSolver<NeoHookean> solver(test::unit_square(8), {.lambda = 1.2, .mu = 0.8}, {.rho = 2}, boundaries,
+                                   0);
+    solver.assign_initial_conditions(bend, bend);
+    solver.state()(plane::u1, 0, 8) = solver.state()(plane::v1, 0, 8) =
+        0.01;  // a predicted state knows no wall
+    SolidInterface state;
+    solver.interface_state(Side::top, state);
+    EXPECT_EQ(state.x[0], 0.0);
+    EXPECT_EQ(state.v[0], 0.0);
+    EXPECT_EQ(state.fixed.front(), wire::Freedom::slides);
+    EXPECT_EQ(state.fixed.back(), wire::Freedom::free);
+    EXPECT_LT((solver.along_wall(Side::top, 0) - Vec2(0, 1)).norm(), 1e-15);
+  }
+}
+
 TEST(ApplySolidBcs, PutsTheProjectedValuesOnTheInterface) {
   SolidSolver<NeoHookean> solver(test::skewed_grid(16), {.lambda = 1.2, .mu = 0.8}, {.rho = 2},
                                  interface_on_top(), 0);

@@ -1,0 +1,131 @@
+"""The studies of record_results.py beside the tables of the paper: its numbers, ours with its own settings and with ours, and the
+summary docs/results.md begins with."""
+
+import json
+import re
+
+COLUMNS = ("rho", "v1", "v2", "T", "u_bar", "v_bar", "P_bar")
+
+# Published errors {h = 1 / (10 j): j: values of COLUMNS}.
+MANUFACTURED = {  # figure 8
+    2: (1.8e-5, 6.9e-4, 9.4e-5, 1.1e-4, 1.2e-4, 6.9e-4, 9.7e-5), 4: (4.8e-6, 1.7e-4, 2.3e-5, 3.4e-5, 3.3e-5, 1.7e-4, 2.4e-5),
+    8: (1.2e-6, 4.3e-5, 5.1e-6, 8.9e-6, 8.7e-6, 4.3e-5, 5.9e-6), 16: (3.1e-7, 1.1e-5, 1.2e-6, 2.3e-6, 2.2e-6, 1.1e-5, 1.5e-6)}
+DISK = {  # figures 12, 13 and 14; the simplified and the full projection have the same figures
+    "10": {2: (1.5e-5, 1.1e-4, 1.1e-4, 3.1e-5, 1.7e-4, 1.0e-3, 1.5e-3), 4: (4.1e-6, 2.9e-5, 3.0e-5, 8.3e-6, 2.9e-5, 2.3e-4, 2.1e-4),
+           8: (9.6e-7, 6.6e-6, 6.7e-6, 1.9e-6, 5.6e-6, 4.8e-5, 3.9e-5), 16: (2.4e-7, 1.6e-6, 1.6e-6, 4.8e-7, 1.2e-6, 1.1e-5, 8.3e-6)},
+    "1": {2: (1.1e-4, 7.3e-5, 7.5e-5, 2.1e-5, 1.7e-4, 1.0e-3, 1.5e-3), 4: (3.2e-5, 2.3e-5, 2.3e-5, 6.6e-6, 2.9e-5, 2.3e-4, 2.1e-4),
+          8: (8.3e-6, 5.8e-6, 5.8e-6, 1.7e-6, 5.6e-6, 4.8e-5, 3.9e-5), 16: (2.1e-6, 1.5e-6, 1.5e-6, 4.3e-7, 1.2e-6, 1.1e-5, 8.1e-6)},
+    "0.1": {2: (1.1e-3, 4.0e-5, 2.7e-5, 5.7e-5, 1.8e-4, 1.2e-3, 1.5e-3), 4: (1.8e-4, 1.3e-5, 1.3e-5, 3.8e-6, 3.2e-5, 2.9e-4, 2.2e-4),
+            8: (6.3e-5, 4.4e-6, 4.4e-6, 1.3e-6, 6.2e-6, 6.4e-5, 4.2e-5), 16: (1.8e-5, 1.3e-6, 1.2e-6, 3.6e-7, 1.3e-6, 1.5e-5, 9.2e-6)},
+}
+TRADITIONAL = {  # third table of figure 12: the traditional scheme, delta = 10
+    2: (1.4e-5, 1.0e-4, 1.0e-4, 2.9e-5, 1.7e-4, 1.0e-3, 1.4e-3), 4: (3.9e-6, 2.8e-5, 2.9e-5, 7.9e-6, 2.9e-5, 2.3e-4, 2.1e-4),
+    8: (9.4e-7, 6.5e-6, 6.6e-6, 1.9e-6, 5.6e-6, 4.8e-5, 3.9e-5), 16: (2.3e-7, 1.6e-6, 1.6e-6, 4.7e-7, 1.2e-6, 1.1e-5, 8.2e-6)}
+BOUNDS = {  # figure 10: {t: {field: (least, largest)}}, delta = 0.1, j = 4
+    0.5: {"v1": (-4.9404e-5, 4.9440e-5), "v1_bar": (-4.99646e-2, 4.99655e-2), "p": (9.99934, 10.00073), "|P_bar|": (1.7e-4, 4.2e-2)},
+    1.0: {"v1": (-7.1114e-5, 7.1121e-5), "v1_bar": (-3.38356698e-2, 3.383561242e-2), "p": (9.999058, 10.00037),
+          "|P_bar|": (5.35e-4, 5.42e-2)}}
+
+# The paper's own grids and Courant numbers of the disk: rings of depth 0.25 with 7, 12, 22 and 42 lines in the solid.
+RINGS = ["fluid.body_fitted.0.lines=round(0.25 / h) + 1", "solids.disk.body_fitted.lines=round(0.25 / h) + 2",
+         "solids.disk.body_fitted.spacing=0.25 / (round(0.25 / h) + 1)"]
+DISK_CFL = {"10": 0.9, "1": 0.9, "0.1": 0.75}
+LARGEST = "Largest of these ratios"
+
+
+def ratios(found, published):
+    """Our errors over the published ones, and the largest ratio with its place. `found`: {column: [error by level]}."""
+    lines = ["| h | " + " | ".join(COLUMNS) + " |", "|" + "---|" * (len(COLUMNS) + 1)]
+    worst = (0.0, "", "")
+    for index, (level, paper) in enumerate(published.items()):
+        parts = [found[column][index] / error for column, error in zip(COLUMNS, paper)]
+        worst = max(worst, *((part, column, f"1/{10 * level}") for part, column in zip(parts, COLUMNS)))
+        lines.append(f"| 1/{10 * level} | " + " | ".join(f"{part:.2f}" for part in parts) + " |")
+    return "\n".join(lines) + f"\n\n{LARGEST}: {worst[0]:.2f} ({worst[1]} at h = {worst[2]}).\n"
+
+
+def beside(tools, name, case, published, settings=(), solids=()):
+    """Error table of a case over the grids of a published one, and the ratios of the two."""
+    text = tools.converge(name, case, ",".join(map(str, published)), settings, solids)
+    path = tools.RUNS / name / "converge.json"
+    if not path.is_file():
+        return text
+    found = json.loads(path.read_text(encoding="utf-8"))["errors"]
+    return text + "\nThe same errors over those of the paper's table:\n\n" + ratios(found, published)
+
+
+def bounds(tools):
+    """Least and largest values of figure 10: the paper's, ours, and those of the one-dimensional reference run."""
+    import numpy as np
+    from fsi_launch.plot import data, disk
+    directory, _, typed = tools.run_once("disk-bounds", "rotating_disk",
+                                         ["grid.factor=4", "parameters.delta=0.1", "time.end=1", "output.times=[0.5, 1]"])
+    series, reference = data.all_series(directory), data.disk_reference(directory)
+    gas, solid = (next(one for one in series if one.is_gas() == is_gas) for is_gas in (True, False))
+
+    def values(grids, field):
+        return np.concatenate([field(grid)[grid.used()] for grid in grids])
+
+    def size(f):
+        return np.sqrt(sum(f[key] ** 2 for key in ("P11", "P12", "P21", "P22")))
+
+    lines = ["| t | field | paper | ours | one-dimensional reference |", "|---|---|---|---|---|"]
+    for of_gas, of_solid in zip(gas.outputs, solid.outputs):
+        table = next(one for t, one in reference.items() if abs(t - of_gas.t) < 1e-9)
+        # On a circle v1 takes every value between minus and plus the size of the velocity.
+        speed = {"v1": np.abs(table["gas"]["v"]).max(), "v1_bar": np.hypot(table["solid"]["v1"], table["solid"]["v2"]).max()}
+        ours = {"v1": values(of_gas.grids, lambda g: g.fields["v1"]), "v1_bar": values(of_solid.grids, lambda g: g.fields["v1"]),
+                "p": values(of_gas.grids, lambda g: g.fields["p"]), "|P_bar|": values(of_solid.grids, lambda g: size(g.fields))}
+        exact = {"v1": (-speed["v1"], speed["v1"]), "v1_bar": (-speed["v1_bar"], speed["v1_bar"]),
+                 "p": (table["gas"]["p"].min(), table["gas"]["p"].max()),
+                 "|P_bar|": (size(table["solid"]).min(), size(table["solid"]).max())}
+        for field, paper in BOUNDS[round(of_gas.t, 9)].items():
+            cells = [f"{a:.7g} .. {b:.7g}" for a, b in (paper, (ours[field].min(), ours[field].max()), exact[field])]
+            lines.append(f"| {of_gas.t:g} | {field} | " + " | ".join(cells) + " |")
+    return f"`{typed}`\n\n" + "\n".join(lines) + "\n"
+
+
+def manufactured(tools):
+    for law in tools.LAWS:
+        yield (f"Manufactured piston, {law}",
+               lambda l=law: beside(tools, f"chosen-{l}", "manufactured_piston", MANUFACTURED, solids=[f"solid={l}"]))
+    yield ("Manufactured piston, full projection",
+           lambda: beside(tools, "chosen-full", "manufactured_piston", MANUFACTURED, ["interface.projection=full"]))
+    yield ("Manufactured piston, the paper's Courant number 0.9",
+           lambda: beside(tools, "chosen-cfl", "manufactured_piston", MANUFACTURED, ["time.cfl=0.9", "expect={}"]))
+
+
+def disks(tools):
+    for delta, weight in (("10", "heavy"), ("1", "medium"), ("0.1", "light")):
+        yield (f"Rotating disk, {weight} (delta = {delta}), the paper's rings and Courant number",
+               lambda d=delta: beside(tools, f"disk-{d}-paper", "rotating_disk", DISK[d],
+                                      [f"parameters.delta={d}", f"time.cfl={DISK_CFL[d]}", *RINGS, "expect={}"]))
+        for projection in ("simplified", "full"):
+            yield (f"Rotating disk, {weight} (delta = {delta}), {projection} projection",
+                   lambda d=delta, p=projection: beside(tools, f"disk-{d}-{p}", "rotating_disk", DISK[d],
+                                                        [f"parameters.delta={d}", f"interface.projection={p}"]))
+    yield ("Rotating disk, heavy (delta = 10), the traditional scheme",
+           lambda: beside(tools, "disk-10-traditional", "rotating_disk", TRADITIONAL,
+                          ["parameters.delta=10", "interface.projection=traditional"]))
+    yield "Rotating disk, bounds of figure 10", lambda: bounds(tools)
+
+
+SUMMARY = (  # (figure of the paper, what, title of the section)
+    ("8", "errors, Saint Venant-Kirchhoff, Courant number 0.7", "Manufactured piston, saint_venant_kirchhoff"),
+    ("8", "the same at the paper's 0.9", "Manufactured piston, the paper's Courant number 0.9"),
+    *((figure, f"errors, delta = {delta}, {what}", f"Rotating disk, {weight} (delta = {delta}), {title}")
+      for figure, delta, weight in (("12", "10", "heavy"), ("13", "1", "medium"), ("14", "0.1", "light"))
+      for what, title in (("the paper's rings and Courant number", "the paper's rings and Courant number"),
+                          ("our rings, simplified projection", "simplified projection"), ("our rings, full projection", "full projection"))),
+    ("12", "errors, delta = 10, traditional scheme", "Rotating disk, heavy (delta = 10), the traditional scheme"),
+)
+
+
+def summary(sections, anchor):
+    """The table the page begins with: the largest of our errors over the paper's in each table, read from the sections."""
+    lines = ["| figure | what | our errors over the paper's, largest of all grids and fields | section and command |", "|---|---|---|---|"]
+    for figure, what, title in SUMMARY:
+        found = re.search(rf"{LARGEST}: (.*)\.\n", sections.get(title, ""))
+        if found:
+            lines.append(f"| {figure} | {what} | {found[1]} | [{title}](#{anchor(title)}) |")
+    return "## The paper's tables in one\n\n" + "\n".join(lines) + "\n\n" if len(lines) > 2 else ""
