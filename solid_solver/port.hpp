@@ -225,6 +225,7 @@ class SolidParticipant final : public Participant {
     return n;
   }
 
+
   /// The interface inside a macro step: the gas is known by its outgoing characteristic.
   void close_substep(double t, const wire::ProjectedInterface& p) {
     solver_.interface_state(*side_, interface_, grid_);
