@@ -106,10 +106,10 @@ void CoupledRun::run() {
 void CoupledRun::loop() {
   at_ = checkpoints_.begin();
   due_.start(at_.step);
+  end_in_good_order();
+  ProgressLines::joined();
   while (!coupler_.finished()) {
-    obey_requests();
     exchange();
-    take_time_to_end(patience_.of_step());
     throw_if_interrupted();
   }
 }
@@ -120,6 +120,7 @@ void CoupledRun::exchange() {
   clock_.lap(io::Work::waiting);
   if (checkpoint_ == at_.step) complete_checkpoint();
   clock_.lap(io::Work::output);
+  if (part_.status != "stopped") obey_requests();
   const std::span<const wire::ProjectedInterface> answers = coupler_.step(predicted);
   clock_.lap(io::Work::advance);
   session_.scatter(answers);
@@ -148,9 +149,14 @@ void CoupledRun::complete_checkpoint() {
   coupler_.request_stop(part_.reason);
 }
 
-/// A pause waits here; checkpoints, also those before an end, need an exchange or two.
+/// While everybody waits for the answer to what was gathered. A pause waits here; a checkpoint, also that
+/// before an end, is one of the step that the answer leads to.
 void CoupledRun::obey_requests() {
   bool checkpoint = due_.due(at_.step + 1);
+  if (setup_.pause_at == at_.step) {
+    paused_ = true;
+    log_info(fmt::format("paused after {} steps", at_.step));
+  }
   while (true) {
     for (const wire::Control& control : session_.controls()) {
       log_info(fmt::format("request: {}", control.command));
@@ -163,8 +169,9 @@ void CoupledRun::obey_requests() {
     }
     if (asked_to_end()) end_ = "ended on request (SIGTERM)";
     checkpoint = checkpoint || stop_ || !end_.empty();
-    if (!paused_ || checkpoint || checkpoint_) break;
+    if (!paused_ || checkpoint) break;
     session_.idle(0.1);
+    clock_.lap(io::Work::waiting);
   }
   if (!checkpoint) return;
   coupler_.request_checkpoint();

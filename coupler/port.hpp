@@ -47,7 +47,6 @@ class CoupledRun {
   bool stop_ = false;  ///< after a checkpoint
   std::string end_;    ///< who asked for the end, after a checkpoint
   WorkClock clock_;
-  Patience patience_;
 };
 
 }  // namespace fsi::coupler

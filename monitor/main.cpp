@@ -4,7 +4,10 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <cstdio>
+#include <iostream>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "common/bus/listener.hpp"
@@ -45,11 +48,27 @@ std::string list_of(const std::vector<RunEntry>& runs) {
   return text;
 }
 
+/// A request to the only run that goes on, which nobody named: it may be somebody else's on this account.
+/// None when the person says no.
+std::optional<RunEntry> confirmed(const Wishes& wishes, const RunEntry& run) {
+  if (wishes.send.empty() || !wishes.run.empty()) return run;
+  if (!at_terminal())
+    throw UserMistake(
+        fmt::format("name the run that shall {}: {}  ({} in {})", wishes.send, run.run, run.name, run.dir));
+  fmt::print("{} {} ({} in {})? [y/N] ", wishes.send, run.run, run.name, run.dir);
+  std::fflush(stdout);
+  std::string answer;
+  std::getline(std::cin, answer);
+  if (answer == "y" || answer == "Y" || answer == "yes") return run;
+  fmt::print("nothing was asked\n");
+  return std::nullopt;
+}
+
 /// The run that is meant; asks when several may be and a person is there to answer. None when they leave.
 std::optional<RunEntry> choose_run(const Wishes& wishes) {
   const auto running = running_runs(registry_folder());
   const auto runs = matching(running, wishes.run);
-  if (runs.size() == 1) return runs.front();
+  if (runs.size() == 1) return confirmed(wishes, runs.front());
   if (runs.empty()) {
     if (running.empty()) throw UserMistake("no run is going on; start one with ./launch/fsi run CASE");
     throw UserMistake(

@@ -13,14 +13,30 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "common/bus/peer.hpp"
+
 namespace fsi::monitor {
 
 namespace {
 
 namespace fs = std::filesystem;
 
-bool lives(int pid) {
-  return pid > 0 && (kill(pid, 0) == 0 || errno == EPERM);
+/// Another process may have its number by now.
+bool lives(const RunEntry& launcher) {
+  if (launcher.pid <= 0) return false;
+  if (launcher.born != 0) return bus::start_time(launcher.pid) == launcher.born;
+  return kill(launcher.pid, 0) == 0 || errno == EPERM;
+}
+
+bool is_own_folder(const fs::path& folder) {
+  struct stat found {};
+  return stat(folder.c_str(), &found) == 0 && S_ISDIR(found.st_mode) && found.st_uid == getuid() &&
+         access(folder.c_str(), W_OK) == 0;
+}
+
+std::string variable(const char* name) {
+  const char* value = std::getenv(name);  // NOLINT(concurrency-mt-unsafe): nobody sets it here
+  return value == nullptr ? "" : value;
 }
 
 /// What others left under a name of ours says nothing.
@@ -38,6 +54,7 @@ std::optional<RunEntry> read_entry(const fs::path& path) {
                     .name = json.value("case", ""),
                     .dir = json.value("dir", ""),
                     .pid = json.at("pid").get<int>(),
+                    .born = json.value("born", std::uint64_t{0}),
                     .key = json.value("key", "")};
   } catch (const nlohmann::json::exception&) {
     return std::nullopt;
@@ -47,9 +64,11 @@ std::optional<RunEntry> read_entry(const fs::path& path) {
 }  // namespace
 
 fs::path registry_folder() {
-  const char* runtime = std::getenv("XDG_RUNTIME_DIR");  // NOLINT(concurrency-mt-unsafe): nobody sets it here
-  if (runtime != nullptr && *runtime != '\0' && access(runtime, W_OK) == 0)
-    return fs::path(runtime) / "amp-fsi";
+  for (const std::string& runtime : {variable("XDG_RUNTIME_DIR"), fmt::format("/run/user/{}", getuid())}) {
+    if (!runtime.empty() && is_own_folder(runtime)) return fs::path(runtime) / "amp-fsi";
+  }
+  if (const std::string home = variable("HOME"); !home.empty() && is_own_folder(home))
+    return fs::path(home) / ".cache" / "amp-fsi" / bus::host_name();
   return fmt::format("/tmp/amp-fsi-{}", getuid());
 }
 
@@ -60,7 +79,7 @@ std::vector<RunEntry> running_runs(const fs::path& folder) {
   for (const auto& file : fs::directory_iterator(folder, none)) {
     if (file.path().extension() != ".json") continue;
     const auto entry = read_entry(file.path());
-    if (entry && lives(entry->pid)) entries.push_back(*entry);
+    if (entry && lives(*entry)) entries.push_back(*entry);
   }
   std::ranges::sort(entries, {}, &RunEntry::run);
   return entries;

@@ -1,6 +1,7 @@
 #pragma once
 /// Which runs are going on: the launcher keeps one small JSON file per run of this user.
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -8,15 +9,18 @@
 namespace fsi::monitor {
 
 struct RunEntry {
-  std::string run;    ///< identity on the bus
-  std::string name;   ///< the case
-  std::string dir;    ///< folder of the results
-  int pid = 0;        ///< the launcher
-  std::string key{};  ///< of the run; never shown, never recorded
+  std::string run;         ///< identity on the bus
+  std::string name;        ///< the case
+  std::string dir;         ///< folder of the results
+  int pid = 0;             ///< the launcher
+  std::uint64_t born = 0;  ///< start time of its process in clock ticks since boot; 0: not told
+  std::string key{};       ///< of the run; never shown, never recorded
 };
 
-/// Where the launcher puts the entries: $XDG_RUNTIME_DIR/amp-fsi when it can write there, else
-/// /tmp/amp-fsi-UID.
+/// Where the launcher puts the entries: amp-fsi in $XDG_RUNTIME_DIR or /run/user/UID when it can write there,
+/// else
+/// ~/.cache/amp-fsi/HOST, else /tmp/amp-fsi-UID. A folder in which others may make a name first is the last
+/// resort.
 std::filesystem::path registry_folder();
 
 /// Entries in this folder whose launcher lives, in the order of their names. Unreadable files are passed

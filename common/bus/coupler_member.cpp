@@ -31,7 +31,7 @@ std::string who_is_missing(const std::deque<Member>& members, const std::vector<
     const bool matched = std::ranges::all_of(member.channels, &Channel::matched);
     (!member.peer ? missing : !matched ? silent : here).push_back(member.label);
   }
-  std::string text = fmt::format("after {} s", seconds);
+  std::string text = fmt::format("after {:.3g} s (time.join_timeout)", seconds);
   if (!missing.empty()) text += fmt::format(" {} did not join", fmt::join(missing, ", "));
   if (!silent.empty()) text += fmt::format(" {} joined but cannot be heard", fmt::join(silent, ", "));
   if (!here.empty()) text += fmt::format("; {} did", fmt::join(here, ", "));

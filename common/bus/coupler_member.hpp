@@ -13,6 +13,7 @@
 
 #include "common/bus/lengths.hpp"
 #include "common/bus/link.hpp"
+#include "common/bus/newcomer.hpp"
 #include "common/bus/peer.hpp"
 
 namespace fsi::bus {
@@ -59,6 +60,7 @@ struct Channel {
 /// One solver of the run.
 struct Member {
   std::string label;
+  Newcomer newcomer;
   wire::Hello hello;
   std::unique_ptr<Peer> peer;  ///< null until its hello came
   std::deque<Channel> channels;

@@ -32,7 +32,12 @@ struct CouplerSession::Implementation {
         control_reader(link.participant(), control_topic, Delivery::lasting) {
     link.waitset().attach(hello_reader.condition());
     link.waitset().attach(control_reader.condition());
-    for (const Expected& one : who) members.emplace_back().label = label_of(one.role, one.name);
+    for (const Expected& one : who) {
+      const auto pid = link.options().pids.find(one.name);
+      const std::string label = label_of(one.role, one.name);
+      members.push_back(
+          {.label = label, .newcomer = {label, pid == link.options().pids.end() ? 0 : pid->second}});
+    }
     try {
       welcome(false);
       wait_for_all();
@@ -61,11 +66,11 @@ struct CouplerSession::Implementation {
       drain();
       if (link.time_to_repeat()) welcome(false);
       check_counterparts();
-      for (const Member& member : members) {
-        if (member.peer) member.peer->check_process();
-      }
-      if (since(start) > link.options().hello_timeout_s)
-        throw PeerLost(who_is_missing(members, strangers, link.options().hello_timeout_s));
+      // Even who computes must join some day.
+      bool late =
+          since(start) > link.options().hello_timeout_s + clock_over_work * link.options().step_timeout_s;
+      for (Member& member : members) late = is_late(member) || late;
+      if (late) throw PeerLost(who_is_missing(members, strangers, since(start)));
     }
     for (const Member& member : members) {
       for (const Channel& channel : member.channels) {
@@ -74,6 +79,13 @@ struct CouplerSession::Implementation {
       }
     }
     number_slots();
+  }
+
+  bool is_late(Member& member) const {
+    if (member.peer) member.peer->check_process();
+    member.newcomer.look();
+    return member.newcomer.idle_s() > link.options().hello_timeout_s &&
+           !(member.peer && std::ranges::all_of(member.channels, &Channel::matched));
   }
 
   bool all_matched() const {
@@ -143,6 +155,7 @@ struct CouplerSession::Implementation {
     }
     check_fits(label, hello, digest);
     member.peer = std::make_unique<Peer>(label, hello.host, hello.pid);
+    member.newcomer.joined();
     for (const wire::InterfaceInfo& info : hello.interfaces) {
       Channel& channel = member.channels.emplace_back(link.participant(), hello.name, info);
       link.waitset().attach(channel.reader.condition());

@@ -102,7 +102,7 @@ void Link::check_aborts() {
     copy(sample, heard);
     aborted_ = true;
   });
-  if (!heard.from.empty()) throw Failure(exit_code_of(heard.exit_code), heard.from + ": " + heard.reason);
+  if (!heard.from.empty()) throw FailureElsewhere(exit_code_of(heard.exit_code), heard.from, heard.reason);
 }
 
 bool Link::time_to_check() {

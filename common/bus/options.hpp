@@ -3,8 +3,12 @@
 
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include "common/core/failure.hpp"
 
 namespace fsi::bus {
 
@@ -17,8 +21,10 @@ struct BusOptions {
   std::string key = {};
   /// A peer whose liveliness lease expired (stopped, starved) has this long to return [s].
   double peer_timeout_s = 4;
-  /// Everybody must have joined within this time [s].
+  /// Who has not joined is lost after this time, in which it neither computed nor read from a disk [s].
   double hello_timeout_s = 20;
+  /// Coupler: processes on this machine of those that are to join. Of others it only sees that they are late.
+  std::map<std::string, int> pids = {};
   /// A living program may compute this long for one step, or twenty times as long as for its longest one so
   /// far if that is more; then it counts as stuck [s]. What counts is the processor time of its first thread,
   /// so a busy machine changes nothing; time on the clock must be ten times as long.
@@ -28,6 +34,17 @@ struct BusOptions {
   std::function<void()> throw_if_interrupted = {};
   /// For tests: true when a message that is sent now on this topic is to be lost. May be empty.
   std::function<bool(const std::string& topic)> loses = {};
+};
+
+/// The end of a run because another program failed, as that one told it.
+class FailureElsewhere : public Failure {
+ public:
+  FailureElsewhere(ExitCode code, std::string program, const std::string& reason)
+      : Failure(code, program + ": " + reason), program_(std::move(program)) {}
+  const std::string& program() const { return program_; }
+
+ private:
+  std::string program_;
 };
 
 /// Exchange of one program with the others since it joined.

@@ -15,8 +15,6 @@ namespace fsi::bus {
 namespace {
 
 constexpr int between_state_and_user_time = 10;
-/// And so many times that on the clock: others compute too, disks are slow.
-constexpr double clock_over_work = 10;
 
 /// Who waits wakes up ten times a second to look around; on a busy machine less often.
 constexpr double wakes_per_s = 2;
@@ -43,18 +41,21 @@ double work_between(const Pulse& begin, const Pulse& end) {
   return static_cast<double>(end.computed - begin.computed) / static_cast<double>(sysconf(_SC_CLK_TCK));
 }
 
-/// Start time of a living process in clock ticks since boot: with the pid it identifies the process for good.
-/// 0 when there is none or only a zombie is left.
-std::uint64_t start_time(int pid) {
+/// What /proc/PID/stat says behind the name of the program; empty where there is no process.
+std::istringstream stat_of(int pid) {
   std::ifstream file(fmt::format("/proc/{}/stat", pid));
   std::string line;
-  if (!std::getline(file, line)) return 0;
+  std::getline(file, line);
   const auto name_end = line.rfind(')');  // the name may hold blanks and brackets
-  if (name_end == std::string::npos) return 0;
-  std::istringstream fields(line.substr(name_end + 1));
+  return std::istringstream(name_end == std::string::npos ? "" : line.substr(name_end + 1));
+}
+
+}  // namespace
+
+std::uint64_t start_time(int pid) {
+  std::istringstream fields = stat_of(pid);
   std::string state;
-  fields >> state;
-  if (state == "Z" || state == "X") return 0;
+  if (!(fields >> state) || state == "Z" || state == "X") return 0;
   constexpr int between_state_and_start = 18;
   std::string skipped;
   for (int k = 0; k < between_state_and_start; ++k) fields >> skipped;
@@ -63,7 +64,15 @@ std::uint64_t start_time(int pid) {
   return ticks;
 }
 
-}  // namespace
+std::optional<Activity> activity_of(int pid) {
+  std::istringstream fields = stat_of(pid);
+  std::string state, skipped;
+  fields >> state;
+  for (int k = 0; k < between_state_and_user_time; ++k) fields >> skipped;
+  std::uint64_t user = 0, system = 0;
+  if (!(fields >> user >> system) || state == "Z" || state == "X") return {};
+  return Activity{.computed = user + system, .computing_or_reading = state == "R" || state == "D"};
+}
 
 std::string host_name() {
   std::array<char, 256> name{};

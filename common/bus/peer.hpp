@@ -11,8 +11,23 @@ namespace fsi::bus {
 /// Name of this machine.
 std::string host_name();
 
+/// Start time of a living process in clock ticks since boot: with the pid it identifies the process for good.
+/// 0 when there is none or only a zombie is left.
+std::uint64_t start_time(int pid);
+
+/// What a whole process does, all its threads.
+struct Activity {
+  std::uint64_t computed = 0;  ///< so far [clock ticks]
+  /// At this moment; also when it waits for a processor that others have.
+  bool computing_or_reading = false;
+};
+/// Nothing where there is no such process.
+std::optional<Activity> activity_of(int pid);
+
 /// A step may need so many times the processor time of the longest one so far.
 inline constexpr double slower_than_longest = 20;
+/// And so many times its limit of processor time on the clock: others compute too, disks are slow.
+inline constexpr double clock_over_work = 10;
 
 /// How much a program's first thread has computed and how often it has waited.
 struct Pulse {

@@ -85,7 +85,7 @@ struct SolverSession::Implementation {
   }
 
   void wait_for_welcome() {
-    const auto start = Clock::now();
+    auto start = Clock::now();
     link.begin_wait();
     while (!all_matched() || !complete || !coupler) {
       link.sleep();
@@ -95,10 +95,15 @@ struct SolverSession::Implementation {
       for (const wire::Waiting& word : link.others_waiting())
         complete = complete || (word.from == coupler_name && word.to == self.name);
       if (link.time_to_repeat()) say_hello();
-      if (coupler) coupler->check_process();
+      if (coupler && !complete &&
+          link.time_to_check()) {  // it says who is missing: others may initialise for long
+        coupler->check(welcome_reader.matched(), welcome_reader.alive(), link.options().peer_timeout_s);
+        start = Clock::now();
+      }
       if (since(start) > link.options().hello_timeout_s + later_than_coupler_s) {
-        throw PeerLost(fmt::format("{} waited {:.0f} s for run '{}' to begin, but the coupler {}", self.name,
-                                   since(start), self.run, coupler ? "let nobody begin" : "is missing"));
+        throw PeerLost(
+            fmt::format("{} waited {:.0f} s (time.join_timeout) for run '{}' to begin, but the coupler {}",
+                        self.name, since(start), self.run, coupler ? "cannot be heard" : "is missing"));
       }
     }
     for (const Channel& channel : channels) {

@@ -50,6 +50,7 @@ TimeSpec time_of(const Node& node) {
   Reader::assign(node, "multirate", result.multirate);
   Reader::assign(node, "robin_order", result.robin_order);
   if (const Node* dt = node.find("dt")) result.dt = largest_step_of(*dt, result.end);
+  Reader::assign(node, "join_timeout", result.join_timeout);
   Reader::assign(node, "peer_timeout", result.peer_timeout);
   Reader::assign(node, "step_timeout", result.step_timeout);
   return result;

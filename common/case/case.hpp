@@ -150,6 +150,7 @@ struct TimeSpec {
   bool multirate = false;
   int robin_order = 2;        ///< 1 linear, 2 quadratic extrapolation of the Robin data
   std::optional<double> dt;   ///< largest step, for studies
+  double join_timeout = 20;   ///< [s]
   double peer_timeout = 4;    ///< [s]
   double step_timeout = 120;  ///< [s]
 };

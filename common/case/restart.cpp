@@ -16,7 +16,7 @@ namespace {
 using config::Entry;
 using config::Node;
 
-constexpr std::array free_of_time{"end", "peer_timeout", "step_timeout"};
+constexpr std::array free_of_time{"end", "join_timeout", "peer_timeout", "step_timeout"};
 constexpr std::array free_of_output{"times", "every", "checkpoint_every", "checkpoint_seconds", "on_failure"};
 constexpr std::array free_sections{"name", "title", "expect"};
 

@@ -171,6 +171,12 @@ constexpr array time_keys{
         .unit = "time",
         .fallback = "no limit",
         .range = positive},
+    Key{.name = "join_timeout",
+        .meaning = "a program that has not joined the run is lost after so long in which it neither computed "
+                   "nor waited for a disk",
+        .unit = "s",
+        .fallback = "20",
+        .range = at_most_a_day},
     Key{.name = "peer_timeout",
         .meaning = "a program silent for so long is lost",
         .unit = "s",

@@ -30,6 +30,7 @@ ordered_json time_json(const TimeSpec& time) {
           {"multirate", time.multirate},
           {"robin_order", time.robin_order},
           {"dt", or_null(time.dt)},
+          {"join_timeout", time.join_timeout},
           {"peer_timeout", time.peer_timeout},
           {"step_timeout", time.step_timeout}};
 }
@@ -96,6 +97,7 @@ std::string summary_as_json(const Case& problem) {
       {"title", problem.title},
       {"path", problem.path},
       {"digest", problem.digest},
+      {"restart_digest", problem.restart_digest},
       {"coupled", is_coupled(problem)},
       {"fluid", problem.fluid.has_value()},
       {"fluid_points", problem.fluid ? points_of(*problem.fluid) : 0},

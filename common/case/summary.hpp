@@ -20,8 +20,8 @@ std::vector<ParticipantSummary> participants_of(const Case& problem);
 /// True where a gas meets a solid.
 bool is_coupled(const Case& problem);
 
-/// One JSON object: name, title, path, digest, resolved, coupled, fluid, participants, solids, grid_factor,
-/// time, interface, output, reference, expect.
+/// One JSON object: name, title, path, digest, restart_digest, resolved, coupled, fluid, participants,
+/// solids, grid_factor, time, interface, output, reference, expect.
 std::string summary_as_json(const Case& problem);
 
 /// One line for a person.

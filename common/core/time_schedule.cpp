@@ -52,6 +52,11 @@ bool TimeSchedule::is_end(double t) const {
 PlannedStep TimeSchedule::plan(double t, double bid, const std::string& reason) {
   if (std::isinf(bid) && bid > 0) bid = options_.end;
   if (!(bid > smallest_part * options_.end) || std::isnan(bid)) {
+    if (bid > 0 && previous_ == 0 && t == 0)
+      throw UserMistake(fmt::format(
+          "time.end = {:g} is {:.2g} steps of {:.3g} ({}) away, more than any run can take (1e11): write "
+          "a smaller time.end, or find out what makes the steps so small",
+          options_.end, options_.end / bid, bid, reason));
     throw NumbersBroke(fmt::format("t = {:.6g}: the time step has collapsed to {:.3g} ({})", t, bid, reason));
   }
   double dt = bid;

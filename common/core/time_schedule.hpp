@@ -34,7 +34,8 @@ class TimeSchedule {
   bool output_at_start() const;
   /// The step from t when `bid` is the largest stable one (named by `reason`). What remains until the next
   /// wanted time is divided evenly, so that no sliver of a step is left over.
-  /// @throws NumbersBroke when the bid is not a positive number or vanishes against the length of the run
+  /// @throws NumbersBroke when the bid is not a positive number or vanishes against the length of the run, in
+  /// which the first step did not; UserMistake when that already did
   PlannedStep plan(double t, double bid, const std::string& reason);
   /// Whether t, planned by another schedule, is an output time or the end of this one: that of a run that
   /// goes on with another end.

@@ -38,9 +38,18 @@ nlohmann::json manifest_of(const std::string& folder) {
   const std::string path = fmt::format("{}/{}", folder, manifest_name);
   std::ifstream file(path);
   nlohmann::json manifest = nlohmann::json::parse(file, nullptr, false);
-  if (!file || !manifest.is_object() || !manifest.contains("files"))
+  if (!file || !manifest.is_object() || !manifest.contains("files") || !manifest["files"].is_object())
     throw OutputFailed(fmt::format("'{}' cannot be read: the checkpoint is not complete", path));
   return manifest;
+}
+
+/// @throws OutputFailed where the entry of a manifest is none
+Checksum written_of(const nlohmann::json& entry, const std::string& folder) {
+  try {
+    return {.bytes = entry.at("bytes").get<std::uint64_t>(), .crc32 = entry.at("crc32").get<std::uint32_t>()};
+  } catch (const nlohmann::json::exception& error) {
+    throw OutputFailed(fmt::format("'{}/{}' is damaged: {}", folder, manifest_name, error.what()));
+  }
 }
 
 /// @throws OutputFailed where the file is not what the manifest says
@@ -52,8 +61,7 @@ void check_file(const std::string& folder, const std::string& participant) {
     throw UserMistake(
         fmt::format("'{}' is a checkpoint without '{}': it is of another case", folder, participant));
   const Checksum found = checksum_of(path);
-  const Checksum written{.bytes = entry->value("bytes", std::uint64_t{0}),
-                         .crc32 = entry->value("crc32", std::uint32_t{0})};
+  const Checksum written = written_of(*entry, folder);
   if (found == written) return;
   throw OutputFailed(
       fmt::format("'{}' is damaged: {} bytes with checksum {:08x}, written were {} with {:08x}", path,

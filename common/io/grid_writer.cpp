@@ -59,6 +59,24 @@ void write_grid(Hdf5 group, const GridOutput& grid) {
   group.write("kind", kinds, shape);
 }
 
+/// @throws OutputFailed where an output of a series that goes on is not there or cannot be read
+void check_output(const std::string& path) {
+  constexpr const char* why = "a restart continues the series it belongs to";
+  if (!std::filesystem::exists(path)) throw OutputFailed(fmt::format("'{}' is missing: {}", path, why));
+  try {
+    const Hdf5 file = Hdf5::open(path);
+    file.number_attribute("t");
+    file.number_attribute("step");
+    for (const std::string& grid : file.names()) {
+      const Hdf5 group = file.group(grid);
+      for (const std::string& field : group.names()) group.shape(field);
+    }
+  } catch (const OutputFailed& failure) {
+    throw OutputFailed(
+        fmt::format("'{}' is damaged: {}; put it back as it was ({})", path, why, failure.what()));
+  }
+}
+
 void write_file(const std::string& path, double t, std::uint64_t step, std::span<const GridOutput> grids) {
   Hdf5 file = Hdf5::create(aside(path));
   file.write_attribute("t", t);
@@ -109,11 +127,7 @@ void GridWriter::write_master() const {
 void GridWriter::archive(Archive& archive) {
   archive.number("outputs", outputs_);
   if (!archive.loading()) return;
-  for (std::size_t k = 0; k < outputs_; ++k) {
-    if (!std::filesystem::exists(path_of(k)))
-      throw OutputFailed(
-          fmt::format("'{}' is missing: a restart continues the series it belongs to", path_of(k)));
-  }
+  for (std::size_t k = 0; k < outputs_; ++k) check_output(path_of(k));
   for (std::size_t k = outputs_; std::filesystem::remove(path_of(k)); ++k) continue;
   if (outputs_ > 0) {
     write_master();

@@ -16,6 +16,7 @@ std::string to_json(const Part& part) {
       {"role", part.role},
       {"status", part.status},
       {"reason", part.reason},
+      {"origin", part.origin},
       {"exit_code", static_cast<int>(part.exit_code)},
       {"t", part.t},
       {"steps", part.steps},

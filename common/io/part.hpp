@@ -41,6 +41,7 @@ struct Part {
   std::string role;                  ///< "fluid", "solid", "coupler"
   std::string status = "completed";  ///< "running", "completed", "stopped" or "failed"
   std::string reason;                ///< of a failure or a stop
+  std::string origin;  ///< of a failure: the participant that failed; another one, if we only heard of it
   ExitCode exit_code = ExitCode::done;
   double t = 0;
   std::uint64_t steps = 0;  ///< macro steps

@@ -41,17 +41,29 @@ class CoupledRun {
     return options;
   }
 
-  /// SIGTERM: the coupler ends the run, after a checkpoint; who waits for that too long ends by itself.
+  /// SIGTERM: the coupler is asked to end the run, after a checkpoint.
   void obey_signals() {
     if (asked_to_end() && running_ && !told_) {
       told_ = true;
       session_.request("terminate " + setup_.name);
+      since_told_.lap();
     }
     throw_if_interrupted();
   }
 
+  /// A coupler that takes no requests would let the run go on for ever.
+  void check_heard() {
+    constexpr int steps = 10;
+    constexpr double seconds = 10;
+    if (!told_ || ++steps_since_told_ < steps) return;
+    unheard_s_ += since_told_.lap();
+    if (unheard_s_ > seconds)
+      throw Failure(ExitCode::terminated, "ended on request (SIGTERM), which the coupler did not obey");
+  }
+
   void loop() {
     running_ = true;
+    end_in_good_order();
     last_ = {.t = at_.t, .step = at_.step};
     while (exchange()) {
       const wire::ProjectedInterface& answer = *projected_.front();
@@ -64,8 +76,8 @@ class CoupledRun {
       clock_.lap(io::Work::output);
       if (session_.telemetry_due())
         session_.publish(telemetry_of(setup_, part_, solver_, at_.dt, bid_.reason));
-      take_time_to_end(patience_.of_step());
       obey_signals();
+      check_heard();
     }
   }
 
@@ -124,12 +136,14 @@ class CoupledRun {
   io::Standing at_;
   LastState last_;
   bool running_ = false, told_ = false;
+  int steps_since_told_ = 0;
+  double unheard_s_ = 0;
+  Stopwatch since_told_;
   bus::SolverSession session_;
   std::vector<wire::PredictedInterface> predicted_;
   std::vector<const wire::ProjectedInterface*> projected_;
   TimeStepBid bid_;
   WorkClock clock_;
-  Patience patience_;
 };
 
 }  // namespace

@@ -43,6 +43,8 @@ class LoneRun {
 
   void loop() {
     at_ = checkpoints_.begin();
+    begun_at_ = at_.step;
+    end_in_good_order();
     due_.start(at_.step);
     last_ = {.t = at_.t, .step = at_.step};
     if (setup_.restart.empty()) {
@@ -52,7 +54,6 @@ class LoneRun {
     while (!end_ && go_on()) {
       advance();
       last_ = {.t = at_.t, .step = at_.step};
-      take_time_to_end(patience_.of_step());
       watch_.end_step();
     }
   }
@@ -88,6 +89,10 @@ class LoneRun {
   bool go_on() {
     bool stop = false;
     if (due_.due(at_.step)) save();
+    if (setup_.pause_at == at_.step) {
+      paused_ = true;
+      log_info(fmt::format("paused after {} steps", at_.step));
+    }
     do {
       for (const wire::Control& control : session_.controls()) {
         if (control.command == "pause") paused_ = true;
@@ -103,6 +108,8 @@ class LoneRun {
     } while (paused_);
     throw_if_interrupted();
     if (!stop && !asked_to_end()) return true;
+    if (asked_to_end() && at_.step == begun_at_)
+      throw Failure(ExitCode::terminated, "ended on request (SIGTERM), before its first step");
     save();
     if (asked_to_end())
       throw Failure(ExitCode::terminated,
@@ -129,9 +136,9 @@ class LoneRun {
   Checkpoints checkpoints_;
   CheckpointClock due_;
   io::Standing at_;
+  std::uint64_t begun_at_ = 0;  ///< step
   LastState last_;
   WorkClock clock_;
-  Patience patience_;
   bool end_ = false, fields_written_ = true, paused_ = false;
   LoneWatch watch_;
 };

@@ -33,6 +33,7 @@ LoneWatch::LoneWatch(const Setup& setup, const io::Part& part) : setup_(setup), 
 
 void LoneWatch::end_step() {
   const std::scoped_lock lock(mutex_);
+  if (const double work = work_s(); work > limit_s()) end_program(setup_, report_, lost(work));
   longest_work_s_ = std::max(longest_work_s_, work_s());
   report_ = part_;
   begin();

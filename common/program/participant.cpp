@@ -8,6 +8,8 @@ bus::BusOptions bus_options(const Setup& setup) {
   return {.run = setup.run,
           .key = setup.key,
           .peer_timeout_s = setup.problem.time.peer_timeout,
+          .hello_timeout_s = setup.problem.time.join_timeout,
+          .pids = setup.pids,
           .step_timeout_s = setup.problem.time.step_timeout,
           .throw_if_interrupted = throw_if_interrupted};
 }

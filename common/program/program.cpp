@@ -8,11 +8,14 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <atomic>
+#include <charconv>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
-#include <ctime>
+#include <system_error>
+#include <vector>
 
+#include "common/bus/options.hpp"
 #include "common/core/log.hpp"
 #include "common/io/atomic_file.hpp"
 
@@ -21,22 +24,18 @@ namespace fsi {
 namespace {
 
 std::atomic<int> caught_signal{0};
-std::atomic<double> caught_at{0}, time_to_end{0};  ///< [s]
-
-double now() {
-  timespec time{};
-  clock_gettime(CLOCK_MONOTONIC, &time);  // may be called by a signal handler
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
+std::atomic<bool> loop_obeys_sigterm{false};
 
 void remember(int signal) {
-  if (caught_signal == 0) caught_at = now();
   if (caught_signal != SIGINT) caught_signal = signal;
 }
 
 void catch_signals() {
+  std::signal(SIGPIPE, SIG_IGN);  // the checkpoint at the launcher's death comes after its end of the pipe
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that grows too large is output that fails, with a name
   struct sigaction action {};
   action.sa_handler = remember;
+  action.sa_flags = SA_RESTART;  // nothing that is being written breaks off
   sigemptyset(&action.sa_mask);
   sigaction(SIGTERM, &action, nullptr);
   sigaction(SIGINT, &action, nullptr);
@@ -44,9 +43,21 @@ void catch_signals() {
 }
 
 ExitCode note(const Failure& failure, io::Part& part) {
+  const auto* elsewhere = dynamic_cast<const bus::FailureElsewhere*>(&failure);
   part.status = "failed";
   part.reason = failure.what();
+  part.origin = elsewhere != nullptr ? elsewhere->program() : part.participant;
   return failure.code();
+}
+
+/// To the launcher's file in memory: a report that no full disk stops.
+void leave_copy(const io::Part& part) {
+  const char* descriptor =
+      std::getenv("AMP_FSI_REPORT");  // NOLINT(concurrency-mt-unsafe): nobody sets it here
+  if (descriptor == nullptr) return;
+  const std::string text = io::to_json(part);
+  const auto written = ::write(std::atoi(descriptor), text.data(), text.size());  // NOLINT(cert-err34-c)
+  if (written < 0) log_warning("the launcher cannot be told how this program ended");
 }
 
 /// Runs the body; a failure becomes a code and the report's reason.
@@ -75,6 +86,7 @@ ExitCode leave_part(const Setup& setup, io::Part& part, ExitCode code) {
   part.peak_memory_mib = peak_memory();
   const double updates = static_cast<double>(part.points) * static_cast<double>(part.substeps);
   part.point_updates_per_s = part.compute_s > 0 ? updates / part.compute_s : 0;
+  leave_copy(part);
   try {
     io::write_part(setup.run_dir, part);
   } catch (const Failure& failure) {
@@ -84,17 +96,30 @@ ExitCode leave_part(const Setup& setup, io::Part& part, ExitCode code) {
   return code;
 }
 
+/// {name: number} of NAME=NUMBER. @throws CLI::ValidationError
+std::map<std::string, int> numbered(const std::vector<std::string>& words) {
+  std::map<std::string, int> result;
+  for (const std::string& word : words) {
+    const std::string name = word.substr(0, word.rfind('='));
+    const char *begin = word.data() + std::min(name.size() + 1, word.size()),
+               *end = word.data() + word.size();
+    const auto [rest, error] = std::from_chars(begin, end, result[name]);
+    if (error != std::errc{} || rest != end)
+      throw CLI::ValidationError("--pids", fmt::format("'{}' is not NAME=PID", word));
+  }
+  return result;
+}
+
 }  // namespace
 
 void throw_if_interrupted() {
   const int signal = caught_signal;
   if (signal == SIGINT) throw Failure(ExitCode::interrupted, "interrupted (SIGINT)");
-  if (signal != 0 && now() - caught_at >= time_to_end)
-    throw Failure(ExitCode::terminated, "ended on request (SIGTERM)");
+  if (signal != 0 && !loop_obeys_sigterm) throw Failure(ExitCode::terminated, "ended on request (SIGTERM)");
 }
 
-void take_time_to_end(double seconds) {
-  time_to_end = seconds;
+void end_in_good_order() {
+  loop_obeys_sigterm = true;
 }
 
 bool asked_to_end() {
@@ -146,6 +171,11 @@ void WorkClock::lap(io::Work work) {
   (work == io::Work::waiting ? part_.wait_s : part_.compute_s) += seconds;
 }
 
+void ProgressLines::joined() {
+  fmt::print("joined\n");
+  std::fflush(stdout);
+}
+
 void ProgressLines::show(std::uint64_t step, double t, double dt, const std::string& limit) {
   const auto now = std::chrono::steady_clock::now();
   if (now - last_ < std::chrono::milliseconds(100)) return;
@@ -166,8 +196,12 @@ int run_program(int argc, char** argv, const std::string& default_name, const st
   app.add_option("--run", setup.run, "identity of the run on the bus");
   app.add_option("--restart", setup.restart, "folder of the checkpoint to go on from");
   app.add_option("--name", setup.name, "name of this participant in the case");
+  app.add_option("--pause-at", setup.pause_at, "pause after so many steps");
+  std::vector<std::string> pids;
+  app.add_option("--pids", pids, "NAME=PID,..: processes of the other participants")->delimiter(',');
   try {
     app.parse(argc, argv);
+    setup.pids = numbered(pids);
   } catch (const CLI::ParseError& error) {
     const int code = app.exit(error);
     return code == 0 ? 0 : static_cast<int>(ExitCode::user_mistake);

@@ -2,10 +2,11 @@
 /// The shell every program of a run lives in: command line, signals, log, exit code and the report it leaves
 /// behind.
 
-#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <map>
+#include <optional>
 #include <string>
 
 #include "common/case/case.hpp"
@@ -23,6 +24,8 @@ struct Setup {
   std::string name;          ///< participant's name: "fluid", "coupler" or the solid's name
   std::string restart = {};  ///< folder of the checkpoint the run goes on from; empty: it begins
   std::string key = {};      ///< of the run, from the environment's AMP_FSI_KEY
+  std::optional<std::uint64_t> pause_at = {};  ///< the run pauses after so many steps
+  std::map<std::string, int> pids = {};        ///< coupler: the processes of the others, where they are known
 
   io::Opening opening() const { return restart.empty() ? io::Opening::fresh : io::Opening::continued; }
 };
@@ -48,11 +51,12 @@ inline constexpr const char* lost_outputs = "lost_outputs";
 /// @throws OutputFailed
 void write_results(const Setup& setup, io::Part& part, const std::function<void()>& write);
 
-/// Ends the program when a signal asks for it: SIGINT at once (exit 130), SIGTERM (exit 143) once it has had
-/// the time that `take_time_to_end` said.
+/// Ends the program when a signal asks for it: SIGINT (exit 130), and SIGTERM (exit 143) until
+/// `end_in_good_order` was called.
 void throw_if_interrupted();
-/// From now on SIGTERM leaves so many seconds to end in good order.
-void take_time_to_end(double seconds);
+/// From now on the time loop obeys SIGTERM: it looks at `asked_to_end` and ends after a checkpoint, however
+/// long that takes.
+void end_in_good_order();
 /// SIGTERM has come.
 bool asked_to_end();
 
@@ -79,20 +83,12 @@ class WorkClock {
   Stopwatch watch_;
 };
 
-/// How long a program waits for an end in good order: a few seconds, more where steps take long.
-class Patience {
- public:
-  /// Seconds, from the duration of the step since the last call.
-  double of_step() { return std::min(30.0, 4 + 3 * watch_.lap()); }
-
- private:
-  Stopwatch watch_;
-};
-
 /// Prints `progress step=.. t=.. dt=.. limit=.. t_end=..` lines for the launcher, at most ten a second.
 class ProgressLines {
  public:
   explicit ProgressLines(double t_end) : t_end_(t_end) {}
+  /// Prints `joined`: everybody has, and the first step begins.
+  static void joined();
   void show(std::uint64_t step, double t, double dt, const std::string& limit);
 
  private:

@@ -25,6 +25,7 @@ class Case:
     end: float = 0.0    # time.end
     times: tuple = ()   # of output
     projection: str = ""    # of the interface
+    digest: str = None      # of what a restart must not change
 
     def speaker(self):
         """The participant that reports progress: the coupler, or the lone solver."""
@@ -55,4 +56,4 @@ def resolve(case, overrides, laws, former=None):
                 programs={entry["name"]: entry["executable"] for entry in answer["participants"]},
                 reference=answer["reference"]["kind"], expect=answer["expect"],
                 end=answer["time"]["end"], times=tuple(answer["output_times"]),
-                projection=answer["projection"])
+                projection=answer["projection"], digest=answer["restart_digest"])

@@ -30,7 +30,7 @@ def _add_case(parser, **options):
 def _run(options):
     from fsi_launch.run import Request, run
     result = run(Request(case=options.case, overrides=options.overrides, laws=options.laws, out=options.out,
-                         overwrite=options.overwrite, restart=options.restart, progress=options.progress,
+                         overwrite=options.overwrite, restart=options.restart, progress=options.progress, pause_at=options.pause_at,
                          monitor=options.monitor, protection=options.protection, frames=options.movie))
     if options.movie and result.code == DONE:
         from fsi_launch import plot
@@ -98,6 +98,12 @@ def _levels(text):
     return [int(word) for word in words]
 
 
+def _count(text):
+    if not text.isdecimal():
+        raise argparse.ArgumentTypeError(f"'{text}' is no number of steps")
+    return int(text)
+
+
 def _port(text):
     if not text.isdecimal() or int(text) > 65535:
         raise argparse.ArgumentTypeError(f"'{text}' is no port: 0 to 65535")
@@ -123,6 +129,8 @@ def _parser():
     verb.add_argument("--no-progress", dest="progress", action="store_false", help="no progress bar")
     verb.add_argument("--monitor", action="store_true", help="show the run on the whole terminal, as fsi monitor does; "
                       "with q it goes on with the progress bar")
+    verb.add_argument("--pause-at", metavar="N", type=_count, help="pause after N steps, until fsi ctl resume: to look at a run, "
+                      "or to attach a debugger, at the same place every time")
     verb.add_argument("--movie", action="store_true", help="more output times, and an animated file DIR/plots/movie.mp4 of "
                       "them (.gif without ffmpeg)")
     protection = verb.add_mutually_exclusive_group()

@@ -22,25 +22,23 @@ from fsi_launch.processes import programs_of, until
 
 PEER_TIMEOUT = 4.0      # [s] of the runs: a stopped program is lost after it
 STOP_FOR = 1.0          # [s] and goes on as if nothing had been
-END_WITHIN = 5.0        # [s] that a run may take to end
-HELLO_TIMEOUT = 20.0    # [s] that programs have to join: one stopped before is missed only then
-BUSY = 1.5              # [s] more on a machine that does other things too
-WATCHDOG = 120.0        # [s] nothing here may take longer
+WATCHDOG = 240.0        # [s] nothing here takes so long: what does hangs
 CASE = ("elastic_piston", "--set", "grid.factor=2", "--set", "time.dt=1e-3", "--set", "output.every=0.1",
         "--set", "output.checkpoint_every=40", "--set", f"time.peer_timeout={PEER_TIMEOUT:g}", "--set", "expect={}")
 PROGRAMS = {"fluid": "fluid_solver", "solid": "solid_solver_linear_elastic", "coupler": "coupler"}
 
-# What is done to whom, how it ends (exit code; 0: the run goes on to its end), and within how many seconds.
+# What is done to whom, and how it ends (exit code; 0: the run goes on to its end). How long that takes is told, not judged: it says
+# more about the machine. What is judged is that nobody had to be killed.
 FAULTS = {
-    "kill a program": ("SIGKILL", PROGRAMS, 4, END_WITHIN),
-    "kill the launcher": ("SIGKILL", ["launcher"], -signal.SIGKILL, END_WITHIN),
-    "stop a program": ("SIGSTOP", PROGRAMS, 4, PEER_TIMEOUT + 2),
-    "stop and continue a program": ("SIGCONT", PROGRAMS, 0, None),
-    "stop and continue the launcher": ("SIGCONT", ["launcher"], 0, None),
-    "terminate a program": ("SIGTERM", PROGRAMS, 4, END_WITHIN),
-    "terminate the launcher": ("SIGTERM", ["launcher"], 143, END_WITHIN),
-    "interrupt a program": ("SIGINT", PROGRAMS, 4, END_WITHIN),
-    "interrupt the launcher": ("SIGINT", ["launcher"], 130, END_WITHIN),
+    "kill a program": ("SIGKILL", PROGRAMS, 4),
+    "kill the launcher": ("SIGKILL", ["launcher"], -signal.SIGKILL),
+    "stop a program": ("SIGSTOP", PROGRAMS, 4),
+    "stop and continue a program": ("SIGCONT", PROGRAMS, 0),
+    "stop and continue the launcher": ("SIGCONT", ["launcher"], 0),
+    "terminate a program": ("SIGTERM", PROGRAMS, 4),
+    "terminate the launcher": ("SIGTERM", ["launcher"], 143),
+    "interrupt a program": ("SIGINT", PROGRAMS, 4),
+    "interrupt the launcher": ("SIGINT", ["launcher"], 130),
 }
 
 
@@ -131,7 +129,7 @@ def _shared_memory():
 def _signal(run, trial):
     """Does it; returns the moment, or None where the target is gone already."""
     kind = FAULTS[trial.fault][0]
-    pid = run.process.pid if trial.target == "launcher" else until(run.programs, 5).get(trial.target)
+    pid = run.process.pid if trial.target == "launcher" else until(run.programs, WATCHDOG).get(trial.target)
     if pid is None or run.process.poll() is not None:
         return None
     moment = time.monotonic()
@@ -148,13 +146,12 @@ def _signal(run, trial):
 
 
 def _check_end(run, trial, before):
-    _, _, code, within = FAULTS[trial.fault]
+    _, _, code = FAULTS[trial.fault]
     if trial.code != code:
         trial.flaws.append(f"exit code {trial.code}, not {code}: {run.words.strip()[-300:]}")
-    if within and any(words in run.words for words in ("did not join", "joined but cannot be heard")):
-        within = HELLO_TIMEOUT + END_WITHIN
-    if within and trial.seconds > within + BUSY:
-        trial.flaws.append(f"took {trial.seconds:.1f} s to end")
+    others = [name for name in PROGRAMS if name != trial.target and code == 4]
+    if killed := [name for name in others if not (run.folder / "parts" / f"{name}.json").is_file()]:
+        trial.flaws.append(f"did not end by themselves: {killed}")
     if left := run.programs():
         trial.flaws.append(f"left behind: {left}")
     if trial.fault != "kill the launcher" and (entries := list((run.folder.parent / "runtime").rglob("*.json"))):
@@ -192,12 +189,13 @@ def _try(trial, folder, undisturbed):
     place = folder / f"trial{trial.number}"
     place.mkdir()
     before = _shared_memory()
-    run = Run(place / "run", *CASE, "--out", str(place / "run"))
+    patient = ["--set", "time.peer_timeout=600"] if FAULTS[trial.fault][0] == "SIGCONT" else []
+    run = Run(place / "run", *CASE, *patient, "--out", str(place / "run"))
     try:
         time.sleep(trial.after)
         moment = _signal(run, trial)
         trial.code = _as_a_shell_says(run.wait())
-        until(lambda: not run.programs(), END_WITHIN)
+        until(lambda: not run.programs(), WATCHDOG)
         asked = FAULTS[trial.fault][0] in ("SIGTERM", "SIGINT")  # who is ending anyway does not mind
         trial.late = moment is None or (asked and trial.code == 0)
         trial.seconds = time.monotonic() - (moment or 0)
@@ -229,12 +227,12 @@ def _trials(count, seed, duration):
 def table(trials):
     """Lines of text: one row per fault."""
     rows = [("fault", "times", "flawless", "longest end [s]", "restarts, bits the same")]
-    for fault, (_, _, _, within) in FAULTS.items():
+    for fault, (_, _, code) in FAULTS.items():
         mine = [trial for trial in trials if trial.fault == fault and not trial.late]
-        ends = [trial.seconds for trial in mine if within]
+        ends = [trial.seconds for trial in mine if code]
         rows.append((fault, str(len(mine)), str(sum(not trial.flaws for trial in mine)),
-                     f"{max(ends):.1f}" if ends else "-" if within else "goes on",
-                     str(sum(trial.restarted == "yes" and not trial.flaws for trial in mine)) if within else "-"))
+                     f"{max(ends):.1f}" if ends else "-" if code else "goes on",
+                     str(sum(trial.restarted == "yes" and not trial.flaws for trial in mine)) if code else "-"))
     widths = [max(len(row[k]) for row in rows) for k in range(len(rows[0]))]
     return ["  ".join(cell.ljust(w) if k == 0 else cell.rjust(w) for k, (cell, w) in enumerate(zip(row, widths)))
             for row in rows]

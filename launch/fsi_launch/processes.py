@@ -21,9 +21,23 @@ def _option(words, option):
     return words[place] if place < len(words) else None
 
 
+def _stat(pid):
+    """What the system says of a process behind the name of its program. Throws OSError when there is none."""
+    return Path(f"/proc/{pid}/stat").read_text(encoding="utf-8", errors="replace").rsplit(")", 1)[1].split()
+
+
 def state_of(pid):
     """The letter the system shows for a process: R, S, D, T (stopped), Z (ended) ... Throws OSError when there is none."""
-    return Path(f"/proc/{pid}/stat").read_text(encoding="utf-8").rsplit(")", 1)[1].split()[0]
+    return _stat(pid)[0]
+
+
+def start_time(pid):
+    """Start of a living process in clock ticks since boot, which with the pid identifies it for good; 0 when there is none."""
+    try:
+        fields = _stat(pid)
+    except OSError:
+        return 0
+    return 0 if fields[0] in "ZX" else int(fields[19])
 
 
 def programs_of(directory):

@@ -4,19 +4,32 @@ of the run: who has it takes part in the run on the bus. So nobody but its user 
 import json
 import os
 import secrets
+import socket
 import stat
 from pathlib import Path
 
+from fsi_launch import processes
 from fsi_launch.failure import Failure, OUTPUT_FAILED
 
 KEY_BYTES = 32
 
 
+def _is_own(path):
+    """A folder of this user's, in which nobody else can make a name first."""
+    try:
+        found = os.stat(path)
+    except OSError:
+        return False
+    return stat.S_ISDIR(found.st_mode) and found.st_uid == os.getuid() and os.access(path, os.W_OK)
+
+
 def folder():
-    """Where the entries of this user's runs lie."""
-    runtime = os.environ.get("XDG_RUNTIME_DIR")
-    if runtime and os.path.isdir(runtime) and os.access(runtime, os.W_OK):
-        return Path(runtime) / "amp-fsi"
+    """Where the entries of this user's runs lie. monitor/registry.cpp looks at the same places in the same order."""
+    for runtime in (os.environ.get("XDG_RUNTIME_DIR"), f"/run/user/{os.getuid()}"):
+        if runtime and _is_own(runtime):
+            return Path(runtime) / "amp-fsi"
+    if (home := os.environ.get("HOME")) and _is_own(home):
+        return Path(home) / ".cache" / "amp-fsi" / socket.gethostname()
     return Path(f"/tmp/amp-fsi-{os.getuid()}")
 
 
@@ -25,7 +38,7 @@ def _make_folder(path):
     path.mkdir(mode=0o700, parents=True, exist_ok=True)
     found = path.lstat()
     if not stat.S_ISDIR(found.st_mode) or found.st_uid != os.getuid():
-        raise Failure(OUTPUT_FAILED, f"{path} belongs to somebody else; set XDG_RUNTIME_DIR to a folder of your own")
+        raise Failure(OUTPUT_FAILED, f"{path} belongs to somebody else; set XDG_RUNTIME_DIR or HOME to a folder of your own")
     if stat.S_IMODE(found.st_mode) != 0o700:
         path.chmod(0o700)
 
@@ -38,7 +51,8 @@ class Entry:
         self.path = folder() / f"{run}.json"
         self.run = run
         self.key = "" if protection == "off" else f"{protection}:{secrets.token_hex(KEY_BYTES)}"
-        self.content = {"run": run, "dir": str(directory), "case": case, "pid": os.getpid(), "key": self.key}
+        self.content = {"run": run, "dir": str(directory), "case": case, "pid": os.getpid(),
+                        "born": processes.start_time(os.getpid()), "key": self.key}
 
     def __enter__(self):
         _make_folder(self.path.parent)
@@ -59,17 +73,18 @@ def running_in(directory):
             entry = json.loads(path.read_text(encoding="utf-8"))
             if Path(entry["dir"]) == Path(directory).resolve():
                 return int(entry["pid"])
-        except (OSError, ValueError, KeyError):
+        except (OSError, ValueError, KeyError, TypeError):
             continue
     return None
 
 
 def _forget_dead_runs(entries):
-    """Removes what launchers left behind that were killed with SIGKILL."""
+    """Removes what launchers left behind that were killed with SIGKILL. Another process may have their number by now."""
     for path in entries.glob("*.json"):
         try:
-            os.kill(int(json.loads(path.read_text(encoding="utf-8"))["pid"]), 0)
-        except ProcessLookupError:
-            path.unlink(missing_ok=True)
-        except (OSError, ValueError, KeyError):
+            entry = json.loads(path.read_text(encoding="utf-8"))
+            born = processes.start_time(int(entry["pid"]))
+        except (OSError, ValueError, KeyError, TypeError):
             continue
+        if born == 0 or born != entry.get("born", born):
+            path.unlink(missing_ok=True)

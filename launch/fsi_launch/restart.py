@@ -1,6 +1,7 @@
 """Checkpoints of a run: which one a restart goes on from."""
 
 import json
+import math
 import zlib
 from dataclasses import dataclass
 from pathlib import Path
@@ -28,16 +29,41 @@ def _crc32(path):
     return checksum
 
 
-def _opened(path):
-    """The Set in a folder. Throws ValueError that says what is wrong with it."""
+def _number(owner, key, kind):
+    """A number of the manifest that is finite and not negative. Throws ValueError that names it."""
+    value = owner.get(key)
+    if isinstance(value, bool) or not isinstance(value, kind) or not math.isfinite(value) or value < 0:
+        raise ValueError(f"is damaged: in its manifest.json, {key} is {value!r}")
+    return value
+
+
+def _manifest(path):
+    """(Set, digest of its case, {file: entry}) from a manifest. Throws ValueError that says what is wrong with it."""
     try:
-        manifest = json.loads((path / "manifest.json").read_text(encoding="utf-8"))
-        found = Set(path, int(manifest["step"]), float(manifest["t"]))
-        files = {path / entry["file"]: entry for entry in manifest["files"].values()}
+        manifest = json.loads(path.read_text(encoding="utf-8"))
     except OSError:
         raise ValueError("is not complete") from None
-    except (ValueError, KeyError, TypeError, AttributeError):
-        raise ValueError("is damaged: its manifest.json cannot be read") from None
+    except (ValueError, RecursionError) as error:
+        raise ValueError(f"is damaged: its manifest.json cannot be read: {error}") from None
+    if not isinstance(manifest, dict) or not isinstance(manifest.get("files"), dict) or not manifest["files"]:
+        raise ValueError("is damaged: its manifest.json names no files")
+    step = _number(manifest, "step", int)
+    if step != int(path.parent.name):
+        raise ValueError(f"is damaged: in its manifest.json, step is {step}")
+    files = {}
+    for name, entry in manifest["files"].items():
+        file = entry.get("file") if isinstance(entry, dict) else None
+        if not isinstance(file, str) or file != Path(file).name:
+            raise ValueError(f"is damaged: its manifest.json names no file of {name}")
+        files[path.parent / file] = {key: _number(entry, key, int) for key in ("bytes", "crc32")}
+    return Set(path.parent, step, float(_number(manifest, "t", (int, float)))), manifest.get("case"), files
+
+
+def _opened(path, digest):
+    """The Set in a folder, of the case with this digest. Throws ValueError that says what is wrong with it."""
+    found, case, files = _manifest(path / "manifest.json")
+    if digest is not None and case != digest:
+        raise ValueError("is of another case")
     for file, entry in files.items():
         try:
             if file.stat().st_size != entry["bytes"] or _crc32(file) != entry["crc32"]:
@@ -49,14 +75,15 @@ def _opened(path):
 
 def _folders(directory):
     """Folders of sets, the latest first."""
-    return sorted((path for path in (directory / "checkpoints").glob("[0-9]*") if path.is_dir()), reverse=True)
+    return sorted((path for path in (directory / "checkpoints").glob("[0-9]*") if path.is_dir() and path.name.isdecimal()),
+                  key=lambda path: int(path.name), reverse=True)
 
 
-def latest(directory, say=lambda text: None):
-    """The latest Set that is whole, or None; `say` hears about those that are not."""
+def latest(directory, say=lambda text: None, digest=None):
+    """The latest Set that is whole and of the case with this digest, or None; `say` hears about those that are not."""
     for path in _folders(directory):
         try:
-            return _opened(path)
+            return _opened(path, digest)
         except ValueError as flaw:
             say(f"the checkpoint of step {int(path.name)} {flaw}")
     return None
@@ -70,14 +97,18 @@ def expect_over(directory, option):
         raise UserMistake(f"{option}: {left[0].name} of the former run is still alive (pid {left[0].pid}); wait for its end")
 
 
-def choose(directory, say):
-    """The Set that a restart of the run in `directory` goes on from."""
+def expect_run(directory):
+    """In `directory` is a run that is over and has left checkpoints."""
     if not (directory / "case.yaml").is_file():
         raise UserMistake(f"--restart {directory} holds no run; name the folder of a run")
     expect_over(directory, f"--restart {directory}")
     if not _folders(directory):
         raise UserMistake(f"--restart {directory} has no checkpoint; begin anew, with --set output.checkpoint_every=N")
-    if (found := latest(directory, say)) is None:
+
+
+def choose(directory, say, digest):
+    """The Set that a restart of the run in `directory`, of the case with this digest, goes on from."""
+    if (found := latest(directory, say, digest)) is None:
         raise Failure(OUTPUT_FAILED, f"none of the checkpoints of {directory} can be used; begin anew")
     say(f"goes on from the checkpoint of step {found.step}, t = {found.t:.6g}")
     return found

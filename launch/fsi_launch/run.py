@@ -1,8 +1,8 @@
 """`fsi run`: one case from its file to its summary."""
 
 import contextlib
+import os
 import shutil
-import signal
 import subprocess
 import sys
 import time
@@ -10,15 +10,15 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from fsi_launch import case as cases
-from fsi_launch import interrupts, paths, probes, registry, restart, summary
-from fsi_launch.failure import (DONE, EXPECTATION_MISSED, Failure, INTERRUPTED, NUMBERS_BROKE, OUTPUT_FAILED,
-                                PEER_LOST, TERMINATED, UserMistake)
+from fsi_launch import interrupts, paths, probes, registry, restart, summary, verdict
+from fsi_launch.failure import (DONE, EXPECTATION_MISSED, Failure, NUMBERS_BROKE, OUTPUT_FAILED, USER_MISTAKE, UserMistake)
 from fsi_launch.progress import Progress
 from fsi_launch.supervise import Outcome, Program, Supervisor
 from fsi_launch.watch import Monitor
 
 
 FRAMES = 60     # of a movie
+COUPLER = "coupler"     # the participant of that name looks after the others
 OF_A_RUN = ("case.yaml", "summary.json", "log", "parts", "fields", "checkpoints", "last_state", "plots", "*.csv", "run.xmf",
             "fluid.h5", "solid_*.h5", "reference.h5")
 
@@ -35,6 +35,7 @@ class Request:
     restart: str = None     # folder of the run to go on with
     progress: bool = True
     monitor: bool = False   # in front, on a terminal
+    pause_at: int = None    # after so many steps
     quiet: bool = False
     judge: bool = True      # hold the results against the case's expectations
     protection: str = "sign"    # of the bus: off, sign or encrypt
@@ -96,13 +97,31 @@ def _make_directory(request, name):
 # --- the programs
 
 
-def _programs(case, directory, entry, checkpoint):
+def _programs(case, directory, entry, checkpoint, reports, pause_at):
+    """`reports`: {name: file in memory} for a copy of what each leaves."""
     common = ["--case", str(directory / "case.yaml"), "--run-dir", str(directory), "--run", entry.run]
     if checkpoint:
         common += ["--restart", str(checkpoint.path)]
-    return [Program(name, [paths.program(program), *common, "--name", name], listen=name == case.speaker(),
-                    environment={"AMP_FSI_KEY": entry.key})
+    own = {case.speaker(): [] if pause_at is None else ["--pause-at", str(pause_at)]}
+    return [Program(name, [paths.program(program), *common, "--name", name, *own.get(name, [])], listen=name == case.speaker(),
+                    environment={"AMP_FSI_KEY": entry.key}, report=reports[name], tell_pids=name == COUPLER)
             for name, program in case.programs.items()]
+
+
+@contextlib.contextmanager
+def _in_memory(names):
+    """{name: descriptor of a file that no full disk stops}"""
+    with contextlib.ExitStack() as stack:
+        reports = {}
+        for name in names:
+            reports[name] = os.memfd_create(f"report of {name}")
+            stack.callback(os.close, reports[name])
+        yield reports
+
+
+def _copies(reports):
+    """{name: text of the report}"""
+    return {name: os.pread(report, os.fstat(report).st_size, 0).decode("utf-8", "replace") for name, report in reports.items()}
 
 
 def _reference(case, directory):
@@ -112,76 +131,6 @@ def _reference(case, directory):
         return []
     command = [paths.program(program), "--case", str(directory / "case.yaml"), "--run-dir", str(directory)]
     return [Program("reference", command)]
-
-
-def _last_line(directory, name):
-    """The last words of a program, for when it left no reason."""
-    try:
-        lines = (directory / "log" / f"{name}.out").read_text(encoding="utf-8", errors="replace").split("\n")
-    except OSError:
-        return ""
-    return next((line.strip() for line in reversed(lines) if line.strip()), "")
-
-
-def _is_consequence(ending):
-    """Programs that end because another one did: by losing it, or by our signal."""
-    return ending.ours or ending.code in (PEER_LOST, INTERRUPTED, TERMINATED)
-
-
-def _is_echo(reason, name, names):
-    """True if a program only repeats what another one said when it ended the run: "solid: step 12, ..."."""
-    return any(reason.startswith(f"{other}: ") for other in names if other != name)
-
-
-def root_cause(endings, reasons=None):
-    """The ending that made the others fail, or None when all went well. `reasons` is what each program left."""
-    reasons = reasons or {}
-    failures = [ending for ending in endings if ending.code != 0]
-    causes = [ending for ending in failures if not _is_consequence(ending)] or failures
-    names = {ending.name for ending in endings}
-    own = [ending for ending in causes if not _is_echo(reasons.get(ending.name, ""), ending.name, names)]
-    return next(iter(own or causes), None)
-
-
-def _explain(ending, case, directory):
-    """(exit code, reason) of the run from the ending that caused it."""
-    program = case.programs.get(ending.name, ending.name)
-    label = ending.name if program == ending.name else f"{ending.name} ({program})"
-    if ending.lost():
-        name = signal.Signals(-ending.code).name
-        words = _last_line(directory, ending.name)
-        return PEER_LOST, f"lost {label}: ended by {name}" + (f"; its last words: {words}" if words else "")
-    if ending.ours:
-        return PEER_LOST, f"lost {label}: it did not end by itself"
-    reason = _reasons(case, directory).get(ending.name) or _last_line(directory, ending.name)
-    code = ending.code if ending.code in range(1, 6) else PEER_LOST
-    if _is_echo(reason, ending.name, case.programs):
-        return code, reason
-    reason = reason or f"exit code {ending.code}"
-    if code == PEER_LOST and len(case.programs) == 1:  # it had nobody to lose but itself
-        return code, f"lost {label}: {reason}"
-    return code, f"{ending.name}: {reason}"
-
-
-def _reasons(case, directory):
-    """{participant: the reason it left for ending badly}"""
-    return {name: part["reason"] for name, part in summary.read_parts(directory, case.programs).items()
-            if part.get("reason")}
-
-
-def _judge(outcome, case, directory):
-    """(exit code, status, reason) of a run whose programs have all ended."""
-    if outcome.signal == signal.SIGINT:
-        return INTERRUPTED, "failed", "interrupted (Ctrl-C)"
-    if outcome.signal:
-        return TERMINATED, "failed", f"ended on request ({signal.Signals(outcome.signal).name})"
-    if cause := root_cause(outcome.endings, _reasons(case, directory)):
-        code, reason = _explain(cause, case, directory)
-        return code, "failed", reason
-    for part in summary.read_parts(directory, case.programs).values():
-        if part.get("status") == "stopped":
-            return DONE, "stopped", part.get("reason") or "stopped on request"
-    return DONE, "completed", ""
 
 
 def _write_xdmf(directory):
@@ -201,22 +150,22 @@ def _supervise(case, directory, programs, progress, tick):
     for programs in (_reference(case, directory), programs):
         supervisor = Supervisor(directory / "log", progress.hear, tick)
         outcome = supervisor.run(programs)
-        if outcome.signal or root_cause(outcome.endings):
+        if outcome.signal or verdict.root_cause(outcome.endings):
             break
     return outcome
 
 
-def _watched(case, directory, entry, checkpoint, request, say):
+def _watched(case, directory, programs, run, request, say):
     """The Outcome of all programs, while a person sees how far they are."""
     progress = Progress(request.progress and not request.quiet)
     with contextlib.ExitStack() as stack:
-        monitor = stack.enter_context(Monitor(entry.run, say)) if request.monitor else None
+        monitor = stack.enter_context(Monitor(run, say)) if request.monitor else None
 
         def tick():
             if monitor is None or not monitor.in_front():
                 progress.tick()
 
-        outcome = _supervise(case, directory, _programs(case, directory, entry, checkpoint), progress, tick)
+        outcome = _supervise(case, directory, programs, progress, tick)
         if monitor and not outcome.signal:
             monitor.wait()
     progress.close()
@@ -253,9 +202,10 @@ def _begin(request, say):
         if request.out or request.overwrite:
             raise UserMistake("--restart goes on in the folder of the run; leave --out and --overwrite away")
         directory = Path(request.restart)
-        checkpoint = restart.choose(directory, say)
+        restart.expect_run(directory)
         former = str(directory / "case.yaml")
         case = _resolved(request, request.case or former, former)
+        checkpoint = restart.choose(directory, say, case.digest)
         if case.end < checkpoint.t:
             raise UserMistake(f"time.end = {case.end:g} lies before the checkpoint's t = {checkpoint.t:.6g}; "
                               "a restart can only go on")
@@ -272,10 +222,17 @@ def run(request):
     say(f"{case.name}: {', '.join(case.programs.values())}")
 
     start = time.monotonic()
-    with interrupts.held(), registry.Entry(identity, directory.resolve(), case.name, request.protection) as entry, interrupts.heard():
-        outcome = _watched(case, directory, entry, checkpoint, request, say)
-    code, status, reason = _judge(outcome, case, directory)
-    result = summary.merge(directory, case, status, reason, time.monotonic() - start)
+    with _in_memory(case.programs) as reports:
+        entered = registry.Entry(identity, directory.resolve(), case.name, request.protection)
+        with interrupts.held(), entered as entry, interrupts.heard():
+            programs = _programs(case, directory, entry, checkpoint, reports, request.pause_at)
+            outcome = _watched(case, directory, programs, identity, request, say)
+        parts = summary.read_parts(directory, case.programs, _copies(reports))
+    found = verdict.judge(outcome, case, directory, parts)
+    code, status, reason = found.code, found.status, found.reason
+    result = summary.merge(parts, case, status, reason, time.monotonic() - start)
+    if found.failure:
+        result["failure"] = found.failure
     if checkpoint:
         result["restart"] = {"step": checkpoint.step, "t": checkpoint.t}
     try:
@@ -289,21 +246,21 @@ def run(request):
     try:
         summary.write(directory, result)
     except OSError as error:
-        _report(result, directory, missed, request.quiet)
+        _report(result, directory, missed, request.quiet, case.digest if code != USER_MISTAKE else None)
         raise Failure(OUTPUT_FAILED, f"cannot write {directory / 'summary.json'}: {error.strerror}; the run itself {status} at "
                                      f"t = {result['t']:g}{f': {reason}' if reason else ''}") from None
-    _report(result, directory, missed, request.quiet)
+    _report(result, directory, missed, request.quiet, case.digest if code != USER_MISTAKE else None)
     if code == NUMBERS_BROKE and case.projection == "traditional":
         print("fsi: the traditional scheme breaks where the solid is light (docs/theory_coupler.md); "
               "--set interface.projection=simplified does not", file=sys.stderr)
     return Result(EXPECTATION_MISSED if code == DONE and missed else code, directory, result)
 
 
-def _report(result, directory, missed, quiet):
-    """Prints the summary, and each offence on a line of its own."""
+def _report(result, directory, missed, quiet, restarts):
+    """Prints the summary, and each offence on a line of its own. `restarts`: digest of the case whose checkpoints would help."""
     if not quiet:
         print(summary.describe(result, directory), flush=True)
     for line in missed + ([result["reason"]] if result["status"] == "failed" else []):
         print(f"fsi: {line}", file=sys.stderr)
-    if result["status"] != "completed" and (found := restart.latest(directory)):
+    if result["status"] != "completed" and restarts and (found := restart.latest(directory, digest=restarts)):
         print(f"fsi: ./launch/fsi run --restart {directory} goes on from step {found.step}", file=sys.stderr)

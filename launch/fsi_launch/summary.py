@@ -1,5 +1,6 @@
 """summary.json: the parts every program leaves in DIR/parts, merged, and what the case expects of it."""
 
+import contextlib
 import json
 import math
 import os
@@ -10,15 +11,16 @@ PARTICIPANT_KEYS = ("role", "status", "points", "substeps", "compute_s", "wait_s
                     "peak_memory_mib")
 
 
-def read_parts(directory, participants):
-    """{participant: part}; a program that left no part is not in it."""
+def read_parts(directory, participants, copies=None):
+    """{participant: part}; a program that left no part is not in it. `copies`: texts of parts that a full disk may lack."""
     parts = {}
     for name in participants:
         try:
             parts[name] = json.loads((Path(directory) / "parts" / f"{name}.json").read_text(encoding="utf-8"))
         except (OSError, ValueError):
-            continue
-    return parts
+            with contextlib.suppress(ValueError):
+                parts[name] = json.loads((copies or {}).get(name, ""))
+    return {name: part for name, part in parts.items() if isinstance(part, dict)}
 
 
 def _merged(parts, key, combine):
@@ -47,10 +49,9 @@ def _noise(parts):
     return max(found, key=lambda noise: noise["value"] or 0, default=None)
 
 
-def merge(directory, case, status, reason, wall_s):
-    """The summary of a run, whatever became of it. `case` is the launcher's Case."""
+def merge(parts, case, status, reason, wall_s):
+    """The summary of a run, whatever became of it, from what its programs left. `case` is the launcher's Case."""
     participants = case.programs
-    parts = read_parts(directory, participants)
     speaker = parts.get(case.speaker()) or max(parts.values(), key=lambda part: part.get("t", 0), default={})
     summary = {
         "status": status, "reason": reason, "case": case.name,

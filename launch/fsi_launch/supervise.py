@@ -1,7 +1,8 @@
 """Runs the programs of one run side by side, each in a session of its own, and sees to it that all of them end.
 
 When one fails, the others notice on the bus and end by themselves; whoever has not done so after `GRACE` seconds is
-terminated, then killed; one that is stopped (SIGSTOP) cannot, and is killed at once. Ctrl-C and SIGTERM end all of them the same way.
+terminated, then killed; one that is stopped (SIGSTOP) cannot, and is killed at once. Before the run has begun nobody can notice
+anything, and there is nothing to save: then all end at once. Ctrl-C and SIGTERM end all of them the same way.
 """
 
 import contextlib
@@ -17,9 +18,11 @@ from dataclasses import dataclass, field
 from fsi_launch import interrupts, processes
 
 GRACE = 4.0         # [s] from a program's failure to SIGTERM for the others: they should have ended by then
+NOT_BEGUN = 0.5     # [s] the same before everybody has joined
 KILL_AFTER = 1.0    # [s] from that SIGTERM to SIGKILL
-STOP_GRACE = 40.0   # [s] from Ctrl-C or SIGTERM to SIGKILL: a checkpoint is written, which may take a long step
-AFTER_STOP = 1.0    # [s] from the first end after that to SIGTERM for the others
+STOP_GRACE = 60.0   # [s] from Ctrl-C or SIGTERM to SIGKILL: a checkpoint is written, which takes two steps; so
+STOP_STEPS = 4      # many times more than the longest time between two lines of progress
+AFTER_STOP = 5.0    # [s] from the first end after that to SIGTERM for the others
 LAST_GRACE = 60.0   # [s] from the first program's good end to SIGTERM for the others: results may be written
 PIPE_SIZE = 1 << 20
 PR_SET_PDEATHSIG = 1
@@ -36,16 +39,20 @@ class Program:
     command: list
     listen: bool = False
     environment: dict = field(default_factory=dict)     # besides the launcher's own
+    tell_pids: bool = False     # by --pids, of those that were started before
+    report: int = None  # descriptor of a file in memory for a copy of what it leaves (AMP_FSI_REPORT)
 
 
 @dataclass
 class Ending:
-    """How a program ended. `ours`: the supervisor sent it the signal."""
+    """How a program ended. `ours`: the supervisor sent it the signal. `early`: it ended as if all were well, but the run had
+    not begun."""
 
     name: str
     code: int
     when: float
     ours: bool = False
+    early: bool = False
 
     def lost(self):
         return self.code < 0 and not self.ours
@@ -85,6 +92,9 @@ class Supervisor:
         self._signalled = set()
         self._terminate_at = self._kill_at = float("inf")
         self._outcome = Outcome()
+        self._begun = True          # everybody has joined, as far as one knows
+        self._drain = lambda: None  # takes in what the program that listens has said
+        self._last_line, self._longest_pause = None, 0.0    # between two lines of progress
 
     def run(self, programs):
         """Starts all, returns the Outcome when none is left."""
@@ -92,6 +102,7 @@ class Supervisor:
             if number := interrupts.asked():  # and yet we came here: its exception got lost
                 self._outcome.signal = number
                 return self._outcome
+            self._begun = len(programs) == 1 or not any(program.listen for program in programs)
             try:
                 for program in programs:
                     self._start(program)
@@ -106,12 +117,17 @@ class Supervisor:
     # --- starting
 
     def _start(self, program):
+        environment, command = os.environ | program.environment, list(program.command)
+        if program.report is not None:
+            environment["AMP_FSI_REPORT"] = str(program.report)
+        if program.tell_pids:
+            command += ["--pids", ",".join(f"{name}={process.pid}" for name, process in self._processes.items())]
         with contextlib.ExitStack() as stack:
             log = stack.enter_context(open(self._log_dir / f"{program.name}.out", "ab"))
             process = subprocess.Popen(
-                program.command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE if program.listen else log,
-                stderr=log, start_new_session=True, preexec_fn=_child_setup(os.getpid()),
-                env=os.environ | program.environment)
+                command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE if program.listen else log,
+                stderr=log, start_new_session=True, preexec_fn=_child_setup(os.getpid()), env=environment,
+                pass_fds=() if program.report is None else (program.report,))
         self._processes[program.name] = process
         pidfd = os.pidfd_open(process.pid)
         self._pidfds[program.name] = pidfd
@@ -126,6 +142,8 @@ class Supervisor:
         rest = bytearray()
 
         def read():
+            if pipe.closed:
+                return
             data = pipe.read(65536)
             if data == b"":
                 self._selector.unregister(pipe)
@@ -135,9 +153,19 @@ class Supervisor:
             *lines, tail = rest.split(b"\n")
             rest[:] = tail
             for line in lines:
-                self._on_line(line.decode("utf-8", "replace"))
+                self._heard(line.decode("utf-8", "replace"))
 
         self._selector.register(pipe, selectors.EVENT_READ, read)
+        self._drain = read
+
+    def _heard(self, line):
+        self._begun = self._begun or line.startswith(("joined", "progress "))
+        if line.startswith("progress "):
+            now = time.monotonic()
+            if self._last_line is not None:
+                self._longest_pause = max(self._longest_pause, now - self._last_line)
+            self._last_line = now
+        self._on_line(line)
 
     # --- waiting
 
@@ -149,10 +177,21 @@ class Supervisor:
         process = self._processes.pop(name)
         self._selector.unregister(self._pidfds[name])
         os.close(self._pidfds.pop(name))
+        if not self._begun:
+            self._drain()
         ending = Ending(name, process.wait(), time.monotonic(), name in self._signalled)
+        ending.early = ending.code == 0 and not self._begun
         self._outcome.endings.append(ending)
-        grace = AFTER_STOP if self._outcome.signal else LAST_GRACE if ending.code == 0 else GRACE
+        grace = self._grace_after(ending)
         self._end_by(ending.when + grace, ending.when + grace + KILL_AFTER)
+
+    def _grace_after(self, ending):
+        """[s] that the others have then."""
+        if not self._begun:
+            return NOT_BEGUN
+        if ending.code == 0:
+            return LAST_GRACE
+        return AFTER_STOP if self._outcome.signal else GRACE
 
     def _end_by(self, terminate_at, kill_at):
         self._terminate_at = min(self._terminate_at, terminate_at)
@@ -160,7 +199,7 @@ class Supervisor:
 
     def _keep_deadlines(self):
         now = time.monotonic()
-        if any(ending.code != 0 for ending in self._outcome.endings) and not self._outcome.signal:
+        if any(ending.code != 0 or ending.early for ending in self._outcome.endings) and not self._outcome.signal:
             self._send(signal.SIGKILL, self._stopped())
         if now >= self._kill_at:
             self._send(signal.SIGKILL)
@@ -222,4 +261,5 @@ class Supervisor:
                 self._end_by(now, now)
             else:
                 self._outcome.signal = number
-                self._end_by(now, now + STOP_GRACE)
+                pause = 0.0 if self._last_line is None else max(self._longest_pause, now - self._last_line)
+                self._end_by(now, now + STOP_GRACE + STOP_STEPS * pause)

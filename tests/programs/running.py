@@ -6,32 +6,51 @@ import signal
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 from pathlib import Path
 
 ROOT = Path(os.environ.get("FSI_ROOT") or Path(__file__).resolve().parents[2])
 BIN = Path(os.environ.get("FSI_BIN") or ROOT / "build" / "release" / "bin")
 FSI = ROOT / "launch" / "fsi"
-WATCHDOG = 120.0  # [s] nothing here may take longer
+WATCHDOG = 300.0  # [s] nothing here takes as long on any machine: who waits for so long waits for ever
+
+# Steps so small that no machine comes to the end of the run while a test lasts: it is in its middle whenever something is done
+# to it. It has one output behind it after ten steps.
+LONG = ("elastic_piston", "--set", "grid.factor=2", "--set", "time.dt=1e-7", "--set", "output.times=[1e-6, 0.8]",
+        "--set", "expect={}")
 
 sys.path.insert(0, str(ROOT / "launch"))
 from fsi_launch import processes  # noqa: E402
 
 
-def until(condition, seconds=30.0):
-    """Waits for `condition()` to hold; returns its value, false after `seconds`."""
-    return processes.until(condition, seconds)
+def until(condition):
+    """Waits for `condition()` to hold; returns its value, false where it never does."""
+    return processes.until(condition, WATCHDOG)
+
+
+def let_pass(seconds):
+    """Time in which nothing must happen. What a test says about it holds however slow the machine is; it never stands for the
+    time that something takes."""
+    time.sleep(seconds)
+
+
+# A launcher that waits for programs to end by themselves instead of ending them after a while.
+PATIENT = "from fsi_launch import supervise\nsupervise.GRACE = supervise.AFTER_STOP = supervise.STOP_GRACE = 1e6\n"
 
 
 class Launched:
-    """A running `./launch/fsi run`; its results go to `directory`, or where the arguments say if `out` is None."""
+    """A running `./launch/fsi run`; its results go to `directory`, or where the arguments say if `out` is None. `script`: lines of
+    Python that the launcher executes before."""
 
-    def __init__(self, folder, *arguments, out="run"):
+    def __init__(self, folder, *arguments, out="run", script=None):
         self.directory = folder / (out or "")
         self.runtime = folder / "runtime"
         self.runtime.mkdir(exist_ok=True)
-        command = [str(FSI), "run", *arguments, *(["--out", str(self.directory)] if out else [])]
-        environment = os.environ | {"FSI_BIN": str(BIN), "XDG_RUNTIME_DIR": str(self.runtime)}
+        main = "import sys\nfrom fsi_launch import cli\nsys.exit(cli.main(sys.argv[1:]))"
+        begin = [str(FSI)] if script is None else ["/usr/bin/python3", "-s", "-B", "-c", f"{script}\n{main}"]
+        command = [*begin, "run", *arguments, *(["--out", str(self.directory)] if out else [])]
+        environment = os.environ | {"FSI_BIN": str(BIN), "XDG_RUNTIME_DIR": str(self.runtime), "PYTHONPATH": str(ROOT / "launch")}
         self.process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                                         stderr=subprocess.PIPE, text=True, env=environment, cwd=folder)
         self.stdout = self.stderr = ""
@@ -43,9 +62,48 @@ class Launched:
 
     def until_stepping(self):
         """Waits until steps are being taken; returns the programs."""
-        table = self.directory / "interface.csv"
-        assert until(lambda: table.is_file() and table.stat().st_size > 2000), "the run does not get going"
+        assert until(lambda: self.written() > 2000), "the run does not get going"
         return self.programs()
+
+    def until_further(self, size=5000):
+        """Waits until more steps have been taken."""
+        before = self.written()
+        assert until(lambda: self.written() > before + size), "the run does not go on"
+
+    def until_paused(self):
+        """Waits until a run with --pause-at has come there; returns the programs."""
+        assert until(lambda: " paused after " in self.log(self.speaker)), "the run does not pause"
+        return self.programs()
+
+    speaker = "coupler"
+
+    def log(self, name):
+        """What a program has logged so far."""
+        path = self.directory / "log" / f"{name}.log"
+        return path.read_text(encoding="utf-8", errors="replace") if path.is_file() else ""
+
+    def written(self):
+        """Bytes of the table that has a line per step."""
+        table = self.directory / "interface.csv"
+        return table.stat().st_size if table.is_file() else 0
+
+    def table(self):
+        """Its lines."""
+        return (self.directory / "interface.csv").read_text(encoding="utf-8").splitlines()
+
+    def ctl(self, word):
+        """Asks the run for something."""
+        environment = os.environ | {"FSI_BIN": str(BIN), "XDG_RUNTIME_DIR": str(self.runtime)}
+        subprocess.run([str(FSI), "ctl", str(self.directory), word], check=True, env=environment, timeout=WATCHDOG,
+                       capture_output=True, stdin=subprocess.DEVNULL)
+
+    def checkpoints(self):
+        """Steps of its whole sets."""
+        return sorted(int(path.parent.name) for path in self.directory.glob("checkpoints/*/manifest.json"))
+
+    def part(self, name):
+        """What a program has left."""
+        return json.loads((self.directory / "parts" / f"{name}.json").read_text(encoding="utf-8"))
 
     def programs(self):
         """{executable: pid} of its living programs."""
@@ -67,8 +125,8 @@ class EndToEnd(unittest.TestCase):
         self.addCleanup(scratch.cleanup)
         self.folder = Path(scratch.name)
 
-    def launch(self, *arguments, out="run"):
-        run = Launched(self.folder, *arguments, out=out)
+    def launch(self, *arguments, out="run", script=None):
+        run = Launched(self.folder, *arguments, out=out, script=script)
         self.addCleanup(self._end, run)
         return run
 
@@ -88,5 +146,5 @@ class EndToEnd(unittest.TestCase):
         run.process.wait()
 
     def assert_nothing_left(self, run):
-        until(lambda: not run.leftovers(), 5)
+        until(lambda: not run.leftovers())
         self.assertEqual(run.leftovers(), [])

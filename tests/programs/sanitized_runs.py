@@ -15,7 +15,6 @@ import signal
 import subprocess
 import sys
 import tempfile
-import time
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -24,7 +23,7 @@ FINDING = re.compile(r"WARNING: ThreadSanitizer|ERROR: (?:Address|Leak)Sanitizer
 ENDS = 600.0    # [s] for a run to end by itself
 COMMON = ("--no-progress", "--set", "expect={}", "--set", "time.peer_timeout=60")
 PISTON = ("elastic_piston", *COMMON, "--set", "grid.factor=2")
-LONG = (*PISTON, "--set", "time.dt=1e-5")
+LONG = (*PISTON, "--set", "time.dt=1e-7")
 
 Row = collections.namedtuple("Row", "title code expected findings")
 
@@ -43,8 +42,7 @@ def findings(folder):
 
 def until_stepping(run, size=2000):
     from running import until
-    table = run.directory / "interface.csv"
-    if not until(lambda: table.is_file() and table.stat().st_size > size, ENDS):
+    if not until(lambda: run.written() > size):
         raise RuntimeError(f"{run.directory} does not get going")
 
 
@@ -82,7 +80,6 @@ def steered(launch, *case):
     until_stepping(run)
     for word in ("pause", "checkpoint", "resume", "stop"):
         outside(run, "ctl", str(run.directory), word).communicate()
-        time.sleep(0.5)
     return run.wait()
 
 
@@ -94,11 +91,12 @@ def watched(launch, *case):
     recorder = outside(run, "monitor", str(run.directory), "--plain", "--record", str(run.directory / "recording.h5"))
     web = outside(run, "monitor", str(run.directory), "--web", "0")
     host, port, token = re.search(r"//([^:]+):(\d+)/#token=(\w+)", web.stdout.readline()).groups()
-    page = http.client.HTTPConnection(host, int(port), timeout=60)
+    page = http.client.HTTPConnection(host, int(port), timeout=ENDS)
     for method, path in (("GET", "/api/state.json"), ("GET", "/metrics"), ("POST", "/api/control?command=checkpoint")):
         page.request(method, path, headers={"X-AMP-FSI-Token": token})
         page.getresponse().read()
-    time.sleep(2)
+    for _ in range(3):
+        recorder.stdout.readline()
     code = stop(run)
     web.send_signal(signal.SIGINT)
     for process in (*monitors, recorder, web):
@@ -130,7 +128,9 @@ RUNS = [  # title, expected exit code, what is done, case
 
 def sanitized(title, expected, act, case, folder):
     """One Row; the run's folder vanishes with `folder`."""
+    import running
     from running import Launched
+    running.WATCHDOG = ENDS
     count = 0
 
     def launch(*words, out="run"):

@@ -5,8 +5,7 @@ import os
 import subprocess
 import unittest
 
-from running import BIN, EndToEnd, FSI, ROOT
-from test_lost_programs import LONG
+from running import BIN, EndToEnd, FSI, LONG, ROOT
 
 PISTON = (ROOT / "configs" / "elastic_piston.yaml").read_text(encoding="utf-8")
 

@@ -22,12 +22,12 @@ class Protection(EndToEnd):
 
     def test_programs_of_a_run_get_the_key_that_the_option_asks_for(self):
         for number, (option, kind) in enumerate(KEYS.items()):
-            run = self.launch(*SMALL, "--set", "time.dt=1e-5", *([option] if option else []), out=f"run{number}")
+            run = self.launch(*SMALL, "--set", "time.dt=1e-7", *([option] if option else []), out=f"run{number}")
             for pid in run.until_stepping().values():
                 with open(f"/proc/{pid}/environ", "rb") as environment:
                     variables = dict(entry.split(b"=", 1) for entry in environment.read().split(b"\0") if b"=" in entry)
                 self.assertEqual(variables[b"AMP_FSI_KEY"].decode().partition(":")[0], kind.rstrip(":"))
-            self.monitor(run, "--send", "stop")
+            self.monitor(run, str(run.directory), "--send", "stop")
             self.assertEqual(run.wait(), 0, run.stderr)
             self.assertEqual(run.summary()["status"], "stopped")
 

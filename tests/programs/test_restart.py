@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """A run goes on from its checkpoint as if it had never ended: all its files are the same to the bit."""
 
+import datetime
 import json
 import os
 import re
@@ -8,8 +9,7 @@ import shutil
 import signal
 import unittest
 
-from running import EndToEnd, until
-from test_lost_programs import LONG
+from running import EndToEnd, LONG, until
 
 CASES = {  # with the number of steps between checkpoints
     "elastic_piston": (10, "--set", "grid.factor=2", "--set", "output.every=0.1",
@@ -116,14 +116,14 @@ class Restart(Restarting):
 
 
 class Interrupted(Restarting):
-    """The same, where the run did end: by a signal, a request or a kill."""
+    """The same, where the run did end: by a signal, a request or a kill, after 250 steps and checkpoints of steps 100 and 200."""
 
     NAME = "elastic_piston"
-    LONG = ("--set", "time.dt=5e-4", "--set", "output.checkpoint_every=100")
+    STEPS = ("--set", "time.dt=1e-3", "--set", "output.checkpoint_every=100")
 
-    def begin(self, *more, out="run"):
-        run = self.launch(*self.case(self.NAME, *self.LONG, *more), out=out)
-        self.assertTrue(until(lambda: list(run.directory.glob("checkpoints/*/manifest.json"))))
+    def begin(self, *more):
+        run = self.launch(*self.case(self.NAME, *self.STEPS, "--pause-at", "250", *more))
+        run.until_paused()
         return run
 
     def restart(self, run, *more):
@@ -135,27 +135,27 @@ class Interrupted(Restarting):
         self.assertIn(f"--restart {run.directory}", run.stderr)
         again = self.restart(run)
         self.assertEqual(again.wait(), 0, again.stderr)
-        whole = self.complete(*self.case(self.NAME, *self.LONG), out="whole")
+        whole = self.complete(*self.case(self.NAME, *self.STEPS), out="whole")
         self.assert_same(whole, again)
 
     def kill_and_restart(self, program):
         run = self.begin()
+        self.assertEqual(run.checkpoints(), [100, 200])
         os.kill(run.programs()[program], signal.SIGKILL)
         self.assertEqual(run.wait(), 4, run.stderr)
         self.assert_restarts(run)
 
     def terminate_and_restart(self):
-        run = self.begin("--set", "output.checkpoint_every=100000", "--set", "output.checkpoint_seconds=0.5")
+        run = self.begin("--set", "output.checkpoint_every=100000")
         run.process.send_signal(signal.SIGTERM)
         self.assertEqual(run.wait(), 143, run.stderr)
-        newest = json.loads(sorted(run.directory.glob("checkpoints/*/manifest.json"))[-1].read_text())
-        self.assertEqual(newest["step"], run.summary()["steps"] + 1)
+        self.assertEqual(run.checkpoints(), [run.summary()["steps"] + 1])
         self.assert_restarts(run)
 
 
 class ProgramOfSomebodyElses(Interrupted):
     NAME = "spring_piston"
-    LONG = ("--set", "grid.factor=2", "--set", "time.dt=1e-3", "--set", "output.checkpoint_every=100")
+    STEPS = ("--set", "grid.factor=2", "--set", "time.dt=2.5e-3", "--set", "output.checkpoint_every=100")
 
     def test_killed_program(self):
         self.kill_and_restart("spring_piston")
@@ -175,32 +175,85 @@ class AfterAnEnd(Interrupted):
         self.terminate_and_restart()
 
     def test_checkpoints_by_the_clock_are_written_once_each(self):
-        run = self.launch(*self.case("elastic_piston", "--set", "time.dt=2e-4", "--set", "output.checkpoint_every=100000",
-                                     "--set", "output.checkpoint_seconds=0.3"))
+        """Ten of them take ten times their distance; two of successive steps each time would take half of it."""
+        run = self.launch(*LONG, "--set", "output.checkpoint_seconds=0.5")
+        found = []
 
-        def steps():
-            log = run.directory / "log" / "coupler.log"
-            return [int(step) for step in re.findall(r" checkpoint of step (\d+)", log.read_text() if log.exists() else "")]
-        self.assertTrue(until(lambda: len(steps()) >= 4))
+        def moments():
+            found[:] = re.findall(r"^(\S+ \S+) info checkpoint of step (\d+)", run.log("coupler"), re.MULTILINE)
+            return len(found) >= 10
+        self.assertTrue(until(moments))
+        begun = (run.directory / "case.yaml").stat().st_mtime
         run.process.send_signal(signal.SIGTERM)
         self.assertEqual(run.wait(), 143, run.stderr)
-        successive = [b for a, b in zip(steps()[:4], steps()[1:4]) if b == a + 1]
-        self.assertLess(len(successive), 2, f"checkpoints of steps {steps()}")  # one step may take so long
+        steps = [int(step) for _, step in found]
+        self.assertEqual(steps, sorted(set(steps)))
+        tenth = datetime.datetime.fromisoformat(found[9][0]).timestamp()  # both by the clock of the system
+        self.assertGreaterEqual(tenth - begun, 10 * 0.5 - 0.01)
 
-    def test_damaged_checkpoint_is_not_used(self):
+    def test_run_that_comes_to_its_end_although_it_was_asked_to_end_is_complete(self):
+        """SIGTERM comes when the last step has been taken and its answer is on its way."""
+        case = self.case("elastic_piston", "--set", "time.dt=1e-2", "--set", "output.times=[0.8]")
+        steps = self.complete(*case, out="whole").summary()["steps"]
+        run = self.launch(*case, "--pause-at", str(steps))
+        run.until_paused()
+        run.process.send_signal(signal.SIGTERM)
+        self.assertEqual(run.wait(), 0, run.stderr)
+        self.assertEqual((run.summary()["status"], run.summary()["steps"], run.summary()["t"]), ("completed", steps, 0.8))
+
+    def killed(self):
+        """A run that was killed; its sets are those of steps 100 and 200."""
         run = self.begin()
-        self.assertTrue(until(lambda: len(list(run.directory.glob("checkpoints/*/manifest.json"))) >= 2))
-        run.process.kill()
-        run.wait()
-        self.assertTrue(until(lambda: not run.programs()))
-        newest = sorted(run.directory.glob("checkpoints/*/manifest.json"))[-1].parent
-        with open(newest / "fluid.h5", "r+b") as file:
-            file.seek(5000)
-            file.write(b"damage")
+        for pid in run.programs().values():  # not the launcher: its death asks them to end after a checkpoint
+            os.kill(pid, signal.SIGKILL)
+        self.assertEqual(run.wait(), 4, run.stderr)
+        self.assertEqual(run.checkpoints(), [100, 200])
+        return run
+
+    def damaged(self, damage, words):
+        """The newest set is damaged by `damage(folder)`; the words say how, and the one before it is used."""
+        run = self.killed()
+        damage(run.directory / "checkpoints" / "00000200")
         again = self.restart(run)
         self.assertEqual(again.wait(), 0, again.stderr)
-        self.assertIn(f"the checkpoint of step {int(newest.name)} is damaged: fluid.h5", again.stderr)
-        self.assertNotIn(f"goes on from the checkpoint of step {int(newest.name)}", again.stderr)
+        self.assertIn(f"the checkpoint of step 200 {words}", again.stderr)
+        self.assertIn("goes on from the checkpoint of step 100,", again.stderr)
+        self.assertNotIn("Traceback", again.stderr)
+
+    def test_damaged_checkpoint_is_not_used(self):
+        def damage(folder):
+            with open(folder / "fluid.h5", "r+b") as file:
+                file.seek(5000)
+                file.write(b"damage")
+        self.damaged(damage, "is damaged: fluid.h5")
+
+    def test_manifest_with_impossible_numbers_is_not_used(self):
+        def damage(folder):
+            manifest = folder / "manifest.json"
+            manifest.write_text(manifest.read_text().replace('"step": 200', '"step": 1e400'))
+        self.damaged(damage, "is damaged: in its manifest.json, step is inf")
+
+    def test_set_of_another_case_is_not_used(self):
+        def damage(folder):
+            other = self.complete(*self.case("elastic_piston", *self.STEPS, "--set", "parameters.density_ratio=2"), out="other")
+            shutil.rmtree(folder)
+            shutil.copytree(other.directory / "checkpoints" / f"{other.checkpoints()[0]:08}", folder)
+            manifest = json.loads((folder / "manifest.json").read_text())
+            (folder / "manifest.json").write_text(json.dumps(manifest | {"step": 200}))
+        self.damaged(damage, "is of another case")
+
+    def test_emptied_output_of_the_series_that_goes_on_is_named(self):
+        for name, kept in (("emptied", 0), ("cut", 3000)):
+            run = self.launch(*self.case("elastic_piston", *self.STEPS, "--set", "output.every=0.1", "--pause-at", "250"), out=name)
+            run.until_paused()
+            run.process.send_signal(signal.SIGTERM)
+            self.assertEqual(run.wait(), 143, run.stderr)
+            output = run.directory / "fields" / "fluid_000001.h5"
+            output.write_bytes(output.read_bytes()[:kept])
+            again = self.restart(run)
+            self.assertEqual(again.wait(), 5, again.stderr)
+            self.assertRegex(again.stderr, r"fluid: '.*fields/fluid_000001\.h5' is damaged")
+            self.assertEqual(again.summary()["status"], "failed")
 
     def test_another_case_is_refused_with_what_differs(self):
         run = self.begin()

@@ -16,8 +16,7 @@ import urllib.parse
 import urllib.request
 
 import browser
-from running import BIN, EndToEnd, FSI, until
-from test_lost_programs import LONG
+from running import BIN, EndToEnd, FSI, LONG, WATCHDOG, until
 
 NOT_INSTALLED = 77  # exit code that CTest shows as skipped
 
@@ -49,7 +48,7 @@ class WebTest(EndToEnd):
         return run, self.serve(run, str(run.directory))
 
     def get(self, path, **headers):
-        with urllib.request.urlopen(urllib.request.Request(self.url + path, headers=headers), timeout=10) as answer:
+        with urllib.request.urlopen(urllib.request.Request(self.url + path, headers=headers), timeout=WATCHDOG) as answer:
             return answer.read().decode()
 
     def state(self):
@@ -59,7 +58,7 @@ class WebTest(EndToEnd):
         request = urllib.request.Request(f"{self.url}api/control?command={command}", method="POST",
                                          headers={"X-AMP-FSI-Token": token})
         try:
-            with urllib.request.urlopen(request, timeout=10) as answer:
+            with urllib.request.urlopen(request, timeout=WATCHDOG) as answer:
                 return answer.status
         except urllib.error.HTTPError as error:
             with error:
@@ -73,7 +72,7 @@ class Server(WebTest):
         self.assertTrue(until(lambda: len(self.state()["participants"]) == 3))
         self.assertEqual(self.state()["status"], "running")
         self.assertIn("solid", self.state()["interfaces"])
-        self.assertGreater(len(json.loads(self.get("api/history.json"))["history"]["solid.gap"]), 3)
+        self.assertTrue(until(lambda: len(json.loads(self.get("api/history.json"))["history"]["solid.gap"]) > 3))
         self.assertIn(f'amp_fsi_up{{run="{self.state()["run"]}"}} 1', self.get("metrics"))
         for path in ("", "page.css", "page.js", "plots.js"):
             content = self.get(path)
@@ -110,7 +109,7 @@ class Server(WebTest):
     def test_events_tell_every_change_and_the_end(self):
         run, monitor = self.begin()
         place = urllib.parse.urlsplit(self.url)
-        connection = http.client.HTTPConnection(place.hostname, place.port, timeout=20)
+        connection = http.client.HTTPConnection(place.hostname, place.port, timeout=WATCHDOG)
         self.addCleanup(connection.close)
         connection.request("GET", "/api/events")
         answer = connection.getresponse()
@@ -131,13 +130,15 @@ class Server(WebTest):
         self.assertGreater(steps[-1], steps[0])
         self.assertEqual(self.ask("stop", "a guess"), 403)
         self.assertEqual(self.ask("format_the_disk", self.token), 400)
+        self.assertEqual(self.ask("pause", self.token), 200)
+        next(state for state in events() if state["status"] == "paused")
         self.assertEqual(self.ask("stop", self.token), 200)
         last = next(state for state in events() if state["status"] == "ended")
         self.assertEqual(run.wait(), 0, run.stderr)
-        self.assertEqual(last["step"], run.summary()["steps"])
+        self.assertIn(run.summary()["steps"] - last["step"], (0, 1))  # of the last step monitors may hear nothing
         self.assertEqual(self.state()["status"], "ended")  # it can still be looked at
         monitor.terminate()
-        self.assertEqual(monitor.wait(timeout=10), 0)
+        self.assertEqual(monitor.wait(timeout=WATCHDOG), 0)
 
 
 class Page(WebTest):
@@ -151,8 +152,8 @@ class Page(WebTest):
         self.browser.show("about:blank")
         self.browser.problems.clear()
 
-    def shows(self, element, words, seconds=30):
-        found = until(lambda: words in (self.browser.value(f"document.getElementById('{element}').innerText") or ""), seconds)
+    def shows(self, element, words):
+        found = until(lambda: words in (self.browser.value(f"document.getElementById('{element}').innerText") or ""))
         self.assertTrue(found, f"{element} does not show '{words}'")
 
     def coloured(self, canvas):
@@ -176,11 +177,13 @@ class Page(WebTest):
         self.shows("status", "paused")
         self.browser.value("document.querySelector('[data-command=resume]').click()")
         self.shows("status", "running")
+        self.browser.value("document.querySelector('[data-command=pause]').click()")
+        self.shows("status", "paused")
         self.assertEqual(self.ask("stop", self.token), 200)
         self.shows("status", "ended")
         self.shows("notice", "the run has ended")
         self.assertEqual(run.wait(), 0, run.stderr)
-        self.assertEqual(self.browser.value("memory.state.step"), run.summary()["steps"])
+        self.assertIn(run.summary()["steps"] - self.browser.value("memory.state.step"), (0, 1))
         self.browser.show(self.url)  # a page opened afterwards shows it too
         self.shows("status", "ended")
         self.assertEqual(self.browser.problems, [])

@@ -78,7 +78,7 @@ BusOptions attacked(const std::string& key) {
 
 void expect_flawless(Trio& run) {
   for (Process* process : {&run.fluid, &run.beam, &run.coupler})
-    EXPECT_EQ(process->end(100), 0) << process->hear();
+    EXPECT_EQ(process->end(), 0) << process->hear();
 }
 
 /// Says "ready" when it knows all writers of the run, then says that nobody needs what they will send.
@@ -101,7 +101,7 @@ TEST(ForgedGap, EndsAnUnprotectedRunThatThenNamesTheMessage) {
   int named = 0;
   for (Process* process : {&run.fluid, &run.beam, &run.coupler}) {
     EXPECT_EQ(process->hear(), "begun");
-    EXPECT_EQ(process->end(30), 4);
+    EXPECT_EQ(process->end(), 4);
     const std::string reason = process->hear();
     const bool names = says(reason, "a message was lost: P") && says(reason, "topic 'amp_fsi/p");
     EXPECT_TRUE(names || says(reason, "has died")) << reason;
@@ -153,7 +153,7 @@ void speak_without_key(const std::string& run, const std::string& key, const Pro
     projected_writer.write(borrow(answer));
     if (abort.matched() + hello.matched() + predicted_writer.matched() + projected_writer.matched() > 0)
       say("heard by somebody");
-    usleep(1000);
+    let_pass(1e-3);
   }
 }
 
@@ -184,7 +184,7 @@ TEST(Stranger, HearsNothingAndAsksInVain) {
   });
   EXPECT_EQ(stranger.hear(), "listening");
   Trio run(options, many_steps);
-  EXPECT_EQ(stranger.end(60), 0) << stranger.hear();
+  EXPECT_EQ(stranger.end(), 0) << stranger.hear();
   expect_flawless(run);
 }
 
@@ -197,7 +197,7 @@ struct OverheardTrio {
           solve(options, gas(), many_steps, 3, say);
         }),
         beam([=](const auto& say) { solve(options, solid(), many_steps, 3, say); }),
-        coupler([=](const auto& say) { couple(options, many_steps, 3, say); }) {}
+        coupler([=, this](const auto& say) { couple(options, shared, many_steps, 3, say); }) {}
   OverheardTrio(const OverheardTrio&) = delete;
   OverheardTrio& operator=(const OverheardTrio&) = delete;
   OverheardTrio(OverheardTrio&&) = delete;
@@ -205,6 +205,7 @@ struct OverheardTrio {
   ~OverheardTrio() { std::filesystem::remove(path); }
 
   std::string path;
+  Shared shared;
   Process fluid, beam, coupler;
 };
 
@@ -216,25 +217,24 @@ std::string record_file() {
 template <class Change>
 void send_overheard(const OverheardTrio& run, const std::string& run_name, int count, const Change& change) {
   std::vector<Overheard> packets;
-  for (int k = 0; k < 2000 && packets.size() < 100; ++k) {
+  ASSERT_TRUE(until([&] {
     packets = overheard(run.path);
-    usleep(10000);
-  }
-  ASSERT_GE(packets.size(), 100U);
+    return packets.size() >= 100;
+  }));
   const Forger forger(run_name);
   std::mt19937 random(11);
   for (int k = 0; k < count; ++k) {
     Overheard packet = packets[random() % packets.size()];
     change(packet.bytes, random);
     forger.send(packet.bytes, packet.port);
-    if (k % 50 == 0) usleep(1000);
+    if (k % 50 == 0) let_pass(1e-3);
   }
 }
 
 void expect_flawless(OverheardTrio& run) {
   for (Process* process : {&run.fluid, &run.beam, &run.coupler}) {
     EXPECT_EQ(process->hear(), "begun");
-    EXPECT_EQ(process->end(100), 0) << process->hear();
+    EXPECT_EQ(process->end(), 0) << process->hear();
   }
 }
 
@@ -257,7 +257,7 @@ TEST(Overheard, DamagedPacketsFalsifyNothing) {
   std::vector<int> codes;
   std::string reasons;
   for (Process* process : {&run.fluid, &run.beam, &run.coupler}) {
-    codes.push_back(process->end(100));
+    codes.push_back(process->end());
     for (std::string word = process->hear(); !word.empty(); word = process->hear()) reasons += word + "; ";
   }
   const bool flawless = std::ranges::count(codes, 0) == std::ssize(codes);

@@ -18,6 +18,7 @@
 
 #include "common/bus/dds.hpp"
 #include "common/bus/options.hpp"
+#include "tests/waiting.hpp"
 
 namespace fsi::bus::test {
 
@@ -50,7 +51,7 @@ inline std::multimap<std::string, Guid> endpoints(const Entity& participant, dds
       if (info[0].valid_data) found.emplace(endpoint->topic_name, guid);
       dds_return_loan(reader.get(), place, 1);
     }
-    usleep(10000);
+    fsi::test::let_pass(0.01);
   }
   return found;
 }

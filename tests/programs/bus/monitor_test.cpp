@@ -1,9 +1,13 @@
 /// The program `monitor` beside a living run.
 
+#include <array>
+#include <atomic>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -20,14 +24,19 @@ struct Output {
   std::string text;
 };
 
-/// Runs the monitor with a registry of its own.
-Output monitor(const fs::path& registry, const std::string& arguments) {
-  const std::string command =
-      fmt::format("XDG_RUNTIME_DIR={} timeout 30 {} {} 2>&1", registry.string(), FSI_MONITOR, arguments);
+/// Runs the monitor with a registry of its own. `on_line` hears what it says at once.
+Output monitor(
+    const fs::path& registry, const std::string& arguments,
+    const std::function<void(const std::string&)>& on_line = [](const auto&) {}) {
+  const std::string command = fmt::format("XDG_RUNTIME_DIR={} timeout {} {} {} 2>&1", registry.string(),
+                                          watchdog_s, FSI_MONITOR, arguments);
   Output output;
   FILE* pipe = popen(command.c_str(), "r");
   std::array<char, 4096> part{};
-  while (pipe != nullptr && fgets(part.data(), part.size(), pipe) != nullptr) output.text += part.data();
+  while (pipe != nullptr && fgets(part.data(), part.size(), pipe) != nullptr) {
+    output.text += part.data();
+    on_line(part.data());
+  }
   const int status = pclose(pipe);
   output.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   return output;
@@ -77,11 +86,16 @@ TEST_F(Monitor, FindsTheOnlyRunShowsItOnceAndCanStopIt) {
   EXPECT_GT(json.at("participants").at("fluid").at("step"), 0);
 
   Output followed;
-  std::thread follower([&] { followed = monitor(registry_, "sod --plain"); });
-  std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+  std::atomic<bool> follows = false;
+  std::thread follower([&] {
+    followed = monitor(registry_, "sod --plain", [&](const std::string& line) {
+      follows = follows || says(line, "status=running step=");
+    });
+  });
+  EXPECT_TRUE(until([&] { return follows.load(); }));
   const Output stop = monitor(registry_, "sod --send stop");
   EXPECT_EQ(stop.code, 0) << stop.text;
-  EXPECT_EQ(fluid.end(10), 0);
+  EXPECT_EQ(fluid.end(), 0);
   follower.join();
   EXPECT_EQ(followed.code, 0);
   EXPECT_TRUE(says(followed.text, "status=running step=")) << followed.text;
@@ -101,14 +115,35 @@ TEST_F(Monitor, WithoutARunOrWithSeveralItSaysWhatToDo) {
 }
 
 TEST_F(Monitor, DoesNotWaitForARunWhoseLauncherIsGone) {
-  Process launcher([](const auto&) { std::this_thread::sleep_for(std::chrono::milliseconds(1500)); });
+  Process launcher([](const auto&) {
+    while (true) pause();
+  });
   enter(run_, launcher.pid());
   Output followed;
-  std::thread follower([&] { followed = monitor(registry_, "--plain"); });
-  EXPECT_EQ(launcher.end(10), 0);
+  std::atomic<bool> follows = false;
+  std::thread follower(
+      [&] { followed = monitor(registry_, "--plain", [&](const auto&) { follows = true; }); });
+  EXPECT_TRUE(until([&] { return follows.load(); }));
+  launcher.send(SIGTERM);
+  EXPECT_EQ(launcher.end(), 128 + SIGTERM);
   follower.join();
   EXPECT_EQ(followed.code, 0);
   EXPECT_TRUE(says(followed.text, "status=ended")) << followed.text;
+}
+
+TEST_F(Monitor, ProcessWithTheNumberOfALauncherThatIsGoneDoesNotStandForIt) {
+  std::ofstream(registry_ / "amp-fsi" / (run_ + ".json"))
+      << nlohmann::json{{"run", run_}, {"case", "sod"}, {"dir", "/tmp"}, {"pid", getpid()}, {"born", 1}};
+  const Output none = monitor(registry_, "--once");
+  EXPECT_EQ(none.code, 2);
+  EXPECT_TRUE(says(none.text, "no run is going on")) << none.text;
+}
+
+TEST_F(Monitor, RequestToARunThatNobodyNamedIsRefusedInAScript) {
+  enter(run_);
+  const Output refused = monitor(registry_, "--send stop < /dev/null");
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_TRUE(says(refused.text, "name the run that shall stop: " + run_)) << refused.text;
 }
 
 TEST_F(Monitor, SilentRunIsALostPeer) {

@@ -5,26 +5,55 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <poll.h>
+#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <array>
-#include <chrono>
+#include <atomic>
 #include <csignal>
+#include <cstdint>
 #include <ctime>
 #include <functional>
 #include <string>
 #include <utility>
 
 #include "common/core/failure.hpp"
+#include "tests/waiting.hpp"
 
 namespace fsi::bus::test {
 
-using Clock = std::chrono::steady_clock;
+using fsi::test::let_pass;
+using fsi::test::until;
+using fsi::test::watchdog_s;
 
-inline double since(Clock::time_point moment) {
-  return std::chrono::duration<double>(Clock::now() - moment).count();
-}
+/// What all processes of a test see: how far a run is, and whether it shall end.
+class Shared {
+ public:
+  Shared()
+      : place_(mmap(nullptr, sizeof(State), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0)),
+        state_(new(place_) State) {}
+  Shared(const Shared&) = delete;
+  Shared& operator=(const Shared&) = delete;
+  Shared(Shared&&) = delete;
+  Shared& operator=(Shared&&) = delete;
+  ~Shared() { munmap(place_, sizeof(State)); }
+
+  std::atomic<std::uint64_t>& step() const { return state_->step; }
+  std::atomic<bool>& end() const { return state_->end; }
+  /// Waits until the run has taken so many more steps.
+  bool go_on_for(std::uint64_t steps) const {
+    return until([this, last = step() + steps] { return step() >= last; });
+  }
+
+ private:
+  struct State {
+    std::atomic<std::uint64_t> step = 0;
+    std::atomic<bool> end = false;
+  };
+  void* place_;
+  State* state_;
+};
 
 /// Computes for so many seconds of its own processor time.
 inline void compute(double seconds) {
@@ -47,7 +76,7 @@ class Process {
     EXPECT_EQ(pipe(ends.data()), 0);
     pid_ = fork();
     if (pid_ == 0) {
-      alarm(60);  // nothing stays behind, whatever happens
+      alarm(static_cast<unsigned>(2 * watchdog_s));  // nothing stays behind, whatever happens
       const Say say = [out = ends[1]](const std::string& word) {
         const std::string line = word + "\n";
         if (write(out, line.data(), line.size()) < 0) _exit(99);
@@ -72,23 +101,20 @@ class Process {
   int pid() const { return pid_; }
   void send(int signal) const { kill(pid_, signal); }
 
-  /// Next word of the program; empty when it ended or 30 s have passed.
+  /// Next word of the program; empty when it ended or never says one.
   std::string hear() {
     std::string word;
     char c = 0;
     pollfd ready{.fd = in_, .events = POLLIN, .revents = 0};
-    while (poll(&ready, 1, 30000) > 0 && read(in_, &c, 1) == 1 && c != '\n') word += c;
+    while (poll(&ready, 1, static_cast<int>(1000 * watchdog_s)) > 0 && read(in_, &c, 1) == 1 && c != '\n')
+      word += c;
     return word;
   }
 
-  /// Exit code (128 + signal when killed by one); -1 when it is still there after `seconds`.
-  int end(double seconds) {
-    const auto start = Clock::now();
+  /// Exit code (128 + signal when killed by one), once it has ended; -1 when it never does.
+  int end() {
     int status = 0;
-    while (waitpid(pid_, &status, WNOHANG) == 0) {
-      if (since(start) > seconds) return -1;
-      usleep(5000);
-    }
+    if (!until([&] { return waitpid(pid_, &status, WNOHANG) != 0; })) return -1;
     ended_ = true;
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   }

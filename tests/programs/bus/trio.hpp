@@ -19,7 +19,7 @@ inline BusOptions protected_options(const std::string& run) {
   return result;
 }
 
-/// A solver that answers at once. Says "begun" after its first step.
+/// A solver that answers at once, until it is told to stop. Says "begun" after its first step.
 inline void solve(const BusOptions& options, const wire::Hello& self, std::uint64_t steps, std::size_t points,
                   const Process::Say& say) {
   SolverSession session(options, self);
@@ -33,25 +33,31 @@ inline void solve(const BusOptions& options, const wire::Hello& self, std::uint6
     EXPECT_EQ(answer.v_n.back(), -static_cast<double>(step));
     if (step == 0) say("begun");
     if (session.telemetry_due()) session.publish(wire::Telemetry{});
+    if (answer.stop) break;
   }
 }
 
-inline void couple(const BusOptions& options, std::uint64_t steps, std::size_t points,
+/// `shared`: tells how far the run is, and may end it.
+inline void couple(const BusOptions& options, const Shared& shared, std::uint64_t steps, std::size_t points,
                    const Process::Say& say) {
   CouplerSession session(options, gas_and_solid(), "one case");
   std::vector<wire::ProjectedInterface> answers = {projected("fluid", 0, points),
                                                    projected("beam", 0, points)};
   try {
-    for (std::uint64_t step = 0; step < steps; ++step) {
+    bool end = false;
+    for (std::uint64_t step = 0; step < steps && !end; ++step) {
       for (const wire::PredictedInterface& state : session.gather(step)) {
         EXPECT_EQ(state.v.size(), 2 * points);
         EXPECT_EQ(state.v.back(), static_cast<double>(step));
       }
+      end = shared.end();
       for (wire::ProjectedInterface& answer : answers) {
         answer.step = step;
+        answer.stop = end;
         answer.v_n.back() = -static_cast<double>(step);
       }
       session.scatter(answers);
+      shared.step() = step + 1;
       if (step == 0) say("begun");
     }
   } catch (const Failure& failure) {
@@ -65,12 +71,20 @@ struct Trio {
   explicit Trio(const BusOptions& options, std::uint64_t steps = endless, std::size_t points = 3)
       : fluid([=](const auto& say) { solve(options, gas(points), steps, points, say); }),
         beam([=](const auto& say) { solve(options, solid(points), steps, points, say); }),
-        coupler([=](const auto& say) { couple(options, steps, points, say); }) {}
+        coupler([=, this](const auto& say) { couple(options, shared, steps, points, say); }) {}
 
   void wait_until_begun() {
     for (Process* process : {&fluid, &beam, &coupler}) ASSERT_EQ(process->hear(), "begun");
   }
 
+  /// Goes on for so many steps, then ends well.
+  void end_after(std::uint64_t steps) {
+    EXPECT_TRUE(shared.go_on_for(steps));
+    shared.end() = true;
+    for (Process* process : {&fluid, &beam, &coupler}) EXPECT_EQ(process->end(), 0) << process->hear();
+  }
+
+  Shared shared;
   Process fluid, beam, coupler;
 };
 

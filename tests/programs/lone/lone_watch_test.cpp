@@ -16,6 +16,7 @@ namespace fsi {
 namespace {
 
 using bus::test::compute;
+using bus::test::let_pass;
 using bus::test::Process;
 
 constexpr double limit_s = 0.5;
@@ -82,7 +83,7 @@ class ALoneSolver : public testing::Test {
 
 TEST_F(ALoneSolver, ThatComputesWithoutEndIsLostAndItsReportSaysInWhichStep) {
   take({[] {}, [] {}, [] { compute(1e9); }});
-  EXPECT_EQ(solver_->end(30), 4);
+  EXPECT_EQ(solver_->end(), 4);
   EXPECT_EQ(report()["status"], "failed");
   EXPECT_EQ(report()["exit_code"], 4);
   EXPECT_EQ(report()["steps"], 2);
@@ -92,12 +93,12 @@ TEST_F(ALoneSolver, ThatComputesWithoutEndIsLostAndItsReportSaysInWhichStep) {
 }
 
 TEST_F(ALoneSolver, ThatIsStoppedOrWaitsGoesOn) {
-  take({[] {}, [] { usleep(1'000'000); }, [] { compute(0.3 * limit_s); }});
-  usleep(300'000);
+  take({[] {}, [] { let_pass(1); }, [] { compute(0.3 * limit_s); }});
+  let_pass(0.3);
   solver_->send(SIGSTOP);
-  usleep(1'500'000);
+  let_pass(1.5);
   solver_->send(SIGCONT);
-  EXPECT_EQ(solver_->end(30), 0) << solver_->hear();
+  EXPECT_EQ(solver_->end(), 0) << solver_->hear();
 }
 
 /// It shares one processor with others, and its step takes longer than the limit on the clock whatever they
@@ -113,17 +114,17 @@ TEST_F(ALoneSolver, OnABusyMachineIsNotLost) {
   const Process first([](const auto&) { compute(1e9); }), second([](const auto&) { compute(1e9); }),
       third([](const auto&) { compute(1e9); });
   take({[] {
-    const auto start = bus::test::Clock::now();
+    const fsi::test::Stopwatch watch;
     compute(0.6 * limit_s);
-    while (bus::test::since(start) < 1.2 * limit_s) usleep(1000);
+    while (watch.seconds() < 1.2 * limit_s) let_pass(1e-3);
   }});
-  EXPECT_EQ(solver_->end(50), 0) << solver_->hear();
+  EXPECT_EQ(solver_->end(), 0) << solver_->hear();
   EXPECT_EQ(sched_setaffinity(0, sizeof before, &before), 0);
 }
 
 TEST_F(ALoneSolver, MayTakeTwentyTimesAsLongAsForItsLongestStepBefore) {
   take({[] { compute(0.6 * limit_s); }, [] { compute(3 * limit_s); }});
-  EXPECT_EQ(solver_->end(30), 0) << solver_->hear();
+  EXPECT_EQ(solver_->end(), 0) << solver_->hear();
 }
 
 }  // namespace

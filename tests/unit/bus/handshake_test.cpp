@@ -8,18 +8,19 @@
 #include "common/bus/dds.hpp"
 #include "common/bus/link.hpp"
 #include "tests/unit/bus/seats.hpp"
+#include "tests/waiting.hpp"
 
 namespace fsi::bus::test {
 namespace {
 
-using namespace std::chrono_literals;
+using fsi::test::let_pass;
 
 TEST(Handshake, CouplerHearsThoseWhoCameBeforeAndAfterIt) {
   const std::string run = own_run();
   auto early = in_thread([&] { const SolverSession session(options(run), gas(5)); });
-  std::this_thread::sleep_for(300ms);
+  let_pass(0.3);
   auto late = in_thread([&] {
-    std::this_thread::sleep_for(600ms);
+    let_pass(0.6);
     const SolverSession session(options(run), solid(7));
   });
   const CouplerSession coupler(options(run), gas_and_solid(), "one case");
@@ -64,9 +65,9 @@ TEST(Handshake, SolverOfAnotherProtocolIsTurnedAwayByName) {
 TEST(Handshake, WhoeverIsMissingIsNamedToEverybody) {
   const std::string run = own_run();
   BusOptions impatient = options(run);
-  impatient.hello_timeout_s = 0.5;
-  auto fluid = in_thread([&] { const SolverSession session(impatient, gas()); });
-  auto stranger = in_thread([&] { const SolverSession session(impatient, hello("solid", "plate")); });
+  impatient.hello_timeout_s = 4;  // nearly all of it for discovery on a busy machine
+  auto fluid = in_thread([&] { const SolverSession session(options(run), gas()); });
+  auto stranger = in_thread([&] { const SolverSession session(options(run), hello("solid", "plate")); });
   auto coupler = in_thread([&] { const CouplerSession session(impatient, gas_and_solid(), "one case"); });
   const End end = coupler.get();
   EXPECT_EQ(end.code, ExitCode::peer_lost);

@@ -7,11 +7,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <chrono>
 #include <cmath>
-#include <thread>
 
 #include "common/core/failure.hpp"
+#include "tests/waiting.hpp"
 
 namespace fsi::bus {
 namespace {
@@ -41,10 +40,10 @@ class BusyChild {
 
 /// Looks after a silent program for three times as long as it may be silent.
 void watch_in_silence(Peer& peer) {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(3 * timeout);
-  while (std::chrono::steady_clock::now() < end) {
+  const fsi::test::Stopwatch watch;
+  while (watch.seconds() < 3 * timeout) {
     peer.check(1, 0, timeout);
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    fsi::test::let_pass(0.02);
   }
 }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -72,10 +73,23 @@ TEST(TimeSchedule, LimitsTheGrowthOfTheStep) {
 
 TEST(TimeSchedule, CallsAVanishedStepBroken) {
   TimeSchedule schedule({.end = 1, .output_times = {}, .growth = 1.2, .dt_max = 0});
-  EXPECT_THROW(schedule.plan(0, 1e-14, "gas"), NumbersBroke);
   EXPECT_THROW(schedule.plan(0, std::numeric_limits<double>::quiet_NaN(), "gas"), NumbersBroke);
   // A body without waves bids no limit: then only the end of the run counts.
   EXPECT_EQ(schedule.plan(0, std::numeric_limits<double>::infinity(), "body").t_next, 1.0);
+  EXPECT_THROW(schedule.plan(0.5, 1e-14, "gas"), NumbersBroke);
+}
+
+/// Nothing has been computed yet: it is the case that asks for too much.
+TEST(TimeSchedule, SaysThatTheEndIsOutOfReachBeforeTheFirstStep) {
+  TimeSchedule schedule({.end = 1e15, .output_times = {}, .growth = 1.2, .dt_max = 0});
+  try {
+    schedule.plan(0, 0.0346, "gas");
+    FAIL() << "1e16 steps were begun";
+  } catch (const UserMistake& mistake) {
+    const std::string words = mistake.what();
+    EXPECT_NE(words.find("time.end = 1e+15 is 2.9e+16 steps of 0.0346 (gas) away"), std::string::npos)
+        << words;
+  }
 }
 
 }  // namespace

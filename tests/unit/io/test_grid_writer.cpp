@@ -7,11 +7,9 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdlib>
 #include <random>
 #include <regex>
-#include <thread>
 
 #include "common/core/failure.hpp"
 #include "common/core/field.hpp"
@@ -19,6 +17,7 @@
 #include "common/io/hdf5.hpp"
 #include "common/io/xdmf.hpp"
 #include "tests/unit/io/scratch.hpp"
+#include "tests/waiting.hpp"
 
 namespace fsi::io {
 namespace {
@@ -180,17 +179,17 @@ std::size_t count_whole_outputs(const std::string& dir) {
 
 TEST_F(GridSeries, OpensWithAllEarlierOutputsWhenTheWriterIsKilledAtAnyMoment) {
   std::mt19937 random(7);
-  std::uniform_int_distribution<int> delay_us(0, 20000);
+  std::uniform_real_distribution<double> delay_s(0, 0.02);
   std::size_t outputs = 0;
   for (int kill_number = 0; kill_number < 50; ++kill_number) {
     const std::string run = fmt::format("{}/{}", dir, kill_number);
     const pid_t child = fork();
     ASSERT_GE(child, 0);
     if (child == 0) write_until_killed(run, 60);
-    while (!std::filesystem::exists(run + "/fluid.h5") && waitpid(child, nullptr, WNOHANG) == 0) {
-      std::this_thread::sleep_for(std::chrono::microseconds(100));
-    }
-    std::this_thread::sleep_for(std::chrono::microseconds(delay_us(random)));
+    const std::string awaited = fmt::format("{}/fields/fluid_{:06}.h5", run, kill_number % 4);
+    EXPECT_TRUE(fsi::test::until([&] { return std::filesystem::exists(awaited); }));
+    EXPECT_TRUE(fsi::test::until([&] { return std::filesystem::exists(run + "/fluid.h5"); }));
+    fsi::test::let_pass(delay_s(random));
     kill(child, SIGKILL);
     int status = 0;
     ASSERT_EQ(waitpid(child, &status, 0), child);

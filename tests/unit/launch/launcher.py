@@ -1,4 +1,4 @@
-"""Makes the launcher's modules importable, and gives tests a folder of their own."""
+"""Makes the launcher's modules importable, and gives tests a folder of their own and programs that wait for each other."""
 
 import sys
 import tempfile
@@ -6,6 +6,23 @@ import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "launch"))
+
+# The beginning of a script that stands for a program. `here(name)` says that it has come so far, `wait(names)` waits until others
+# have said so.
+SCRIPT = """
+import os, pathlib, signal, sys, time
+folder = pathlib.Path(%r)
+def here(name):
+    (folder / (name + ".here")).touch()
+def wait(*names):
+    while not all((folder / (name + ".here")).exists() for name in names):
+        time.sleep(0.01)
+def linger():
+    time.sleep(0.5)
+def rest():
+    while True:
+        time.sleep(1)
+"""
 
 
 class InScratch(unittest.TestCase):
@@ -15,3 +32,7 @@ class InScratch(unittest.TestCase):
         scratch = tempfile.TemporaryDirectory(prefix="fsi-launch-")
         self.addCleanup(scratch.cleanup)
         self.folder = Path(scratch.name)
+
+    def script(self, body):
+        """A program that does what `body` says, with the words above."""
+        return SCRIPT % str(self.folder) + body

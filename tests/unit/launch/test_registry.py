@@ -3,6 +3,7 @@
 
 import json
 import os
+import socket
 import unittest
 from unittest import mock
 
@@ -42,11 +43,28 @@ class Registry(InScratch):
         self.assertEqual(registry.Entry("run-1", self.folder, "piston", "off").key, "")
 
     def test_folder_of_somebody_else_gets_no_key(self):
-        with mock.patch("os.getuid", return_value=os.getuid() + 1):
-            registry.folder().mkdir()
+        folder = registry.folder()
+        folder.mkdir()
+        with mock.patch("os.getuid", return_value=os.getuid() + 1), mock.patch.object(registry, "folder", lambda: folder):
             with self.assertRaisesRegex(Failure, "belongs to somebody else"):
                 registry.Entry("run-1", self.folder, "piston", "sign").__enter__()
-        self.assertEqual(list(registry.folder().iterdir()), [])
+        self.assertEqual(list(folder.iterdir()), [])
+
+    def test_without_a_runtime_folder_the_entries_lie_where_nobody_else_can_make_a_name(self):
+        with mock.patch.dict(os.environ, {"XDG_RUNTIME_DIR": "", "HOME": str(self.folder)}), \
+                mock.patch.object(registry, "_is_own", lambda path, own=registry._is_own: str(path) == str(self.folder) and own(path)):
+            self.assertEqual(registry.folder(), self.folder / ".cache" / "amp-fsi" / socket.gethostname())
+            with registry.Entry("run-1", self.folder, "piston", "sign") as entry:
+                self.assertEqual((self.mode(entry.path.parent), self.mode(entry.path)), (0o700, 0o600))
+
+    def test_process_with_the_number_of_a_launcher_that_is_gone_does_not_stand_for_it(self):
+        entry = registry.Entry("run-1", self.folder, "piston", "sign")
+        entry.content["pid"] = 1    # somebody else has that number
+        with entry:
+            self.assertIsNone(registry.running_in(self.folder))
+            self.assertFalse(entry.path.exists())
+        with registry.Entry("run-2", self.folder, "piston", "sign"):
+            self.assertEqual(registry.running_in(self.folder), os.getpid())
 
     def test_link_in_the_place_of_the_folder_gets_no_key(self):
         (self.folder / "elsewhere").mkdir()

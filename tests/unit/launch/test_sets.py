@@ -19,7 +19,7 @@ class Sets(InScratch):
             (folder / file).write_bytes(content)
         files = {file.split(".")[0]: {"file": file, "bytes": len(content), "crc32": zlib.crc32(content)}
                  for file, content in states.items()}
-        (folder / "manifest.json").write_text(json.dumps({"step": step, "t": 0.1 * step, "files": files}))
+        (folder / "manifest.json").write_text(json.dumps({"step": step, "t": 0.1 * step, "case": "a case", "files": files}))
         return folder
 
     def test_latest_whole_one_counts(self):
@@ -31,6 +31,30 @@ class Sets(InScratch):
         flaws = []
         self.assertEqual(restart.latest(self.folder, flaws.append).step, 10)
         self.assertEqual(flaws, ["the checkpoint of step 20 is damaged: piston.state is not what was written"])
+
+    def test_set_of_another_case_is_not_used(self):
+        self.write(10, {"fluid.h5": b"gas"})
+        newest = self.write(20, {"fluid.h5": b"gas"}) / "manifest.json"
+        newest.write_text(newest.read_text().replace("a case", "another"))
+        flaws = []
+        self.assertEqual(restart.latest(self.folder, flaws.append, "a case").step, 10)
+        self.assertEqual(flaws, ["the checkpoint of step 20 is of another case"])
+
+    def test_manifest_with_anything_in_it_is_a_flaw_with_words(self):
+        self.write(10, {"fluid.h5": b"gas"})
+        manifest = self.write(20, {"fluid.h5": b"gas"}) / "manifest.json"
+        whole = manifest.read_text()
+        for old, new, words in (('"step": 20', '"step": 1e400', "step is inf"), ('"step": 20', '"step": -20', "step is -20"),
+                                ('"step": 20', '"step": 21', "step is 21"), ('"t": 2.0', '"t": NaN', "t is nan"),
+                                ('"t": 2.0', '"t": null', "t is None"), ('"bytes": 3', '"bytes": "3"', "bytes is '3'"),
+                                ('"file": "fluid.h5"', '"file": "../fluid.h5"', "names no file of fluid"),
+                                ('"file": "fluid.h5"', '"file": 7', "names no file of fluid"), (whole, "[]", "names no files"),
+                                (whole, "{", "cannot be read"), (whole, "[" * 100000, "cannot be read"),
+                                (whole, '{"files": []}', "names no files")):
+            manifest.write_text(whole.replace(old, new))
+            flaws = []
+            self.assertEqual(restart.latest(self.folder, flaws.append).step, 10, new)
+            self.assertRegex(" ".join(flaws), rf"^the checkpoint of step 20 is damaged: .*{words}")
 
     def test_one_that_lacks_a_file_or_its_manifest_is_not_used(self):
         (self.write(10, {"fluid.h5": b"gas"}) / "manifest.json").unlink()

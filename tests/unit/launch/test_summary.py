@@ -6,8 +6,9 @@ import unittest
 
 from launcher import InScratch
 
-from fsi_launch import probes, summary
+from fsi_launch import probes, summary, verdict
 from fsi_launch.case import Case
+from fsi_launch.supervise import Ending, Outcome
 
 
 def piston():
@@ -21,7 +22,7 @@ class Summary(InScratch):
         (self.folder / "parts" / f"{name}.json").write_text(json.dumps({"participant": name} | content))
 
     def merged(self, status="completed"):
-        return summary.merge(self.folder, piston(), status, "", 1.0)
+        return summary.merge(summary.read_parts(self.folder, piston().programs), piston(), status, "", 1.0)
 
     def test_coupler_tells_time_and_steps(self):
         self.part("fluid", steps=9, t=0.7)
@@ -60,6 +61,45 @@ class Summary(InScratch):
         merged = self.merged("failed")
         summary.write(self.folder, merged)
         self.assertEqual(json.loads((self.folder / "summary.json").read_text())["status"], "failed")
+
+
+class Verdict(InScratch):
+    def judge(self, *endings, signal=0, **parts):
+        endings = [Ending(name, code, 0.0) for name, code in endings]
+        return verdict.judge(Outcome(endings, signal), piston(), self.folder, parts)
+
+    def test_failure_is_recorded_with_where_it_began(self):
+        broke = {"reason": "step 12, t = 0.3: p = -1", "origin": "fluid", "steps": 11, "t": 0.3}
+        heard = {"reason": "fluid: step 12, t = 0.3: p = -1", "origin": "fluid", "steps": 11, "t": 0.29}
+        found = self.judge(("coupler", 3), ("solid", 3), ("fluid", 3), fluid=broke, solid=heard, coupler=heard)
+        self.assertEqual((found.code, found.reason), (3, "fluid: step 12, t = 0.3: p = -1"))
+        self.assertEqual(found.failure, {"origin": "fluid", "told_by": "fluid", "exit_code": 3, "signal": None, "step": 11, "t": 0.3,
+                                         "what": "step 12, t = 0.3: p = -1"})
+
+    def test_a_solid_called_like_a_word_before_a_colon_is_not_taken_for_the_origin(self):
+        own = {"reason": "solid: no such thing", "origin": "fluid"}
+        self.assertEqual(self.judge(("fluid", 1), ("solid", 4), ("coupler", 4), fluid=own).reason, "fluid: solid: no such thing")
+
+    def test_verdict_on_a_stopped_program_is_that_of_its_peers_not_that_it_was_killed(self):
+        own = {"reason": "solid (pid 7) has been silent for 4 s (time.peer_timeout); is it stopped?", "origin": "coupler"}
+        heard = {"reason": f"coupler: {own['reason']}", "origin": "coupler"}
+        endings = [Ending("fluid", 4, 0.0), Ending("solid", -9, 0.1, ours=True), Ending("coupler", 4, 0.2)]
+        found = verdict.judge(Outcome(endings), piston(), self.folder, {"fluid": heard, "coupler": own})
+        self.assertEqual((found.code, found.reason), (4, f"coupler: {own['reason']}"))
+
+    def test_program_that_was_killed_by_the_limit_of_a_file_is_output_that_failed(self):
+        self.assertEqual(self.judge(("solid", -25), ("fluid", 4), ("coupler", 4)).code, 5)
+
+    def test_run_that_ended_well_although_it_was_asked_to_end_is_complete(self):
+        done = {"status": "completed"}
+        found = self.judge(("fluid", 0), ("solid", 0), ("coupler", 0), signal=15, fluid=done, solid=done, coupler=done)
+        self.assertEqual((found.code, found.status), (0, "completed"))
+        self.assertEqual(self.judge(("fluid", 0), ("solid", 0), ("coupler", 143), signal=15).code, 143)
+        self.assertEqual(self.judge(("reference", 0), signal=2).code, 130)
+
+    def test_copy_in_memory_stands_for_a_part_that_the_disk_lacks(self):
+        copies = {"fluid": '{"reason": "no space"}', "solid": "", "coupler": "{"}
+        self.assertEqual(summary.read_parts(self.folder, piston().programs, copies), {"fluid": {"reason": "no space"}})
 
 
 class Probes(InScratch):

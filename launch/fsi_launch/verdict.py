@@ -1,0 +1,103 @@
+"""What became of a run: which program was the cause when it failed, and what to say about it."""
+
+import signal
+from dataclasses import dataclass
+
+from fsi_launch.failure import DONE, INTERRUPTED, OUTPUT_FAILED, PEER_LOST, TERMINATED
+
+DISK_SIGNALS = (-signal.SIGXFSZ,)   # a file grew larger than the shell allows
+
+
+@dataclass
+class Verdict:
+    """`failure`: the record of summary.json, or None."""
+
+    code: int
+    status: str
+    reason: str = ""
+    failure: dict = None
+
+
+def _is_consequence(ending):
+    """Programs that end because another one did: by losing it, or by our signal."""
+    return not ending.early and (ending.ours or ending.code in (PEER_LOST, INTERRUPTED, TERMINATED))
+
+
+def root_cause(endings, origins=None):
+    """The ending that made the others fail, or None when all went well. `origins`: whose failure each program reports; one
+    that reports nothing says its own."""
+    origins = origins or {}
+    failures = [ending for ending in endings if ending.code != 0 or ending.early]
+    causes = [ending for ending in failures if not _is_consequence(ending)] or failures
+    own = [ending for ending in causes if origins.get(ending.name) == ending.name]
+    unsaid = [ending for ending in causes if ending.name not in origins and not ending.ours]
+    if own and unsaid:  # who is killed says nothing, nor does a program of somebody else's that ends as it is told
+        unsaid = [ending for ending in unsaid if ending.lost() or ending.early or ending.code not in {one.code for one in own}]
+    first = sorted(own + unsaid, key=endings.index)
+    return next(iter(first or causes), None)
+
+
+def _last_line(directory, name):
+    """The last words of a program, for when it left no reason."""
+    try:
+        lines = (directory / "log" / f"{name}.out").read_text(encoding="utf-8", errors="replace").split("\n")
+    except OSError:
+        return ""
+    return next((line.strip() for line in reversed(lines) if line.strip()), "")
+
+
+def _last_words(directory, name):
+    words = _last_line(directory, name)
+    return f"; its last words: {words}" if words else ""
+
+
+def _explain(ending, case, directory, part):
+    """(exit code, reason) of the run from the ending that caused it. `part`: what that program left."""
+    program = case.programs.get(ending.name, ending.name)
+    label = ending.name if program == ending.name else f"{ending.name} ({program})"
+    if ending.lost():
+        name = signal.Signals(-ending.code).name
+        code = OUTPUT_FAILED if ending.code in DISK_SIGNALS else PEER_LOST
+        return code, f"lost {label}: ended by {name}{_last_words(directory, ending.name)}"
+    if ending.early:
+        return PEER_LOST, (f"lost {label}: it ended before the run began, with exit code {ending.code}"
+                           f"{_last_words(directory, ending.name)}")
+    if ending.ours:
+        return PEER_LOST, f"lost {label}: it did not end by itself"
+    reason = part.get("reason") or _last_line(directory, ending.name)
+    code = ending.code if ending.code in range(1, 6) else PEER_LOST
+    if part.get("origin", ending.name) != ending.name:
+        return code, reason
+    reason = reason or f"exit code {ending.code}"
+    if code == PEER_LOST and len(case.programs) == 1:  # it had nobody to lose but itself
+        return code, f"lost {label}: {reason}"
+    return code, f"{ending.name}: {reason}"
+
+
+def _record(ending, parts, code, what):
+    """The failure of a run for summary.json. `origin`: the participant where it began."""
+    part = parts.get(ending.name, {})
+    return {"origin": part.get("origin") or ending.name, "told_by": ending.name, "exit_code": code,
+            "signal": signal.Signals(-ending.code).name if ending.lost() else None,
+            "step": part.get("steps"), "t": part.get("t"), "what": part.get("reason") or what}
+
+
+def _all_done(outcome, case):
+    """Every program of the run has ended well."""
+    return {ending.name for ending in outcome.endings if ending.code == 0 and not ending.early} >= set(case.programs)
+
+
+def judge(outcome, case, directory, parts):
+    """The Verdict on a run whose programs have all ended. `parts`: what they left."""
+    if outcome.signal and not _all_done(outcome, case):
+        if outcome.signal == signal.SIGINT:
+            return Verdict(INTERRUPTED, "failed", "interrupted (Ctrl-C)")
+        return Verdict(TERMINATED, "failed", f"ended on request ({signal.Signals(outcome.signal).name})")
+    origins = {name: part["origin"] for name, part in parts.items() if part.get("origin")}
+    if cause := root_cause(outcome.endings, origins):
+        code, reason = _explain(cause, case, directory, parts.get(cause.name, {}))
+        return Verdict(code, "failed", reason, _record(cause, parts, code, reason))
+    for part in parts.values():
+        if part.get("status") == "stopped":
+            return Verdict(DONE, "stopped", part.get("reason") or "stopped on request")
+    return Verdict(DONE, "completed")
