@@ -5,7 +5,6 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <atomic>
 #include <csignal>
@@ -13,6 +12,7 @@
 #include <cstdlib>
 #include <ctime>
 
+#include "common/core/command_line.hpp"
 #include "common/core/log.hpp"
 #include "common/io/atomic_file.hpp"
 
@@ -82,6 +82,17 @@ ExitCode leave_part(const Setup& setup, io::Part& part, ExitCode code) {
     return code == ExitCode::done ? failure.code() : code;
   }
   return code;
+}
+
+/// False: help was asked for. @throws UserMistake
+bool read_command_line(int argc, char** argv, const std::string& role, Setup& setup, std::string& case_path) {
+  CommandLine line(fmt::format("AMP-FSI {}: one program of a run; ./launch/fsi starts it", role));
+  line.add_option("--case", case_path, "case file (YAML)").required();
+  line.add_option("--run-dir", setup.run_dir, "folder of the results").required();
+  line.add_option("--run", setup.run, "identity of the run on the bus");
+  line.add_option("--restart", setup.restart, "folder of the checkpoint to go on from");
+  line.add_option("--name", setup.name, "name of this participant in the case");
+  return line.parse(argc, argv);
 }
 
 }  // namespace
@@ -158,19 +169,13 @@ void ProgressLines::show(std::uint64_t step, double t, double dt, const std::str
 
 int run_program(int argc, char** argv, const std::string& default_name, const std::string& role,
                 const std::function<void(const Setup&, io::Part&)>& body) {
-  CLI::App app(fmt::format("AMP-FSI {}: one program of a run; ./launch/fsi starts it", role));
   Setup setup{.problem = {}, .run_dir = ".", .run = "run", .name = default_name};
   std::string case_path;
-  app.add_option("--case", case_path, "case file (YAML)")->required();
-  app.add_option("--run-dir", setup.run_dir, "folder of the results")->required();
-  app.add_option("--run", setup.run, "identity of the run on the bus");
-  app.add_option("--restart", setup.restart, "folder of the checkpoint to go on from");
-  app.add_option("--name", setup.name, "name of this participant in the case");
   try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    const int code = app.exit(error);
-    return code == 0 ? 0 : static_cast<int>(ExitCode::user_mistake);
+    if (!read_command_line(argc, argv, role, setup, case_path)) return 0;
+  } catch (const UserMistake& mistake) {
+    fmt::print(stderr, "{}: {}\n", default_name, mistake.what());
+    return static_cast<int>(mistake.code());
   }
 
   catch_signals();
