@@ -1,6 +1,7 @@
-# fsi_library(name SOURCES ... KERNELS ... DEPENDS ...)  a static library seen from the repository root: #include
+# fsi_library(name [TOGETHER] SOURCES ... KERNELS ... DEPENDS ...)  a static library seen from the repository root: #include
 #   "common/core/field.hpp"; KERNELS are the sources with the loops over all points, compiled with -O3
-# fsi_program(name SOURCES ... DEPENDS ...)     an executable in <build>/bin
+#   the target `kernels` compiles all of these and nothing else; TOGETHER: fsi_together, below
+# fsi_program(name [TOGETHER] SOURCES ... DEPENDS ...)     an executable in <build>/bin
 #   the target `programs` builds all that a run may need, and no tests
 # fsi_test(name LABEL unit SOURCES ... DEPENDS ...)  a GoogleTest executable; every TEST becomes one CTest test
 #   the target `tests_<label>` builds all of one label
@@ -29,12 +30,35 @@ function(fsi_precompile name)
   endif()
 endfunction()
 
+add_custom_target(kernels)
+
+# Sources compiled together, a few at a time: what their templates have in common is then made once. Not those of the schemes:
+# what is inlined from another source may be rounded otherwise (-ffp-contract). Their anonymous namespaces become one: a name
+# that two sources of a library use for different things does not compile.
+function(fsi_together name)
+  if(FSI_PRECOMPILED)
+    set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 13)
+    # It warns of types of anonymous namespaces in included files, which the sources are here.
+    target_compile_options(${name} PRIVATE $<$<COMPILE_LANGUAGE:CXX>:-Wno-subobject-linkage>)
+  endif()
+endfunction()
+
 function(fsi_library name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;KERNELS;DEPENDS" ${ARGN})
+  cmake_parse_arguments(ARG "TOGETHER" "" "SOURCES;KERNELS;DEPENDS" ${ARGN})
   if(ARG_SOURCES OR ARG_KERNELS)
-    add_library(${name} STATIC ${ARG_SOURCES} ${ARG_KERNELS})
     if(ARG_KERNELS)
+      add_library(${name}_kernels OBJECT ${ARG_KERNELS})
       set_property(SOURCE ${ARG_KERNELS} APPEND PROPERTY COMPILE_OPTIONS $<$<CONFIG:Release>:-O3>)
+      target_include_directories(${name}_kernels PRIVATE ${PROJECT_SOURCE_DIR})
+      target_link_libraries(${name}_kernels PRIVATE fsi_settings ${ARG_DEPENDS})
+      fsi_precompile(${name}_kernels fsi_precompiled)
+      add_dependencies(kernels ${name}_kernels)
+      list(APPEND ARG_SOURCES $<TARGET_OBJECTS:${name}_kernels>)
+    endif()
+    add_library(${name} STATIC ${ARG_SOURCES})
+    set_target_properties(${name} PROPERTIES LINKER_LANGUAGE CXX)
+    if(ARG_TOGETHER)
+      fsi_together(${name})
     endif()
     target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR})
     target_link_libraries(${name} PUBLIC fsi_settings ${ARG_DEPENDS})
@@ -49,7 +73,7 @@ endfunction()
 add_custom_target(programs)
 
 function(fsi_program name)
-  cmake_parse_arguments(ARG "" "PRECOMPILED" "SOURCES;DEPENDS" ${ARGN})
+  cmake_parse_arguments(ARG "TOGETHER" "PRECOMPILED" "SOURCES;DEPENDS" ${ARGN})
   if(NOT ARG_PRECOMPILED)
     set(ARG_PRECOMPILED fsi_precompiled)
   endif()
@@ -57,6 +81,10 @@ function(fsi_program name)
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
   target_link_libraries(${name} PRIVATE fsi_settings ${ARG_DEPENDS})
   fsi_precompile(${name} ${ARG_PRECOMPILED})
+  if(ARG_TOGETHER)
+    fsi_together(${name})
+  endif()
+  add_dependencies(${name} fsi_build_info)
   file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
   if(NOT folder MATCHES "^(tests|bench)")
     add_dependencies(programs ${name})

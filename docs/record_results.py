@@ -23,6 +23,7 @@ import time
 from pathlib import Path
 
 import beam_studies
+import record_builds
 import record_check
 import record_ellipse
 import record_faults

@@ -1,16 +1,20 @@
 /// Watches a run from outside; see README.md.
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
 #include <cstdio>
 #include <iostream>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "common/bus/listener.hpp"
+#include "common/core/command_line.hpp"
 #include "common/core/failure.hpp"
 #include "monitor/follow.hpp"
 #include "monitor/json.hpp"
@@ -137,38 +141,48 @@ void act(const Wishes& wishes) {
   follow(wishes, live, state);
 }
 
-void add_options(CLI::App& app, Wishes& wishes) {
-  app.add_option("RUN", wishes.run,
-                 "identity, folder or case of the run; may be left out when only one is going on");
-  app.add_flag("--once", wishes.once, "print the state once and exit");
-  app.add_flag("--json", wishes.json, "print JSON, one object per line");
-  app.add_flag("--plain", wishes.plain, "print one line per second instead of using the whole terminal");
-  app.add_option("--wait", wishes.wait_s, "longest wait of --once for the first word [s]")
-      ->capture_default_str();
-  app.add_option("--web", wishes.web, "serve a page for browsers at this port; 0 finds a free one")
-      ->check(CLI::Range(0, 65535));
-  app.add_option("--host", wishes.host,
-                 "address of the page; other machines see it where this is not loopback")
-      ->capture_default_str();
-  app.add_option("--record", wishes.record, "write everything heard to this HDF5 file");
-  app.add_option("--replay", wishes.replay, "show a recording instead of a run");
-  app.add_option("--speed", wishes.speed, "of the replay: 2 is twice as fast")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
-  app.add_option("--send", wishes.send, "send a request to the run instead of watching it")
-      ->check(CLI::IsMember({"pause", "resume", "checkpoint", "stop"}));
+void add_options(CommandLine& line, Wishes& wishes) {
+  line.add_option("RUN", wishes.run,
+                  "identity, folder or case of the run; may be left out when only one is going on");
+  line.add_flag("--once", wishes.once, "print the state once and exit");
+  line.add_flag("--json", wishes.json, "print JSON, one object per line");
+  line.add_flag("--plain", wishes.plain, "print one line per second instead of using the whole terminal");
+  line.add_option("--wait", wishes.wait_s,
+                  fmt::format("longest wait of --once for the first word [s] ({})", wishes.wait_s));
+  line.add_option("--web", wishes.web, "serve a page for browsers at this port; 0 finds a free one");
+  line.add_option("--host", wishes.host,
+                  "address of the page; other machines see it where this is not loopback");
+  line.add_option("--record", wishes.record, "write everything heard to this HDF5 file");
+  line.add_option("--replay", wishes.replay, "show a recording instead of a run");
+  line.add_option("--speed", wishes.speed, "of the replay: 2 is twice as fast");
+  line.add_option("--send", wishes.send, "send a request to the run instead of watching it");
+}
+
+/// @throws UserMistake
+void check(const Wishes& wishes) {
+  constexpr int no_page = -1, last_port = 65535;
+  if (wishes.web < no_page || wishes.web > last_port)
+    throw UserMistake(fmt::format("--web: {} is no port; write 0 to {}", wishes.web, last_port));
+  if (!(wishes.speed > 0)) throw UserMistake("--speed must be positive");
+  constexpr std::array<std::string_view, 4> requests{"pause", "resume", "checkpoint", "stop"};
+  if (!wishes.send.empty() && std::ranges::find(requests, wishes.send) == requests.end()) {
+    throw UserMistake(
+        fmt::format("--send: '{}' is no request; write {}", wishes.send, fmt::join(requests, ", ")));
+  }
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   Wishes wishes;
-  CLI::App app("Watches a run, without disturbing it, until it ends. Ctrl-C leaves; the run goes on.");
-  add_options(app, wishes);
+  CommandLine line("Watches a run, without disturbing it, until it ends. Ctrl-C leaves; the run goes on.");
+  add_options(line, wishes);
   try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::user_mistake);
+    if (!line.parse(argc, argv)) return 0;
+    check(wishes);
+  } catch (const UserMistake& mistake) {
+    fmt::print(stderr, "monitor: {}\n", mistake.what());
+    return static_cast<int>(mistake.code());
   }
   catch_signals();
   try {

@@ -47,15 +47,15 @@ bool is_ours(const fs::path& folder) {
 
 std::optional<RunEntry> read_entry(const fs::path& path) {
   std::ifstream file(path);
-  const auto json = nlohmann::json::parse(file, nullptr, false);
-  if (!json.is_object()) return std::nullopt;
+  const auto entry = nlohmann::json::parse(file, nullptr, false);
+  if (!entry.is_object()) return std::nullopt;
   try {
-    return RunEntry{.run = json.at("run").get<std::string>(),
-                    .name = json.value("case", ""),
-                    .dir = json.value("dir", ""),
-                    .pid = json.at("pid").get<int>(),
-                    .born = json.value("born", std::uint64_t{0}),
-                    .key = json.value("key", "")};
+    return RunEntry{.run = entry.at("run").get<std::string>(),
+                    .name = entry.value("case", ""),
+                    .dir = entry.value("dir", ""),
+                    .pid = entry.at("pid").get<int>(),
+                    .born = entry.value("born", std::uint64_t{0}),
+                    .key = entry.value("key", "")};
   } catch (const nlohmann::json::exception&) {
     return std::nullopt;
   }

@@ -3,12 +3,12 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
 #include <string>
 
 #include "common/case/case.hpp"
+#include "common/core/command_line.hpp"
 #include "common/core/failure.hpp"
 #include "common/io/atomic_file.hpp"
 #include "common/io/grid_writer.hpp"
@@ -96,13 +96,13 @@ void run(const std::string& case_path, const std::string& run_dir) {
 }  // namespace fsi::reference
 
 int main(int argc, char** argv) {
-  CLI::App app("Fine one-dimensional solution of a piston case");
+  fsi::CommandLine line("Fine one-dimensional solution of a piston case");
   std::string case_path;
   std::string run_dir;
-  app.add_option("--case", case_path, "case file (YAML)")->required();
-  app.add_option("--run-dir", run_dir, "folder of the results")->required();
-  CLI11_PARSE(app, argc, argv);
+  line.add_option("--case", case_path, "case file (YAML)").required();
+  line.add_option("--run-dir", run_dir, "folder of the results").required();
   try {
+    if (!line.parse(argc, argv)) return 0;
     fsi::reference::run(case_path, run_dir);
     return static_cast<int>(fsi::ExitCode::done);
   } catch (const fsi::Failure& failure) {

@@ -67,7 +67,7 @@ std::vector<Outline> outlines_in_gas(const Case& problem, const Node& root) {
 }
 
 /// A position for messages, its round-off taken away.
-Vec2 shown(const Vec2& x) {
+Vec2 rounded(const Vec2& x) {
   constexpr double unit = 1e-9;
   return (unit * (x / unit).array().round() + 0.0).matrix();  // + 0: no -0
 }
@@ -98,7 +98,7 @@ std::string crossing_in_list(const Outline& outline) {
 void check_crossing_itself(const Outline& outline) {
   const auto crossing = grid::self_crossing(outline.curve.x, outline.ends());
   if (!crossing) return;
-  const Vec2 x = shown(crossing->x);
+  const Vec2 x = rounded(crossing->x);
   fail(outline.node.place, outline.path,
        fmt::format("the outline crosses itself near ({:.4g}, {:.4g}){}; list the points in their order along "
                    "the outline, once around",
@@ -124,7 +124,7 @@ Excess largest_excess(const Outline& outline, const GridSpec& grid) {
     for (std::size_t k = 0; k < n; ++k) {
       const Vec2 x = outline.point(k);
       const double beyond = (x[direction_of(side)] - end_of(grid, side)) * (at_upper_end(side) ? 1 : -1);
-      if (beyond > worst.distance) worst = {beyond, side, shown(x)};
+      if (beyond > worst.distance) worst = {beyond, side, rounded(x)};
     }
   }
   return worst;
@@ -184,7 +184,7 @@ Excess deepest(const Outline& outline, const Outline& other) {
     const Vec2 x = outline.point(k);
     if (!other.behind(x)) continue;
     const double depth = grid::distance_to(other.curve.x, x);
-    if (depth > worst.distance) worst = {.distance = depth, .x = shown(x)};
+    if (depth > worst.distance) worst = {.distance = depth, .x = rounded(x)};
   }
   return worst;
 }

@@ -2,15 +2,17 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <fstream>
+#include <span>
+#include <string_view>
 
 #include "common/case/case.hpp"
 #include "common/case/document.hpp"
 #include "common/case/memory.hpp"
 #include "common/case/restart.hpp"
 #include "common/case/summary.hpp"
+#include "common/core/command_line.hpp"
 #include "common/core/failure.hpp"
 
 namespace {
@@ -58,42 +60,47 @@ void list(const Options& options) {
   }
 }
 
-void add_case_options(CLI::App& command, Options& options) {
-  command.add_option("case", options.name, "a path, or a name in configs/")->required();
-  command.add_option("--set", options.overrides, "KEY=VALUE, in place of what the file says (repeatable)")
-      ->allow_extra_args(false);
-  command.add_option("--solid", options.laws, "NAME=LAW, the law of a solid (repeatable)")
-      ->allow_extra_args(false);
-  command.add_option("--configs", options.folder, "folder of the cases that have a name");
-  command.add_flag("--json", options.as_json, "print what the launcher needs to know, as JSON");
+void add_case_options(fsi::CommandLine& line, Options& options) {
+  line.add_option("CASE", options.name, "a path, or a name in configs/").required();
+  line.add_option("--set", options.overrides, "KEY=VALUE, in place of what the file says (repeatable)");
+  line.add_option("--solid", options.laws, "NAME=LAW, the law of a solid (repeatable)");
+  line.add_option("--configs", options.folder, "folder of the cases that have a name");
+  line.add_flag("--json", options.as_json, "print what the launcher needs to know, as JSON");
 }
 
-int run(int argc, char** argv) {
-  CLI::App app("fsi_case: checks, resolves and documents case files");
+constexpr std::string_view usage = R"(fsi_case COMMAND ..: checks, resolves and documents case files
+
+  check CASE      exit 0 with one line, or 2 with one line that says what to write
+  resolve CASE    the case with parameters and overrides filled in, as JSON or into a file
+  list            names and titles of the cases
+  document        docs/case_file.md
+
+fsi_case COMMAND --help lists the options.
+)";
+
+int run(std::string_view command, std::span<const char* const> words) {
+  fsi::CommandLine line(fmt::format("fsi_case {}", command));
   Options options;
-  CLI::App* check_command =
-      app.add_subcommand("check", "exit 0 with one line, or 2 with one line that says what to write");
-  CLI::App* resolve_command = app.add_subcommand(
-      "resolve", "the case with parameters and overrides filled in, as JSON or into a file");
-  CLI::App* list_command = app.add_subcommand("list", "names and titles of the cases");
-  CLI::App* document_command = app.add_subcommand("document", "docs/case_file.md");
-  app.require_subcommand(1);
-  add_case_options(*check_command, options);
-  add_case_options(*resolve_command, options);
-  resolve_command->add_option("--out", options.out, "write the resolved YAML to this file");
-  resolve_command->add_option(
-      "--restart", options.former,
-      "case of a former run: exit 2 where a restart of that run would be another one");
-  list_command->add_option("--configs", options.folder, "folder of the cases");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : static_cast<int>(fsi::ExitCode::user_mistake);
+  if (command == "check") {
+    add_case_options(line, options);
+    if (line.parse(words)) check(options);
+  } else if (command == "resolve") {
+    add_case_options(line, options);
+    line.add_option("--out", options.out, "write the resolved YAML to this file");
+    line.add_option("--restart", options.former,
+                    "case of a former run: exit 2 where a restart of that run would be another one");
+    if (line.parse(words)) resolve(options);
+  } else if (command == "list") {
+    line.add_option("--configs", options.folder, "folder of the cases");
+    if (line.parse(words)) list(options);
+  } else if (command == "document") {
+    if (line.parse(words)) fmt::print("{}", fsi::case_file_document());
+  } else if (command == "--help" || command == "-h") {
+    fmt::print("{}", usage);
+  } else {
+    fmt::print(stderr, "{}", usage);
+    return static_cast<int>(fsi::ExitCode::user_mistake);
   }
-  if (check_command->parsed()) check(options);
-  if (resolve_command->parsed()) resolve(options);
-  if (list_command->parsed()) list(options);
-  if (document_command->parsed()) fmt::print("{}", fsi::case_file_document());
   return 0;
 }
 
@@ -101,7 +108,8 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
-    return run(argc, argv);
+    const std::span<const char* const> words(argv, static_cast<std::size_t>(argc));
+    return argc < 2 ? run("", {}) : run(words[1], words.subspan(2));
   } catch (const fsi::Failure& failure) {
     fmt::print(stderr, "{}\n", failure.what());
     return static_cast<int>(failure.code());

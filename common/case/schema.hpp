@@ -52,6 +52,9 @@ inline constexpr std::array<std::string_view, 9> solid_boundary_words{
     "interface", "slip_wall", "symmetry", "traction", "displacement",
     "dirichlet", "periodic",  "free",     "clamped"};
 
+/// A word that may stand in the place of values: those of the reference solution.
+inline constexpr std::array<std::string_view, 1> or_reference{"reference"};
+
 struct Key {
   std::string_view name;
   Type type = Type::number;

@@ -8,7 +8,6 @@ namespace {
 
 using std::array;
 using std::string_view;
-constexpr array<string_view, 1> or_reference{"reference"};
 
 constexpr array shake_keys{
     Key{.name = "name",

@@ -9,7 +9,6 @@ namespace {
 
 using std::array;
 using std::string_view;
-constexpr array<string_view, 1> or_reference{"reference"};
 
 constexpr array<string_view, 2> load_words{"current", "reference"};
 constexpr Key load_key{

@@ -5,18 +5,21 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <atomic>
 #include <charconv>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <map>
+#include <sstream>
+#include <string>
 #include <system_error>
-#include <vector>
 
 #include "common/bus/options.hpp"
+#include "common/core/command_line.hpp"
 #include "common/core/log.hpp"
+#include "common/core/suggest.hpp"
 #include "common/io/atomic_file.hpp"
 
 namespace fsi {
@@ -96,18 +99,35 @@ ExitCode leave_part(const Setup& setup, io::Part& part, ExitCode code) {
   return code;
 }
 
-/// {name: number} of NAME=NUMBER. @throws CLI::ValidationError
-std::map<std::string, int> numbered(const std::vector<std::string>& words) {
+/// {name: number} of NAME=NUMBER,.. @throws UserMistake
+std::map<std::string, int> numbered(const std::string& list) {
   std::map<std::string, int> result;
-  for (const std::string& word : words) {
+  std::istringstream words(list);
+  for (std::string word; std::getline(words, word, ',');) {
     const std::string name = word.substr(0, word.rfind('='));
     const char *begin = word.data() + std::min(name.size() + 1, word.size()),
                *end = word.data() + word.size();
     const auto [rest, error] = std::from_chars(begin, end, result[name]);
     if (error != std::errc{} || rest != end)
-      throw CLI::ValidationError("--pids", fmt::format("'{}' is not NAME=PID", word));
+      throw UserMistake(fmt::format("--pids: {} is not NAME=PID", in_ticks(word)));
   }
   return result;
+}
+
+/// False: help was asked for. @throws UserMistake
+bool read_command_line(int argc, char** argv, const std::string& role, Setup& setup, std::string& case_path) {
+  CommandLine line(fmt::format("AMP-FSI {}: one program of a run; ./launch/fsi starts it", role));
+  line.add_option("--case", case_path, "case file (YAML)").required();
+  line.add_option("--run-dir", setup.run_dir, "folder of the results").required();
+  line.add_option("--run", setup.run, "identity of the run on the bus");
+  line.add_option("--restart", setup.restart, "folder of the checkpoint to go on from");
+  line.add_option("--name", setup.name, "name of this participant in the case");
+  line.add_option("--pause-at", setup.pause_at, "pause after so many steps");
+  std::string pids;
+  line.add_option("--pids", pids, "NAME=PID,..: processes of the other participants");
+  if (!line.parse(argc, argv)) return false;
+  setup.pids = numbered(pids);
+  return true;
 }
 
 }  // namespace
@@ -188,23 +208,13 @@ void ProgressLines::show(std::uint64_t step, double t, double dt, const std::str
 
 int run_program(int argc, char** argv, const std::string& default_name, const std::string& role,
                 const std::function<void(const Setup&, io::Part&)>& body) {
-  CLI::App app(fmt::format("AMP-FSI {}: one program of a run; ./launch/fsi starts it", role));
   Setup setup{.problem = {}, .run_dir = ".", .run = "run", .name = default_name};
   std::string case_path;
-  app.add_option("--case", case_path, "case file (YAML)")->required();
-  app.add_option("--run-dir", setup.run_dir, "folder of the results")->required();
-  app.add_option("--run", setup.run, "identity of the run on the bus");
-  app.add_option("--restart", setup.restart, "folder of the checkpoint to go on from");
-  app.add_option("--name", setup.name, "name of this participant in the case");
-  app.add_option("--pause-at", setup.pause_at, "pause after so many steps");
-  std::vector<std::string> pids;
-  app.add_option("--pids", pids, "NAME=PID,..: processes of the other participants")->delimiter(',');
   try {
-    app.parse(argc, argv);
-    setup.pids = numbered(pids);
-  } catch (const CLI::ParseError& error) {
-    const int code = app.exit(error);
-    return code == 0 ? 0 : static_cast<int>(ExitCode::user_mistake);
+    if (!read_command_line(argc, argv, role, setup, case_path)) return 0;
+  } catch (const UserMistake& mistake) {
+    fmt::print(stderr, "{}: {}\n", default_name, mistake.what());
+    return static_cast<int>(mistake.code());
   }
 
   catch_signals();

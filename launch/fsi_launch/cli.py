@@ -217,6 +217,10 @@ def main(arguments):
     if not arguments or arguments[0] in ("-h", "--help", "help"):
         print(USAGE, end="")
         return DONE
+    if arguments == ["--version"]:
+        from fsi_launch import version
+        print(version.describe())
+        return DONE
     try:
         interrupts.listen()
         options = _parser().parse_args(arguments)

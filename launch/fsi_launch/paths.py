@@ -1,6 +1,8 @@
 """Where things are: the repository and its programs."""
 
 import os
+import re
+import subprocess
 from pathlib import Path
 
 from fsi_launch.failure import Failure, INTERNAL_ERROR, UserMistake
@@ -8,6 +10,24 @@ from fsi_launch.failure import Failure, INTERNAL_ERROR, UserMistake
 ROOT = Path(__file__).resolve().parents[2]
 BUILD = ROOT / "build" / "release"
 BIN = Path(os.environ.get("FSI_BIN") or BUILD / "bin")
+
+
+_built = set()  # by this command
+
+
+def build(names):
+    """Builds those of the programs that the build knows and that are missing or out of date. With FSI_BIN nothing is built. Ends the
+    command where that fails; the reason is told by then."""
+    if os.environ.get("FSI_BIN"):
+        return
+    known = set(re.findall(r"^build bin/(\w+):", (BUILD / "build.ninja").read_text(encoding="utf-8"), flags=re.M))
+    wanted = [f"bin/{name}" for name in dict.fromkeys(names) if name in known - _built]
+    if not wanted:
+        return
+    code = subprocess.run([ROOT / "launch" / "fsi", "--build", *wanted], stdin=subprocess.DEVNULL, check=False).returncode
+    if code != 0:
+        raise SystemExit(code)
+    _built.update(names)
 
 
 def program(name):

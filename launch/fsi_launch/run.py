@@ -181,11 +181,14 @@ def _applicable(case, request, say):
 
 
 def _resolved(request, path, former=None):
-    """The checked Case, all of whose programs are there."""
+    """The checked Case, all of whose programs are there, built if need be."""
     case = cases.resolve(path, request.overrides, request.laws, former)
     if request.frames and not any(entry.startswith("output.every") for entry in request.overrides):
         overrides = [*request.overrides, f"output.every={case.end / FRAMES:.17g}"]
         case = cases.resolve(path, overrides, request.laws, former)
+    others = [cases.REFERENCE_PROGRAMS.get(case.reference), "monitor" if request.monitor else None,
+              "fsi_credentials" if any("/" in program for program in case.programs.values()) else None]
+    paths.build([*case.programs.values(), *filter(None, others)])
     for program in case.programs.values():
         paths.program(program)
     return case

@@ -6,6 +6,8 @@ import math
 import os
 from pathlib import Path
 
+from fsi_launch import version
+
 ERROR_ORDER = ("rho", "v1", "v2", "T", "p", "u_bar", "v_bar", "P_bar")
 PARTICIPANT_KEYS = ("role", "status", "points", "substeps", "compute_s", "wait_s", "time_s", "point_updates_per_s",
                     "peak_memory_mib")
@@ -73,7 +75,7 @@ def merge(parts, case, status, reason, wall_s):
     conservation = {name: part["conservation"] for name, part in parts.items() if part.get("conservation")}
     if conservation:
         summary["conservation"] = conservation
-    return summary
+    return summary | {"build": version.built()}
 
 
 def write(directory, summary):

@@ -1,8 +1,6 @@
 /// How programs find each other at the beginning of a run, and what they say when they do not.
 
 #include <algorithm>
-#include <chrono>
-#include <thread>
 
 #include "common/bus/convert.hpp"
 #include "common/bus/dds.hpp"
@@ -86,13 +84,12 @@ TEST(Handshake, CrowdOfStrangersIsNotRemembered) {
   auto coupler = in_thread([&] { const CouplerSession session(impatient, gas_and_solid(), "one case"); });
   const Entity participant = create_participant(run);
   Writer<amp_fsi_Hello> crowd(participant, hello_topic, Delivery::lasting);
-  while (crowd.matched() == 0) std::this_thread::sleep_for(1ms);
+  ASSERT_TRUE(until([&] { return crowd.matched() > 0; }));
   for (int k = 0; k < 200; ++k) {
     wire::Hello stranger = hello("solid", fmt::format("stranger {}", k / 2));
     stranger.run = run;
     crowd.write(borrow(stranger).sample);
     EXPECT_TRUE(crowd.arrived(5));
-    std::this_thread::sleep_for(1ms);  // the coupler keeps up
   }
   const std::string reason = coupler.get().reason;
   const auto names = [&](int k) { return says(reason, fmt::format("'stranger {}'", k)); };
