@@ -26,6 +26,7 @@ constexpr Cost gas_cost{.lattice = 185, .mapped = 185, .fitted = 400};
 constexpr Cost solid_cost{.lattice = 250, .mapped = 345, .fitted = 450};
 constexpr Cost rigid_cost{.lattice = 0, .mapped = 0, .fitted = 0};
 constexpr double program_cost = 21e6;    ///< without any points, the bus included
+constexpr double coupler_cost = 16.5e6;  ///< it holds no fields
 constexpr double interface_cost = 1700;  ///< of the coupler, for each point of an interface
 
 double points_of(const GridSpec& grid) {
@@ -123,7 +124,7 @@ std::vector<MemoryNeed> memory_of(const Case& problem) {
     if (solid.body_fitted.empty()) meeting += solid.grid.n1 + solid.grid.n2;
   }
   if (problem.fluid && !problem.solids.empty())
-    needs.push_back({"coupler", meeting, program_cost + interface_cost * meeting});
+    needs.push_back({"coupler", meeting, coupler_cost + interface_cost * meeting});
   return needs;
 }
 
@@ -146,8 +147,9 @@ void check_memory(const Case& problem, const Node& root, double available) {
   double fixed = 0, by_points = 0, points = 0;
   std::vector<std::string> parts;
   for (const MemoryNeed& need : memory_of(problem)) {
-    fixed += program_cost;
-    by_points += need.bytes - program_cost;
+    const double own = need.program == "coupler" ? coupler_cost : program_cost;
+    fixed += own;
+    by_points += need.bytes - own;
     points += need.program == "coupler" ? 0 : need.points;
     parts.push_back(fmt::format("{} {}", need.program, bytes_text(need.bytes)));
   }

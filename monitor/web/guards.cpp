@@ -27,7 +27,8 @@ std::string host_of(const std::string& header) {
   const bool bracketed = header.starts_with("[");
   const std::size_t end = std::min(header.find(bracketed ? ']' : ':'), header.size());
   const std::size_t rest = std::min(end + (bracketed ? 1 : 0), header.size());
-  if (!is_port(std::string_view(header).substr(rest))) return "";
+  const bool open = bracketed && end == header.size();
+  if (open || !is_port(std::string_view(header).substr(rest))) return "";
   return bracketed ? header.substr(1, end - 1) : header.substr(0, end);
 }
 
