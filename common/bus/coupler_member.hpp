@@ -61,9 +61,9 @@ struct Channel {
 struct Member {
   std::string label;
   Newcomer newcomer;
-  wire::Hello hello;
-  std::unique_ptr<Peer> peer;  ///< null until its hello came
-  std::deque<Channel> channels;
+  wire::Hello hello = {};
+  std::unique_ptr<Peer> peer = nullptr;  ///< null until its hello came
+  std::deque<Channel> channels = {};
   std::size_t first_slot = 0;  ///< place of the first interface among all predicted states
 };
 

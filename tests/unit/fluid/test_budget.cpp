@@ -17,8 +17,7 @@ const std::array<Boundary, 4> open_sides{Outflow{}, Outflow{}, Outflow{}, Outflo
 GasSolver with_a_pulse(int n, const std::array<Boundary, 4>& sides) {
   return test::solver(test::rectangle(n, n, {0, 0}, {1, 1}), {.limiter = Limiter::none}, sides,
                       [](double x, double y, double) {
-                        const double bump =
-                            std::exp(-40 * ((x - 0.6) * (x - 0.6) + (y - 0.5) * (y - 0.5)));
+                        const double bump = std::exp(-40 * ((x - 0.6) * (x - 0.6) + (y - 0.5) * (y - 0.5)));
                         return State{1 + 0.2 * bump, 0.7, 0.1, 1 / 1.4 + 0.2 * bump};
                       });
 }
@@ -50,9 +49,7 @@ TEST(Budget, OfWavesThatLeaveIsClosedToRoundOff) {
 
 /// A side that imposes all values, those of a gas at rest here, throws the pulse back.
 TEST(Budget, OfASideThatImposesValuesIsClosedToRoundOff) {
-  const Inflow rest{[](double, double, double) {
-    return State{1, 0, 0, 1 / 1.4};
-  }};
+  const Inflow rest{[](double, double, double) { return State{1, 0, 0, 1 / 1.4}; }};
   EXPECT_LT(largest_defect(with_a_pulse(41, {Outflow{}, rest, Outflow{}, Outflow{}})), round_off);
 }
 
@@ -60,10 +57,9 @@ TEST(Budget, OfMirrorsAndWallsIsClosedToSecondOrder) {
   const std::array<Boundary, 4> mirrors{Outflow{}, Outflow{}, Symmetry{}, Symmetry{}},
       walls{Outflow{}, Outflow{}, SlipWall{}, SlipWall{}};
   const auto without_drift = [](int n, const std::array<Boundary, 4>& sides) {
-    return largest_defect(test::solver(test::rectangle(n, n, {0, 0}, {1, 1}), {.limiter = Limiter::none}, sides,
-                                       [](double x, double y, double) {
-                                         const double bump =
-                                             std::exp(-40 * ((x - 0.6) * (x - 0.6) + y * y));
+    return largest_defect(test::solver(test::rectangle(n, n, {0, 0}, {1, 1}), {.limiter = Limiter::none},
+                                       sides, [](double x, double y, double) {
+                                         const double bump = std::exp(-40 * ((x - 0.6) * (x - 0.6) + y * y));
                                          return State{1 + 0.2 * bump, 0.7, 0, 1 / 1.4 + 0.2 * bump};
                                        }));
   };
