@@ -11,6 +11,8 @@ import sys
 from pathlib import Path
 
 HOMES = {"tests/waiting.hpp", "tests/programs/running.py", "tests/programs/browser.py", "tests/unit/launch/launcher.py"}
+# Checks of the sources, and tools that say how long they took and judge nothing by it.
+NO_TESTS = ("tests/structure/", "tests/mutations/", "tests/instruction_sets/")
 CLOCKS = {
     ".py": re.compile(r"\btime\.(sleep|monotonic|perf_counter|process_time|time)\(|\btimeout=\d|\buntil\(.*,\s*[\d.]+\)"),
     ".cpp": re.compile(r"\b(sleep_for|sleep_until|usleep|nanosleep|sleep)\(|\b(steady|system|high_resolution)_clock\b|"
@@ -23,7 +25,7 @@ def offences(root):
     """Places in the tests that read a clock or sleep."""
     for path in sorted((root / "tests").rglob("*")):
         name = path.relative_to(root).as_posix()
-        if path.suffix not in CLOCKS or name in HOMES or name.startswith(("tests/structure/", "tests/mutations/")):
+        if path.suffix not in CLOCKS or name in HOMES or name.startswith(NO_TESTS):
             continue
         for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), start=1):
             if found := CLOCKS[path.suffix].search(line):
