@@ -84,7 +84,7 @@ TEST(Handshake, CrowdOfStrangersIsNotRemembered) {
   auto coupler = in_thread([&] { const CouplerSession session(impatient, gas_and_solid(), "one case"); });
   const Entity participant = create_participant(run);
   Writer<amp_fsi_Hello> crowd(participant, hello_topic, Delivery::lasting);
-  ASSERT_TRUE(until([&] { return crowd.matched() > 0; }));
+  ASSERT_TRUE(fsi::test::until([&] { return crowd.matched() > 0; }));
   for (int k = 0; k < 200; ++k) {
     wire::Hello stranger = hello("solid", fmt::format("stranger {}", k / 2));
     stranger.run = run;

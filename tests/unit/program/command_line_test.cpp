@@ -22,7 +22,7 @@ Read read(const std::vector<const char*>& words, bool file_required = false) {
   Read r;
   CommandLine line("About");
   line.add_option("RUN", r.run, "which run");
-  auto& file = line.add_option("--file", r.file, "which file");
+  const auto file = line.add_option("--file", r.file, "which file");
   if (file_required) file.required();
   line.add_option("--set", r.settings, "settings");
   line.add_option("--port", r.port, "port");
