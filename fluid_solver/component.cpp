@@ -283,7 +283,11 @@ void Component::archive(Archive& archive) {
   archive.number("steps", counters_.steps);
   for (const Side side : all_sides) {
     WallMotion& wall = walls_[static_cast<std::size_t>(side)];
-    archive.inside(name_of(side), [&] { wall.archive(archive); });
+    archive.inside(name_of(side), [&] {
+      wall.archive(archive);
+      // Of the step whose end the budget has yet to see.
+      archive.list("edge", edges_[static_cast<std::size_t>(side)]);
+    });
   }
   if (!forcing_) return;
   archive.values("source", source_.values());

@@ -8,6 +8,8 @@
 #include <memory>
 #include <vector>
 
+#include "common/core/failure.hpp"
+
 namespace fsi {
 
 void open_log(const std::string& program, const std::string& run_dir, LogFile kept) {
@@ -17,9 +19,13 @@ void open_log(const std::string& program, const std::string& run_dir, LogFile ke
   std::vector<spdlog::sink_ptr> sinks{terminal};
   if (!run_dir.empty()) {
     const auto path = std::filesystem::path(run_dir) / "log" / (program + ".log");
-    auto file = std::make_shared<spdlog::sinks::basic_file_sink_st>(path.string(), kept == LogFile::fresh);
-    file->set_pattern("%Y-%m-%d %H:%M:%S.%e %l %v");
-    sinks.push_back(std::move(file));
+    try {
+      auto file = std::make_shared<spdlog::sinks::basic_file_sink_st>(path.string(), kept == LogFile::fresh);
+      file->set_pattern("%Y-%m-%d %H:%M:%S.%e %l %v");
+      sinks.push_back(std::move(file));
+    } catch (const spdlog::spdlog_ex& error) {
+      throw OutputFailed(error.what());
+    }
   }
   auto logger = std::make_shared<spdlog::logger>(program, sinks.begin(), sinks.end());
   logger->flush_on(spdlog::level::info);

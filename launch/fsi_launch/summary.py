@@ -64,7 +64,7 @@ def merge(parts, case, status, reason, wall_s):
         "interface": speaker.get("interface") or {},
         "counters": {"first_order_fallbacks": 0, "floors": 0} | _merged(parts, "counters", lambda a, b: a + b),
     }
-    if missing := next((part["reason"] for part in parts.values() if part["status"] == "completed" and part.get("reason")), None):
+    if missing := next((part["reason"] for part in parts.values() if part.get("status") == "completed" and part.get("reason")), None):
         summary["errors_missing"] = missing
     for name, program in participants.items():
         part = parts.get(name, {"status": "lost"})

@@ -91,7 +91,7 @@ class CompositeGrids(EndToEnd):
         run = self.complete("rotating_disk", "--set", "grid.factor=2", "--set", "time.end=0.1",
                             "--set", "output.times=[0.1]", "--set", "reference.points=400")
         self.assertEqual(plot(self, run.directory, "--contours"),
-                         {"fields_0000", "grid", "grid_disk", "radius_0000", "streamlines", "interface", "forces_disk"})
+                         {"fields_0000", "grid", "grid_disk", "radius_0000", "axis_0000", "streamlines", "interface", "forces_disk"})
 
 
 if __name__ == "__main__":

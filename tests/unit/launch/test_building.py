@@ -26,7 +26,8 @@ echo "ninja ${*:5}" >>"$CALLS"
 CASE = """#!/bin/bash
 echo '{"name": "piston", "resolved": "", "participants": [{"name": "fluid", "executable": "fluid_solver"},
   {"name": "solid", "executable": "somebody_elses"}, {"name": "coupler", "executable": "coupler"}],
-  "reference": {"kind": "piston_1d"}, "expect": [], "time": {"end": 1}, "output_times": [], "projection": "full"}'
+  "reference": {"kind": "piston_1d"}, "expect": [], "time": {"end": 1}, "output_times": [], "projection": "full",
+  "restart_digest": ""}'
 """
 
 

@@ -59,7 +59,8 @@ TEST_F(Log, ARunThatGoesOnKeepsWhatItsLogSays) {
 }
 
 TEST_F(Log, AFileThatCannotBeMadeIsAFailureOfOutput) {
-  EXPECT_THROW(open_log("fluid", (folder_ / "nowhere").string(), LogFile::fresh), OutputFailed);
+  std::ofstream(folder_ / "file") << "no folder";
+  EXPECT_THROW(open_log("fluid", (folder_ / "file").string(), LogFile::fresh), OutputFailed);
 }
 
 }  // namespace
