@@ -63,7 +63,7 @@ void Live::look_at_processes(RunState& state) {
 
 std::string Live::request(const std::string& command) {
   try {
-    bus::send_control(run_.run, run_.key, command);
+    listener_.request(command);
     return fmt::format("{}: sent", command);
   } catch (const Failure& failure) {
     return fmt::format("{}: {}", command, failure.what());

@@ -15,6 +15,23 @@ namespace {
 
 constexpr double participant_lease_s = 10;
 
+/// Returns when the request has arrived. @throws PeerLost nobody takes it within `timeout_s`
+void deliver(const wire::Control& request, const Entity& participant, double timeout_s) {
+  Waitset waitset(participant);
+  Writer<amp_fsi_Control> writer(participant, control_topic, Delivery::lasting);
+  writer.announce_matches(waitset);
+  const auto start = Clock::now();
+  while (writer.matched() == 0) {
+    if (since(start) > timeout_s)
+      throw PeerLost(fmt::format("nobody of run '{}' takes requests; is it running?", request.run));
+    waitset.wait(timeout_s - since(start));
+  }
+  writer.write(borrow(request));
+  if (!writer.arrived(timeout_s))
+    throw PeerLost(
+        fmt::format("run '{}' did not take '{}' within {} s", request.run, request.command, timeout_s));
+}
+
 }  // namespace
 
 struct Listener::Implementation {
@@ -68,23 +85,15 @@ int Listener::programs() const {
   return implementation_->telemetry_reader.alive();
 }
 
+void Listener::request(const std::string& command, double timeout_s) {
+  deliver({.run = implementation_->run, .command = command}, implementation_->participant, timeout_s);
+}
+
 void send_control(const std::string& run, const std::string& key, const std::string& command,
                   double timeout_s) {
   const auto domain = join_domain(run, participant_lease_s);
   const Entity participant = create_participant(run, parse_key(key), "control");
-  Waitset waitset(participant);
-  Writer<amp_fsi_Control> writer(participant, control_topic, Delivery::lasting);
-  writer.announce_matches(waitset);
-  const auto start = Clock::now();
-  while (writer.matched() == 0) {
-    if (since(start) > timeout_s)
-      throw PeerLost(fmt::format("nobody of run '{}' takes requests; is it running?", run));
-    waitset.wait(timeout_s - since(start));
-  }
-  const wire::Control request{.run = run, .command = command};
-  writer.write(borrow(request));
-  if (!writer.arrived(timeout_s))
-    throw PeerLost(fmt::format("run '{}' did not take '{}' within {} s", run, command, timeout_s));
+  deliver({.run = run, .command = command}, participant, timeout_s);
 }
 
 }  // namespace fsi::bus

@@ -25,6 +25,9 @@ class Listener {
   const std::optional<wire::Abort>& aborted() const;
   /// Programs of the run that can be heard now.
   int programs() const;
+  /// As `send_control`, by who listens already: with protection a second participant of one process would end
+  /// what the first one hears. @throws PeerLost
+  void request(const std::string& command, double timeout_s = 3);
 
  private:
   struct Implementation;
