@@ -81,7 +81,7 @@ const Mistake keys[] = {
     {"UnknownKey", "cfl: 0.9", "clf: 0.9", "case.yaml:5:16: time: unknown key `clf`; did you mean `cfl`?"},
     {"UnknownKeyNearNothing", "cfl: 0.9", "zzz: 0.9",
      "case.yaml:5:16: time: unknown key `zzz`; one of end, cfl, growth, multirate, robin_order, dt, "
-     "peer_timeout, step_timeout"},
+     "join_timeout, peer_timeout, step_timeout"},
     {"KeyOfAnotherKind", "y: [0, 1], points: [11, 11]}\n  boundary",
      "y: [0, 1], points: [11, 11], map: [r, s]}\n  boundary",
      "case.yaml:9:50: fluid.grid: key `map` belongs to kind `mapped`; write `kind: mapped` or leave it out"},
