@@ -448,6 +448,8 @@ How to read it:
 - Without a reference, grids are compared with each other: a negative order means that the difference grew. The elastic ellipse sheds vortices that
   differ from grid to grid from about t = 2 on, so its later differences have no order.
 - Defects of mass, momentum and energy: [what they hold](output.md#budgets).
+- The sections about the shock and the ellipse but for the symmetries are older than the case's present angle: the long axis then stood at +45 degrees,
+  the mirror image. `--set parameters.angle=45` repeats them; now `centre2`, `velocity2` and `angle` have the other sign.
 - Times in seconds come from a machine with two cores and AVX2; those of single runs vary by some per cent.
 
 """
