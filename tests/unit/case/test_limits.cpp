@@ -145,7 +145,7 @@ TEST(CaseLimits, FilesOfPointsThatAreNoneOrEndlessAreRefusedWhereTheyAreNamed) {
   std::string million;
   for (int k = 0; k < 1'000'000; ++k) million += "1,2\n";
   folder.write("million.csv", million);
-  folder.write("many.csv", million.substr(0, 4 * 30'000));
+  folder.write("many.csv", million.substr(0, std::size_t{4} * 30'000));
   tests::make_pipe(folder, "pipe.csv");
   tests::make_loop(folder, "loop.csv");
   const std::string place = "/case.yaml:4:58: shape.file: ";

@@ -119,7 +119,7 @@ class Hostile {
   }
 
   std::string deep(const std::string& text) {
-    const std::string opening = one_of<std::string>({"[", "{a: ", "- ", "? ", "((", "sin("});
+    const auto opening = one_of<std::string>({"[", "{a: ", "- ", "? ", "((", "sin("});
     const std::string open = repeated(opening, count());
     return one_of<std::string>({"title: ", "deep: ", "time: {end: ", ""}) + open + "\n" + text;
   }
@@ -152,7 +152,7 @@ class Hostile {
   }
 
   std::string bytes(std::string text) {
-    const std::string junk = one_of<std::string>(
+    const auto junk = one_of<std::string>(
         {"\xff", "\xc3", "\xe2\x82", "\xed\xa0\x80", "\xf5\x80\x80\x80", std::string(1, '\0')});
     text.insert(static_cast<std::size_t>(pick(0, static_cast<int>(text.size()))),
                 repeated(junk, pick(1, 1000)));
@@ -161,7 +161,7 @@ class Hostile {
 
   /// A solid through points of a file that is none, or has too many.
   std::string points(const std::string& text) {
-    std::string name =
+    auto name =
         one_of<std::string>({"/dev/zero", "/dev/null", "/dev/full", "/", "loop.csv", "pipe.csv", "many.csv"});
     if (name == "many.csv") folder_.write(name, numbered("#, #\n", count()));
     if (name == "loop.csv") tests::make_loop(folder_, name);
@@ -172,10 +172,10 @@ class Hostile {
   }
 
   std::string numbers(const std::string& text) {
-    const std::string number =
+    const auto number =
         one_of<std::string>({"1e-300", "1e300", "1e9", "100000", "-1e300", "1e-9", "0", "1e6"});
-    const std::string key = one_of<std::string>({"points", "lines", "spacing", "factor", "end", "cfl",
-                                                 "growth", "rho", "x", "radius", "every", "dt", "semi_axes"});
+    const auto key = one_of<std::string>({"points", "lines", "spacing", "factor", "end", "cfl", "growth",
+                                          "rho", "x", "radius", "every", "dt", "semi_axes"});
     return std::regex_replace(
         text, std::regex("\\b" + key + ": *[^,}\n]*"), key + ": " + number,
         one_of({std::regex_constants::format_first_only, std::regex_constants::format_default}));
@@ -274,7 +274,9 @@ TEST(DamagedCase, IsAMistakeWithItsPlaceOrFineButNeverACrash) {
       tally.files, paths.size(), tally.mistakes, tally.files - tally.mistakes, tally.slowest,
       tally.slowest_file, peak_memory());
   EXPECT_GT(tally.mistakes, damages / 3);
+#ifndef __SANITIZE_ADDRESS__  // which keeps what was given back
   EXPECT_LT(peak_memory(), 500);
+#endif
 }
 
 }  // namespace
