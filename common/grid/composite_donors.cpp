@@ -5,9 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "common/core/failure.hpp"
 #include "common/grid/composite_grid.hpp"
+#include "common/grid/outline.hpp"
 
 namespace fsi::grid {
 
@@ -28,7 +32,7 @@ CellMap CompositeGrid::cells_of(int grid, const Level& level) const {
 
 Donors CompositeGrid::donors_of(int grid, const Level& level) const {
   const PointSets& sets = level.before ? part(grid).before : part(grid).now;
-  return {.discretised = sets.discretised, .valid = sets.valid};
+  return {.discretised = sets.discretised, .valid = sets.valid, .widest = level.widest};
 }
 
 Vec2 CompositeGrid::position_of(int grid, int i, int j, const Level& level) const {
@@ -46,15 +50,32 @@ void CompositeGrid::limit_lines(int grid, int lines) {
   classify(part(grid).now, rows, options_.layers, intervals_);
 }
 
-void CompositeGrid::connect_all(bool trim) {
+void CompositeGrid::connect_all(bool trim, int most_lines) {
   counts_ = {};
   orphans_ = {};
   for (InterpolationList& list : interpolation_) list.clear();
   classify(part(0).now, part(0).rows, options_.layers, intervals_);
-  for (int grid = 1; grid < grids(); ++grid) limit_lines(grid, body(grid).n2);
+  for (int grid = 1; grid < grids(); ++grid) {
+    const int lines = std::min(most_lines, body(grid).n2);
+    limit_lines(grid, lines);
+    counts_.lines_left_out += static_cast<std::size_t>(body(grid).n2 - lines);
+  }
   connect_grid(0);
   if (trim) trim_lines();
   for (int grid = 1; grid < grids(); ++grid) connect_grid(grid);
+}
+
+/// Where curves come near each other, lines that reach behind another curve have holes, and the points around
+/// them find no donors; fewer lines from the curves do. All lines once more where they do not, for the
+/// message.
+void CompositeGrid::connect_with_fewer_lines() {
+  int most = 0;
+  for (const BodyFittedGrid& grid : bodies_) most = std::max(most, grid.n2);
+  for (int lines = most - 1; lines >= options_.layers + 3; --lines) {
+    connect_all(false, lines);
+    if (orphans_.count == 0) return;
+  }
+  connect_all(false, most);
 }
 
 /// Leaves as many lines as the background's donors need, and the interpolation points around them.
@@ -74,8 +95,6 @@ void CompositeGrid::trim_lines() {
 }
 
 void CompositeGrid::connect_grid(int grid) {
-  // The chord of two curve points may cut off half a thin line.
-  constexpr Level present{.before = false, .behind_curve = 0.5, .outside = 0};
   const PointSets& sets = part(grid).now;
   for (int j = 0; j < part(grid).layout.n2; ++j) {
     if (sets.valid.row(j).size() == sets.discretised.row(j).size() &&
@@ -84,12 +103,12 @@ void CompositeGrid::connect_grid(int grid) {
     }
     runs_.clear();
     subtract(sets.valid.row(j), sets.discretised.row(j), runs_);
-    for (const Interval& run : runs_) connect_run(grid, j, run, present, interpolation_);
+    for (const Interval& run : runs_) connect_run(grid, j, run, present(3), interpolation_);
   }
 }
 
 void CompositeGrid::find_exposed() {
-  constexpr Level past{.before = true, .behind_curve = 2, .outside = 1};
+  constexpr Level past{.before = true, .behind_curve = 2, .outside = 1, .widest = 3};
   for (InterpolationList& list : exposed_) list.clear();
   for (int grid = 0; grid < grids(); ++grid) {
     for (int j = 0; j < part(grid).layout.n2; ++j) {
@@ -107,19 +126,8 @@ void CompositeGrid::connect_run(int grid, int j, Interval run, const Level& leve
   Start start;
   for (int i = run.begin; i < run.end; ++i) {
     const Vec2 x = position_of(grid, i, j, level);
-    std::optional<Stencil> stencil;
-    if (grid > 0) {
-      stencil = find_stencil(background_, donors_of(0, level), x, level.outside);
-      if (stencil) stencil->grid = 0;
-    } else {
-      if (start.grid == 0) start = nearest_start(i, j);
-      if (start.grid != 0) stencil = donor_in(start, x, level);
-      if (!stencil) start = {};
-    }
-    if (rank_of(stencil) > 0 && (!stencil || bodies_.size() > 1)) {
-      const std::optional<Stencil> other = donor_anywhere(grid, x, level);
-      if (rank_of(other) < rank_of(stencil)) stencil = other;
-    }
+    if (grid == 0 && start.grid == 0) start = nearest_start(i, j);
+    const std::optional<Stencil> stencil = stencil_for(grid, x, start, level);
     if (!stencil) {
       orphan(grid, i, j, x);
       continue;
@@ -129,6 +137,25 @@ void CompositeGrid::connect_run(int grid, int j, Interval run, const Level& leve
                 {x[0], x[1]});
     if (level.before) count_exposed(*stencil);
   }
+}
+
+/// The best donors of a point; the search among body-fitted grids starts from `start`, which moves to the
+/// cell found.
+std::optional<Stencil> CompositeGrid::stencil_for(int grid, const Vec2& x, Start& start,
+                                                  const Level& level) const {
+  std::optional<Stencil> stencil;
+  if (grid > 0) {
+    stencil = find_stencil(background_, donors_of(0, level), x, level.outside);
+    if (stencil) stencil->grid = 0;
+  } else {
+    if (start.grid != 0) stencil = donor_in(start, x, level);
+    if (!stencil) start = {};
+  }
+  if (rank_of(stencil) > 0 && (!stencil || bodies_.size() > 1)) {
+    const std::optional<Stencil> other = donor_anywhere(grid, x, level);
+    if (rank_of(other) < rank_of(stencil)) stencil = other;
+  }
+  return stencil;
 }
 
 void CompositeGrid::count_exposed(const Stencil& stencil) {
@@ -192,11 +219,41 @@ void CompositeGrid::orphan(int grid, int i, int j, const Vec2& x) {
   if (orphans_.count++ == 0) orphans_ = {.count = 1, .grid = grid, .i = i, .j = j, .x = x};
 }
 
+/// "; the curves of grids "a" and "b" are 0.04 (0.8 cells) apart at (0.5, 0)": what makes it narrow at a
+/// place.
+std::string CompositeGrid::nearest_curves(const Vec2& x) const {
+  const double cell = std::max(background_.dx(), background_.dy());
+  std::vector<std::vector<double>> curves;
+  std::vector<std::pair<double, std::size_t>> order;
+  for (int grid = 1; grid < grids(); ++grid) {
+    const CuttingCurve curve = curve_of(grid);
+    std::vector<double>& points = curves.emplace_back(curve.x, curve.x + curve.points);
+    points.insert(points.end(), curve.y, curve.y + curve.points);
+    order.emplace_back(distance_to(points, x), curves.size() - 1);
+  }
+  std::ranges::sort(order);
+  if (order.empty()) return "";
+  const std::size_t a = order[0].second;
+  const double to_rim = std::min(
+      {x[0] - background_.x_a, background_.x_b - x[0], x[1] - background_.y_a, background_.y_b - x[1]});
+  if (order.size() < 2 || to_rim < order[1].first) {
+    return fmt::format(
+        "; the curve of grid \"{}\" is {:.3g} ({:.2g} cells) from there, the rim of \"{}\" {:.3g}",
+        bodies_[a].name, order[0].first, order[0].first / cell, background_.name, std::max(to_rim, 0.0));
+  }
+  const std::size_t b = order[1].second;
+  const Gap gap = gap_between(curves[a], curves[b]);
+  return fmt::format(
+      "; the curves of grids \"{}\" and \"{}\" are {:.3g} ({:.2g} cells) apart at ({:.4g}, {:.4g})",
+      bodies_[a].name, bodies_[b].name, gap.distance, gap.distance / cell, gap.x[0], gap.x[1]);
+}
+
 void CompositeGrid::report_orphans(double t, const char* what) const {
   if (orphans_.count == 0) return;
-  throw NumbersBroke(fmt::format(
-      "t = {:.6g}, grid \"{}\", point ({}, {}) at ({:.6g}, {:.6g}): {} ({} such points)", t,
-      name(orphans_.grid), orphans_.i, orphans_.j, orphans_.x[0], orphans_.x[1], what, orphans_.count));
+  throw NumbersBroke(
+      fmt::format("t = {:.6g}, grid \"{}\", point ({}, {}) at ({:.6g}, {:.6g}): {} ({} such points){}", t,
+                  name(orphans_.grid), orphans_.i, orphans_.j, orphans_.x[0], orphans_.x[1], what,
+                  orphans_.count, nearest_curves(orphans_.x)));
 }
 
 }  // namespace fsi::grid

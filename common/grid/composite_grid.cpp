@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "common/core/failure.hpp"
@@ -122,15 +123,17 @@ void CompositeGrid::update(std::span<const GridPositions> x, double t) {
 }
 
 void CompositeGrid::connect_now(double t) {
-  t_ = t;
   for (int grid = 1; grid < grids(); ++grid) {
     cuts_[static_cast<std::size_t>(grid) - 1].cut(background_, curve_of(grid), name(grid), t);
   }
   cut_background();
   for (int grid = 1; grid < grids(); ++grid) cut_body(grid);
-  connect_all(options_.trim);
-  if (options_.trim && orphans_.count > 0) connect_all(false);
+  constexpr int all_lines = std::numeric_limits<int>::max();
+  connect_all(options_.trim, all_lines);
+  if (options_.trim && orphans_.count > 0) connect_all(false, all_lines);
+  if (orphans_.count > 0) connect_with_fewer_lines();
   report_orphans(t, "without a donor in any other grid: the overlap is too small");
+  solve_for_implicit(t);
   for (const InterpolationList& list : interpolation_) {
     counts_.interpolated += list.size();
     if (list.width == 2) counts_.width_2 += list.size();
@@ -210,21 +213,7 @@ void CompositeGrid::interpolate(std::span<const FieldView> fields) const {
   for (const InterpolationList& list : interpolation_) {
     if (!list.implicit) apply(list, fields);
   }
-  if (counts_.implicit == 0 || settle_implicit(interpolation_, fields)) return;
-  if (const auto unsolved = solve_implicit(interpolation_, fields)) report_unsolved(*unsolved);
-}
-
-void CompositeGrid::report_unsolved(const ImplicitPoint& point) const {
-  const InterpolationList& list = interpolation_[point.list];
-  const Layout& layout = part(list.target_grid).layout;
-  const int from_lead = list.target[point.point] - Layout::lead + Layout::ghosts;
-  const int j = from_lead / layout.stride - Layout::ghosts, i = from_lead % layout.stride - Layout::ghosts;
-  throw NumbersBroke(fmt::format(
-      "t = {:.6g}, grid \"{}\", point ({}, {}) at ({:.6g}, {:.6g}): it and points of grid \"{}\" are "
-      "interpolated from each other and have no common values ({} such points); let the grids overlap more "
-      "(more lines, or closer ones), and keep bodies apart from each other and from the boundary",
-      t_, name(list.target_grid), i, j, list.x[point.point][0], list.x[point.point][1], name(list.donor_grid),
-      counts_.implicit));
+  if (implicit_) implicit_->solve(interpolation_, fields);
 }
 
 void CompositeGrid::fill_exposed(std::span<const FieldView> fields) const {

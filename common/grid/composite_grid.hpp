@@ -25,6 +25,7 @@
 #include "common/grid/cartesian_grid.hpp"
 #include "common/grid/donor_search.hpp"
 #include "common/grid/hole_cutting.hpp"
+#include "common/grid/implicit_system.hpp"
 #include "common/grid/interpolation.hpp"
 #include "common/grid/intervals.hpp"
 
@@ -48,10 +49,12 @@ enum class PointKind : std::uint8_t { unused, interpolated, discretised };
 
 /// What an update did and what it had to put up with.
 struct OverlapCounts {
-  std::size_t interpolated = 0;  ///< points, all grids
-  std::size_t width_2 = 0;       ///< of these with two donors per direction: second order only
-  std::size_t implicit = 0;      ///< of these with donors that are interpolated themselves
-  std::size_t exposed = 0;       ///< points that were unused before
+  std::size_t interpolated = 0;    ///< points, all grids
+  std::size_t width_2 = 0;         ///< of these with two donors per direction: second order only
+  std::size_t implicit = 0;        ///< of these with donors that are interpolated themselves
+  std::size_t narrowed = 0;        ///< of these with two donors because three would amplify errors
+  std::size_t lines_left_out = 0;  ///< of body-fitted grids, for others that are too near
+  std::size_t exposed = 0;         ///< points that were unused before
   std::size_t extrapolated =
       0;  ///< of these behind the old curve or out of the background, by less than two lines
   bool operator==(const OverlapCounts&) const = default;
@@ -67,7 +70,8 @@ class CompositeGrid {
   /// Grid 0 is the background, grid k > 0 is bodies[k - 1]. @throws UserMistake
   CompositeGrid(CartesianGrid background, std::vector<BodyFittedGrid> bodies, OverlapOptions options = {});
 
-  /// Connects the grids where they are, without a past. @throws NumbersBroke at points without donors
+  /// Connects the grids where they are, without a past. @throws NumbersBroke at points without donors, and
+  /// where points are donors of nothing but each other
   void connect(std::span<const ConstFieldView> x, double t);
   /// Connects the moved grids and finds the points that were unused before. The views must stay valid for the
   /// call only.
@@ -86,8 +90,8 @@ class CompositeGrid {
   const RowSets& valid(int grid) const { return part(grid).now.valid; }
   PointKind kind(int grid, int i, int j) const;
 
-  /// Interpolates all planes of all fields, one per grid. @throws NumbersBroke where points that are donors
-  /// of each other find no common values
+  /// Interpolates all planes of all fields, one per grid; points that are donors of each other get their
+  /// common solution.
   void interpolate(std::span<const FieldView> fields) const;
   /// Gives the points that were unused before the last update values of the time before it: `fields` hold
   /// that time.
@@ -108,7 +112,12 @@ class CompositeGrid {
     bool before = false;
     double behind_curve = 0;  ///< how far behind a curve a donor stencil may reach, in lines
     double outside = 0;       ///< how far out of the background, in cells
+    int widest = 3;           ///< donors per direction
   };
+  /// That of an update: the chord of two curve points may cut off half a thin line.
+  static constexpr Level present(int widest) {
+    return {.before = false, .behind_curve = 0.5, .outside = 0, .widest = widest};
+  }
   /// Cell of a body-fitted grid from which a search starts; grid 0: none known.
   struct Start {
     int grid = 0, i = 0, j = 0;
@@ -126,7 +135,7 @@ class CompositeGrid {
   std::vector<CurveCut> cuts_;
   std::vector<GridPositions> positions_;
   std::vector<InterpolationList> interpolation_, exposed_;
-  double t_ = 0;  ///< of the connection
+  std::optional<ImplicitSystem> implicit_;  ///< where points are donors of each other
   OverlapCounts counts_;
   Orphans orphans_;
   std::vector<Interval> intervals_, runs_;  ///< work memory
@@ -147,18 +156,23 @@ class CompositeGrid {
   bool touches(int grid, int other);
   bool cut_away(const Vec2& x) const;
   void limit_lines(int grid, int lines);
-  void connect_all(bool trim);
+  void connect_all(bool trim, int most_lines);
+  void connect_with_fewer_lines();
   void connect_grid(int grid);
   void trim_lines();
   void find_exposed();
   void connect_run(int grid, int j, Interval run, const Level& level, std::vector<InterpolationList>& lists);
+  std::optional<Stencil> stencil_for(int grid, const Vec2& x, Start& start, const Level& level) const;
+  void solve_for_implicit(double t);
+  void narrow(std::span<const ImplicitPoint> points);
   void count_exposed(const Stencil& stencil);
   Start nearest_start(int i, int j) const;
   std::optional<Stencil> donor_in(Start& start, const Vec2& x, const Level& level) const;
   std::optional<Stencil> donor_anywhere(int target, const Vec2& x, const Level& level) const;
   void orphan(int grid, int i, int j, const Vec2& x);
   void report_orphans(double t, const char* what) const;
-  [[noreturn]] void report_unsolved(const ImplicitPoint& point) const;
+  std::string nearest_curves(const Vec2& x) const;
+  [[noreturn]] void report_unsolved(const ImplicitPoint& point, double t) const;
 };
 
 }  // namespace fsi::grid

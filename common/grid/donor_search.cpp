@@ -81,7 +81,7 @@ template <class Place>
 std::optional<Stencil> first_legal(const Layout& shape, const Donors& donors, const CellPosition& cell,
                                    Place&& place) {
   const bool rows_first = std::abs(cell.s - 0.5) < std::abs(cell.r - 0.5);
-  for (const int width : {3, 2}) {
+  for (int width = donors.widest; width >= 2; --width) {
     const Bases columns(cell.i, cell.r, width, shape.n1), rows(cell.j, cell.s, width, shape.n2);
     for (const bool implicit : {false, true}) {
       for (int c = 0; c < columns.count * rows.count; ++c) {

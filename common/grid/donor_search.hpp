@@ -39,6 +39,7 @@ CellPosition find_cell(const CartesianGrid& grid, const Vec2& position);
 struct Donors {
   const RowSets& discretised;
   const RowSets& valid;  ///< discretised or interpolated
+  int widest = 3;        ///< points per direction of a stencil
 
   bool explicit_legal(const Stencil& stencil) const { return all_in(discretised, stencil); }
   bool implicit_legal(const Stencil& stencil) const { return all_in(valid, stencil); }

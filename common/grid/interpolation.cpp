@@ -61,6 +61,22 @@ void InterpolationList::reserve(std::size_t points) {
   if (implicit) x.reserve(points);
 }
 
+void InterpolationList::move(std::size_t from, std::size_t to) {
+  if (from == to) return;
+  target[to] = target[from];
+  donor[to] = donor[from];
+  const auto weights = static_cast<std::size_t>(width * width);
+  std::copy_n(weight.data() + from * weights, weights, weight.data() + to * weights);
+  if (implicit) x[to] = x[from];
+}
+
+void InterpolationList::cut(std::size_t points) {
+  target.resize(points);
+  donor.resize(points);
+  weight.resize(points * static_cast<std::size_t>(width * width));
+  if (implicit) x.resize(points);
+}
+
 void InterpolationList::append(std::ptrdiff_t at, std::ptrdiff_t donor_at, const Stencil& stencil,
                                const std::array<double, 2>& place) {
   target.push_back(static_cast<std::int32_t>(at));

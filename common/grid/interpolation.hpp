@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -39,6 +38,8 @@ struct InterpolationList {
   void reserve(std::size_t points);
   void append(std::ptrdiff_t at, std::ptrdiff_t donor_at, const Stencil& stencil,
               const std::array<double, 2>& place = {});
+  void move(std::size_t from, std::size_t to);  ///< an entry, over another one
+  void cut(std::size_t points);                 ///< leaves the first ones
   bool operator==(const InterpolationList&) const = default;
 };
 
@@ -48,20 +49,8 @@ double apply(const InterpolationList& list, FieldView target, ConstFieldView don
 double apply(const InterpolationList& list, std::span<const FieldView> fields);
 
 /// Sets the points of the implicit lists, which are donors of each other, to their common solution: sweeps
-/// over the lists until nothing changes but the last digits. Weights on one another are small in a sound
-/// overlap, and a few sweeps do. @returns whether they settled within 50 sweeps
+/// over the lists until nothing changes but the last digits. Does where their weights on one another add up
+/// to less than about a half in size; ImplicitSystem decides. @returns whether they settled within 50 sweeps
 bool settle_implicit(std::span<const InterpolationList> lists, std::span<const FieldView> fields);
-
-/// Entry `point` of list `list`.
-struct ImplicitPoint {
-  std::size_t list = 0, point = 0;
-};
-
-/// The same by elimination, whatever the weights: quadratic weights of points near the ends of their stencils
-/// add up to more than 1 in size, and sweeps need not settle where the overlap is thin. For then only: it
-/// takes memory and time.
-/// @returns nothing; or where no common values exist, the point that depends most on others
-std::optional<ImplicitPoint> solve_implicit(std::span<const InterpolationList> lists,
-                                            std::span<const FieldView> fields);
 
 }  // namespace fsi::grid

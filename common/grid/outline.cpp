@@ -146,4 +146,34 @@ Bend sharpest_bend(std::span<const double> x, Curve ends, double turn) {
   return bend;
 }
 
+namespace {
+
+/// How far from `from` along `direction` a ray on a curve's left (`side` = 1) or right (-1) leaves it through
+/// the segment a, b; infinite where it does not.
+double leaving(const Vec2& from, const Vec2& direction, const Vec2& a, const Vec2& b, double side) {
+  constexpr double never = std::numeric_limits<double>::infinity();
+  const Vec2 along = b - a, to_a = a - from;
+  const double slope = cross(direction, along);
+  if (!(side * slope > 0)) return never;  // along the curve next to `from` it is the other way round
+  const double distance = cross(to_a, along) / slope, part = cross(to_a, direction) / slope;
+  return distance > 0 && part >= 0 && part <= 1 ? distance : never;
+}
+
+}  // namespace
+
+Gap narrowest(std::span<const double> x, Curve ends, double side) {
+  const std::size_t n = x.size() / 2;
+  Gap gap{.distance = std::numeric_limits<double>::infinity()};
+  for (std::size_t k = ends == Curve::closed ? 0 : 1; k + 1 < n; ++k) {
+    const Vec2 before = point(x, k == 0 ? n - 2 : k - 1), here = point(x, k), after = point(x, k + 1);
+    const Vec2 normal = side * Vec2(before[1] - after[1], after[0] - before[0]).normalized();
+    for (std::size_t m = 0; m + 1 < n; ++m) {
+      if (m == k || m + 1 == k || (k == 0 && m + 2 == n)) continue;  // the point's own segments
+      const double distance = leaving(here, normal, point(x, m), point(x, m + 1), side);
+      if (distance < gap.distance) gap = {.distance = distance, .x = here};
+    }
+  }
+  return gap;
+}
+
 }  // namespace fsi::grid

@@ -46,4 +46,9 @@ struct Bend {
 };
 Bend sharpest_bend(std::span<const double> x, Curve ends, double turn);
 
+/// The shortest way along a normal from a curve to the next place of it, on its left (`side` = 1) or on its
+/// right
+/// (-1): how thick a body is, or how narrow a bay; infinite where no normal meets the curve again. Costs n^2.
+Gap narrowest(std::span<const double> x, Curve ends, double side);
+
 }  // namespace fsi::grid

@@ -1,13 +1,13 @@
 // Values carried from grid to grid where points are donors of each other.
 
-#include "common/grid/interpolation.hpp"
-
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "common/core/field.hpp"
+#include "common/grid/implicit_system.hpp"
 
 namespace fsi::grid {
 namespace {
@@ -44,35 +44,57 @@ struct Pair {
   double value(std::size_t k) const { return views[k](0, 1, 0); }
 };
 
-TEST(ImplicitInterpolation, FindsTheCommonSolutionOrSaysThatItDidNot) {
-  const auto settle = [](double on_each_other, Pair& pair) {
-    return settle_implicit(mutual_donors(on_each_other), pair.views);
-  };
-  Pair constant({2, 2}), sound({0, 1}), steep({0, 1}), zero({0, 0});
-  EXPECT_TRUE(settle(0.3, constant));
-  EXPECT_NEAR(constant.value(0), 2, 1e-12);  // a constant is its own interpolation
-  EXPECT_TRUE(settle(0.3, sound));
-  EXPECT_NEAR(sound.value(0), 0.7 / 0.91, 1e-12);  // a = 0.7 + 0.3 b, b = 0.3 a
-  EXPECT_FALSE(settle(1.5, steep));                // each sweep takes it farther away
-  EXPECT_TRUE(settle(1.5, zero));
+/// Both grids have a row of three points.
+constexpr std::array layouts{Layout{3, 1}, Layout{3, 1}};
+
+TEST(ImplicitInterpolation, FindsTheCommonSolutionBySweepsOrByElimination) {
+  for (const double on_each_other : {0.0, 0.3, 0.45, 0.7, 1.5, -0.4, -1.5}) {
+    const auto lists = mutual_donors(on_each_other);
+    const ImplicitSystem system(lists, layouts);
+    EXPECT_EQ(system.factored(), std::abs(on_each_other) > 0.5) << on_each_other;
+    Pair constant({2, 2}), pair({0, 1}), zero({0, 0});
+    system.solve(lists, constant.views);
+    EXPECT_NEAR(constant.value(0), 2, 1e-12);  // a constant is its own interpolation
+    system.solve(lists, pair.views);
+    for (const std::size_t k : {0U, 1U}) {  // the equations themselves
+      const double known = pair.views[1 - k](0, 0, 0);
+      EXPECT_NEAR(pair.value(k), (1 - on_each_other) * known + on_each_other * pair.value(1 - k), 1e-12);
+    }
+    system.solve(lists, zero.views);
+    EXPECT_EQ(zero.value(0), 0);
+  }
 }
 
-TEST(ImplicitInterpolation, IsSolvedByEliminationWhereSweepsDoNotSettle) {
-  Pair sound({0, 1}), steep({0, 1});
-  EXPECT_FALSE(solve_implicit(mutual_donors(0.3), sound.views).has_value());
-  EXPECT_NEAR(sound.value(0), 0.7 / 0.91, 1e-14);
-  EXPECT_FALSE(settle_implicit(mutual_donors(1.5), steep.views));
-  EXPECT_FALSE(solve_implicit(mutual_donors(1.5), steep.views).has_value());
-  EXPECT_NEAR(steep.value(0), 0.4, 1e-14);  // a = -0.5 + 1.5 b, b = 1.5 a
-  EXPECT_NEAR(steep.value(1), 0.6, 1e-14);
+TEST(ImplicitInterpolation, KnowsHowMuchErrorsGrow) {
+  // a = (1 - w) f + w b, b = (1 - w) g + w a, so a = ((1 - w) f + w (1 - w) g) / (1 - w^2) = (f + w g) / (1 +
+  // w).
+  for (const double w : {0.6, 1.5, -0.6, -0.9}) {
+    const ImplicitSystem system(mutual_donors(w), layouts);
+    EXPECT_NEAR(system.amplification(), (1 + std::abs(w)) / std::abs(1 + w), 1e-12) << w;
+  }
 }
 
-TEST(ImplicitInterpolation, WithoutASolutionNamesAPoint) {
-  Pair same({0, 1});
-  const auto unsolved = solve_implicit(mutual_donors(1), same.views);  // a = b and nothing else
-  ASSERT_TRUE(unsolved.has_value());
-  EXPECT_LT(unsolved->list, 2U);
-  EXPECT_EQ(unsolved->point, 0U);
+TEST(ImplicitInterpolation, WithoutASolutionSaysSoAndNamesAPoint) {
+  for (const double singular : {1.0, -1.0}) {
+    const ImplicitSystem system(mutual_donors(singular), layouts);
+    EXPECT_GT(system.amplification(), 1e12);
+    EXPECT_LT(system.worst().list, 2U);
+    EXPECT_EQ(system.worst().point, 0U);
+    EXPECT_TRUE(system.amplifiers(mutual_donors(singular)).empty());  // they have two donors each already
+  }
+}
+
+TEST(ImplicitInterpolation, ListsLoseEntriesAndKeepTheOthers) {
+  InterpolationList list{.width = 2, .implicit = true, .target = {}, .donor = {}, .weight = {}};
+  for (const int k : {0, 1, 2})
+    list.append(10 + k, 20 + k, {.width = 2, .r = 0.25 * k, .s = 0.5}, {1.0 * k, 0});
+  InterpolationList wanted = list;
+  list.move(2, 1);
+  list.cut(2);
+  EXPECT_EQ(list.target, (std::vector<std::int32_t>{10, 12}));
+  EXPECT_EQ(list.donor, (std::vector<std::int32_t>{20, 22}));
+  EXPECT_EQ(list.x[1][0], 2);
+  for (const std::size_t m : {0U, 1U, 2U, 3U}) EXPECT_EQ(list.weight[4 + m], wanted.weight[8 + m]);
 }
 
 }  // namespace

@@ -4,11 +4,14 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/core/failure.hpp"
+#include "common/grid/outline.hpp"
 #include "common/grid/shapes/circle.hpp"
 #include "common/grid/shapes/ellipse.hpp"
+#include "common/grid/shapes/rounded_polygon.hpp"
 #include "common/grid/shapes/smoothed_polygon.hpp"
 #include "common/grid/shapes/spline.hpp"
 #include "tests/unit/grid/shapes_of_cases.hpp"
@@ -33,6 +36,80 @@ TEST(Shapes, SlopesAreTheDerivativesOfPositions) {
   for (const PlaneCurve& curve : {circle({1, 2}, 3), tilted_ellipse(), beam_outline(), star()}) {
     EXPECT_LT(slope_error(curve), 1e-8);
   }
+}
+
+/// A box with round corners, listed counter-clockwise.
+PlaneCurve rounded_box(double width, double height, double radius) {
+  return rounded_polygon({.corners = {{0, 0}, {width, 0}, {width, height}, {0, height}},
+                          .ends = Curve::closed,
+                          .radius = radius});
+}
+
+TEST(RoundedPolygon, KeepsItsEdgesAndHasTheLengthOfEdgesAndArcs) {
+  const PlaneCurve box = rounded_box(2, 1, 0.25);
+  EXPECT_NEAR(length_of(box), 6 - 8 * 0.25 + 2 * pi * 0.25, 1e-14);
+  EXPECT_LT(slope_error(box), 1e-8);
+  const auto x = points_on(box, 4001);
+  const std::size_t n = x.size() / 2;
+  double low = 1, left = 1, high = 0, right = 0;
+  for (std::size_t k = 0; k < n; ++k) {
+    left = std::min(left, x[k]), right = std::max(right, x[k]);
+    low = std::min(low, x[n + k]), high = std::max(high, x[n + k]);
+  }
+  for (const auto& [found, wanted] : {std::pair{left, 0.0}, {right, 2.0}, {low, 0.0}, {high, 1.0}})
+    EXPECT_NEAR(found, wanted, 1e-14);
+  EXPECT_EQ(x[0], x[n - 1]);
+  EXPECT_EQ(x[n], x[2 * n - 1]);
+}
+
+TEST(RoundedPolygon, ArcsHaveTheirRadiusWhicheverWayTheyTurn) {
+  // A step: up along x = 0, a corner to the right, one to the left, one to the right; every point is on an
+  // edge or at the radius from a corner's centre, which lies at the radius from both its edges.
+  const double r = 0.1;
+  const PlaneCurve step = rounded_polygon({.corners = {{0, 0}, {0, 1}, {1, 1}, {1, 2}}, .radius = r});
+  EXPECT_NEAR(length_of(step), 3 - 4 * r + pi * r, 1e-14);
+  EXPECT_LT(slope_error(step), 1e-8);
+  EXPECT_EQ(step.position(0), Vec2(0, 0));
+  EXPECT_EQ(step.position(1), Vec2(1, 2));
+  for (double s = 0; s <= 1; s += 0.003) {
+    const Vec2 x = step.position(s);
+    const double to_edges = std::min({std::abs(x[0]), std::abs(x[1] - 1), std::abs(x[0] - 1)});
+    const double to_arcs =
+        std::min(std::abs((x - Vec2(r, 1 - r)).norm() - r), std::abs((x - Vec2(1 - r, 1 + r)).norm() - r));
+    EXPECT_LT(std::min(to_edges, to_arcs), 1e-14) << s;
+  }
+}
+
+TEST(RoundedPolygon, SaysWhichRadiusFits) {
+  EXPECT_NO_THROW(rounded_box(2, 1, 0.499));
+  try {
+    rounded_box(2, 1, 0.6);
+    FAIL() << "arcs longer than their edge";
+  } catch (const UserMistake& mistake) {
+    EXPECT_NE(std::string(mistake.what()).find("write at most 0.5"), std::string::npos) << mistake.what();
+  }
+  EXPECT_THROW(rounded_polygon({.corners = {{0, 0}, {1, 0}, {0, 0}}, .radius = 0.1}), UserMistake);
+  EXPECT_THROW(rounded_polygon({.corners = {{0, 0}, {0, 0}}, .radius = 0.1}), UserMistake);
+  EXPECT_THROW(rounded_polygon({.corners = {{0, 0}, {1, 0}}, .radius = 0}), UserMistake);
+}
+
+TEST(Outline, IsAsThickAsItsNarrowestNormal) {
+  const auto box = points_on(rounded_box(2, 0.5, 0.1), 2001);  // counter-clockwise: the body is on the left
+  EXPECT_NEAR(narrowest(box, Curve::closed, 1).distance, 0.5, 1e-3);
+  EXPECT_TRUE(std::isinf(narrowest(box, Curve::closed, -1).distance));  // no bay
+  const auto lens = points_on(ellipse({.centre = {1, 2}, .a = 1, .b = 0.2, .angle = 0.7}), 801);
+  // The shortest normal chord of an ellipse with a > sqrt(2) b: 3 sqrt(3) a^2 b^2 / (a^2 + b^2)^(3/2).
+  EXPECT_NEAR(narrowest(lens, Curve::closed, 1).distance, 3 * std::sqrt(3.0) * 0.04 / std::pow(1.04, 1.5),
+              1e-3);
+  // A bay 0.4 wide between two towers, its floor and corners round.
+  const auto bay = points_on(
+      rounded_polygon(
+          {.corners = {{0, 0}, {0, 1}, {0.5, 1}, {0.5, 0.3}, {0.9, 0.3}, {0.9, 1}, {1.4, 1}, {1.4, 0}},
+           .radius = 0.1}),
+      1601);
+  EXPECT_NEAR(narrowest(bay, Curve::open, 1).distance, 0.4,
+              1e-3);  // listed clockwise: the gas is on the left
+  EXPECT_NEAR(narrowest(bay, Curve::open, -1).distance, 0.5, 1e-3);
 }
 
 TEST(Shapes, CircleHasItsLengthAndEvenPoints) {
