@@ -8,6 +8,7 @@
 #include <numbers>
 #include <utility>
 
+#include "common/case/build_beam.hpp"
 #include "common/case/build_domain.hpp"
 #include "common/case/build_shape.hpp"
 #include "common/case/laws.hpp"
@@ -94,13 +95,12 @@ Beta beta_of(const Node* scheme, const char* key, double scaled) {
   return result;
 }
 
-/// Where grids overlap, what no wave carries grows without the three beta: they are on unless the scheme says
-/// otherwise.
-SolidScheme solid_scheme_of(const Node* node, bool overlapping) {
+/// What no wave carries grows without the three beta: they are on unless the scheme says otherwise.
+SolidScheme solid_scheme_of(const Node* node) {
   SolidScheme result;
-  result.tangential_stress = beta_of(node, "tangential_stress", overlapping ? 0.5 : 0);
-  result.displacement = beta_of(node, "displacement", overlapping ? 0.5 : 0);
-  result.relaxation = beta_of(node, "relaxation", overlapping ? 0.2 : 0);
+  result.tangential_stress = beta_of(node, "tangential_stress", 0.5);
+  result.displacement = beta_of(node, "displacement", 0.5);
+  result.relaxation = beta_of(node, "relaxation", 0.2);
   if (node == nullptr) return result;
   Reader::assign(*node, "limiter", result.limiter);
   Reader::assign(*node, "bulk_diffusion", result.bulk_diffusion);
@@ -108,7 +108,7 @@ SolidScheme solid_scheme_of(const Node* node, bool overlapping) {
 }
 
 bool has_lame_constants(const SolidSpec& solid) {
-  return solid.law != "rigid" && solid.law != external_law;
+  return solid.law != rigid_law && solid.law != external_law;
 }
 
 /// `program` and an external law go together.
@@ -129,6 +129,11 @@ SolidSpec solid_of(const Reader& reader, const config::Entry& entry) {
   result.data = numbers_of(node, "data");
   check_program(result, node, owner.path);
   Reader::assign(node, "rho", result.rho);
+  if (const Node* motion = node.find("motion")) {
+    if (result.law != "rigid")
+      fail(motion->place, owner.path + ".motion", "belongs to `law: rigid`; leave it out");
+    result.fixed = motion->text == "fixed";
+  }
   for (const auto& [key, modulus] : {std::pair{"lambda", &result.lambda}, std::pair{"mu", &result.mu}}) {
     if (has_lame_constants(result) && node.find(key) == nullptr) {
       fail(node.place, owner.path, fmt::format("`{}` is missing (Lame constant [pressure])", key));
@@ -138,7 +143,8 @@ SolidSpec solid_of(const Reader& reader, const config::Entry& entry) {
   result.grid = build_grid(reader, owner);
   result.boundary = build_boundaries(reader, owner, result.grid);
   result.body_fitted = build_outline_grid(reader, owner, result.boundary);
-  result.scheme = solid_scheme_of(node.find("scheme"), node.find("shape") != nullptr);
+  result.scheme = solid_scheme_of(node.find("scheme"));
+  result.beam = build_beam(reader, node, result.law, owner.path);
   if (const Node* force = node.find("body_force")) result.body_force = reader.vector(*force);
   const Node* initial = node.find("initial");
   if (initial == nullptr) return result;
@@ -186,6 +192,7 @@ OutputSpec output_of(const Node* node, double end) {
   if (node == nullptr) return {.times = {end}, .probes = {}};
   Reader::assign(*node, "checkpoint_every", result.checkpoint_every);
   Reader::assign(*node, "checkpoint_seconds", result.checkpoint_seconds);
+  Reader::assign(*node, "checkpoint_at_end", result.checkpoint_at_end);
   if (const Node* word = node->find("on_failure")) result.go_on = word->text == "go_on";
   const Node* times = node->find("times");
   const Node* every = node->find("every");
@@ -252,6 +259,7 @@ Case build_case(const Node& root, const Scope& scope) {
   result.time = time_of(*root.find("time"));
   if (const Node* node = root.find("interface")) {
     Reader::assign(*node, "projection", result.interface.projection);
+    Reader::assign(*node, "riemann", result.interface.riemann);
     if (const Node* motion = node->find("motion")) result.interface.motion = reader.vector(*motion);
   }
   if (const Node* node = root.find("solids")) {

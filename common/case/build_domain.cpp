@@ -17,11 +17,12 @@ using config::Node;
 
 BoundaryKind kind_of(const std::string& word) {
   static const std::map<std::string, BoundaryKind> kinds{
-      {"interface", BoundaryKind::interface}, {"slip_wall", BoundaryKind::slip_wall},
-      {"symmetry", BoundaryKind::symmetry},   {"inflow", BoundaryKind::inflow},
-      {"outflow", BoundaryKind::outflow},     {"far_field", BoundaryKind::far_field},
-      {"dirichlet", BoundaryKind::dirichlet}, {"periodic", BoundaryKind::periodic},
-      {"traction", BoundaryKind::traction},   {"displacement", BoundaryKind::displacement}};
+      {"interface", BoundaryKind::interface},      {"slip_wall", BoundaryKind::slip_wall},
+      {"symmetry", BoundaryKind::symmetry},        {"inflow", BoundaryKind::inflow},
+      {"imposed", BoundaryKind::imposed},          {"outflow", BoundaryKind::outflow},
+      {"far_field", BoundaryKind::far_field},      {"dirichlet", BoundaryKind::dirichlet},
+      {"periodic", BoundaryKind::periodic},        {"traction", BoundaryKind::traction},
+      {"displacement", BoundaryKind::displacement}};
   return kinds.at(word);
 }
 
@@ -71,8 +72,8 @@ BoundarySpec boundary_from_word(const Reader& reader, const Owner& owner, const 
     return result;
   }
   result.kind = kind_of(node.text);
-  constexpr std::array with_data{BoundaryKind::dirichlet, BoundaryKind::inflow, BoundaryKind::far_field,
-                                 BoundaryKind::traction, BoundaryKind::displacement};
+  constexpr std::array with_data{BoundaryKind::dirichlet, BoundaryKind::inflow,   BoundaryKind::imposed,
+                                 BoundaryKind::far_field, BoundaryKind::traction, BoundaryKind::displacement};
   if (std::ranges::find(with_data, result.kind) != with_data.end())
     result.from_reference = reader.from_reference(node, path);
   if (result.kind == BoundaryKind::interface && owner.name == "fluid") {
@@ -107,6 +108,8 @@ BoundarySpec build_boundary(const Reader& reader, const Owner& owner, const Node
 }
 
 GridSpec build_grid(const Reader& reader, const Owner& owner) {
+  if (owner.node.find("grid") == nullptr)
+    fail(owner.node.place, owner.path, "`grid` is missing; write {x: [.., ..], y: [.., ..], spacing: h}");
   const Node& node = *owner.node.find("grid");
   const std::string path = owner.path + ".grid";
   GridSpec grid;

@@ -3,18 +3,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <numbers>
 #include <optional>
 #include <utility>
 
+#include "common/case/curve_side.hpp"
 #include "common/case/grid_points.hpp"
 #include "common/core/suggest.hpp"
 #include "common/core/text_file.hpp"
 #include "common/grid/shapes/circle.hpp"
 #include "common/grid/shapes/ellipse.hpp"
 #include "common/grid/shapes/plane_curve.hpp"
+#include "common/grid/shapes/rounded_polygon.hpp"
 #include "common/grid/shapes/smoothed_polygon.hpp"
 #include "common/grid/shapes/spline.hpp"
 
@@ -52,6 +55,12 @@ grid::PlaneCurve curve_of(const Node& shape, bool closed, const std::string& pat
         {.centre = centre, .a = semi_axes[0], .b = semi_axes[1], .angle = degrees * std::numbers::pi / 180});
   }
   if (kind == "polygon") {
+    if (const Node* radius = shape.find("radius")) {
+      if (const Node* sharpness = shape.find("sharpness"))
+        fail(sharpness->place, path, "give `radius` or `sharpness`, one of them");
+      return grid::rounded_polygon(
+          {.corners = points_of(*shape.find("corners")), .ends = ends, .radius = *radius->number});
+    }
     grid::SmoothedPolygon polygon{.corners = points_of(*shape.find("corners")), .ends = ends};
     Reader::assign(shape, "sharpness", polygon.sharpness);
     return grid::smoothed_polygon(polygon);
@@ -88,21 +97,14 @@ int count_of(const Reader& reader, const Node& shape, double length, bool closed
   return static_cast<int>(cells) + 1;
 }
 
-/// Twice the area to the left of a polygon's direction, closed by a straight line.
-double signed_area(const std::vector<double>& x) {
-  const std::size_t n = x.size() / 2;
-  double area = 0;
-  for (std::size_t k = 0; k < n; ++k) {
-    const std::size_t next = (k + 1) % n;
-    area += x[k] * x[n + next] - x[next] * x[n + k];
-  }
-  return area;
-}
-
-void reverse_direction(std::vector<double>& x) {
-  const auto middle = x.begin() + static_cast<std::ptrdiff_t>(x.size() / 2);
-  std::reverse(x.begin(), middle);
-  std::reverse(middle, x.end());
+/// The gas's rectangle, x_a, x_b, y_a, y_b, where the case has one.
+std::optional<std::array<double, 4>> gas_rectangle(const Reader& reader) {
+  const Node* fluid = reader.root().find("fluid");
+  const Node* grid = fluid == nullptr ? nullptr : fluid->find("grid");
+  const Node *x = grid == nullptr ? nullptr : grid->find("x"),
+             *y = grid == nullptr ? nullptr : grid->find("y");
+  if (x == nullptr || y == nullptr) return std::nullopt;
+  return std::array{*x->items[0].number, *x->items[1].number, *y->items[0].number, *y->items[1].number};
 }
 
 Side side_of(const Node& node) {
@@ -270,10 +272,7 @@ CurveSpec build_curve(const Reader& reader, const Node& shape, const std::string
     if (what.starts_with(shape.place.substr(0, shape.place.find(':')))) throw;  // it has its place already
     fail(shape.place, path, what);
   }
-  if (signed_area(result.x) < 0) {
-    reverse_direction(result.x);
-    if (result.walls) std::swap(result.walls->front(), result.walls->back());
-  }
+  put_body_to_the_left(result, gas_rectangle(reader));
   return result;
 }
 

@@ -8,6 +8,7 @@
 #include "common/case/build.hpp"
 #include "common/case/build_shape.hpp"
 #include "common/case/check.hpp"
+#include "common/case/choose_grids.hpp"
 #include "common/case/memory.hpp"
 #include "common/case/restart.hpp"
 #include "common/case/schema.hpp"
@@ -167,10 +168,12 @@ Case load_case_within(double available, const std::string& path, const std::vect
   const Scope scope = evaluate_scope(root);
   validate(root, schema::case_file, scope);
   put_name(root, file);
+  const std::vector<std::string> chosen = choose_grids(root, scope);
   Case result = build_case(root, scope);
   check_memory(result, root, available);
   check_case(result, root);
   result.path = file;
+  result.chosen = chosen;
   result.resolved = config::emit(root);
   result.digest = digest_of(result.resolved);
   result.restart_digest = digest_of(config::emit(fixed_part(root)));

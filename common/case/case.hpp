@@ -61,6 +61,7 @@ enum class BoundaryKind {
   slip_wall,
   symmetry,
   inflow,
+  imposed,
   outflow,
   far_field,
   dirichlet,
@@ -71,9 +72,10 @@ enum class BoundaryKind {
 
 struct BoundarySpec {
   BoundaryKind kind = BoundaryKind::symmetry;
-  std::string solid = {};       ///< interface: the solid on the other side
-  bool from_reference = false;  ///< inflow, far_field, dirichlet, traction, displacement: data of `reference`
-  std::optional<GasExpressions> state = {};        ///< gas inflow, far_field, dirichlet
+  std::string solid = {};  ///< interface: the solid on the other side
+  bool from_reference =
+      false;  ///< inflow, imposed, far_field, dirichlet, traction, displacement: data of `reference`
+  std::optional<GasExpressions> state = {};        ///< gas inflow, imposed, far_field, dirichlet
   std::optional<VectorExpressions> vector = {};    ///< solid: traction per unit current area, or displacement
   std::optional<VectorExpressions> velocity = {};  ///< solid displacement: its time derivative, where given
   bool on_reference = false;                       ///< solid: the load belongs to the reference configuration
@@ -128,16 +130,27 @@ struct SolidScheme {
   double bulk_diffusion = 0;       ///< undivided second differences of v and P [1/time]
 };
 
+/// The centre line of a solid that is a beam, and what holds its ends.
+struct BeamSpec {
+  std::vector<Vec2> line;  ///< a straight line through two points, a spline through more
+  bool closed = false;     ///< a ring
+  int elements = 0;
+  Expression thickness;                             ///< of the reference position
+  std::array<std::string, 2> ends{"free", "free"};  ///< free, pinned, clamped, guided
+};
+
 struct SolidSpec {
   std::string name;
   std::string law;      ///< the executable is solid_solver_<law>, or `program` where the law is external
   std::string program;  ///< of an external solid: a name among the programs, or a path
   std::map<std::string, double> data;  ///< numbers for that program
   double rho = 1, lambda = 1, mu = 1;
+  bool fixed = false;  ///< a rigid body that stays where it is
   GridSpec grid;
   std::array<BoundarySpec, 4> boundary;
   std::vector<BodyFittedSpec> body_fitted;  ///< along the outline; none where the outline is that of `grid`
   SolidScheme scheme;
+  std::optional<BeamSpec> beam;
   bool initial_from_reference = false;
   std::optional<VectorExpressions> initial_u, initial_v;
   std::optional<VectorExpressions> body_force;  ///< force per unit reference volume
@@ -157,6 +170,7 @@ struct TimeSpec {
 
 struct InterfaceSpec {
   std::string projection = "simplified";    ///< full, simplified, traditional
+  std::string riemann = "exact";            ///< exact, linear
   std::optional<VectorExpressions> motion;  ///< position at t of the point that is at (x, y) at t = 0
 };
 
@@ -170,6 +184,7 @@ struct OutputSpec {
   std::vector<ProbeSpec> probes;
   int checkpoint_every = 0;         ///< steps; 0: never
   double checkpoint_seconds = 600;  ///< of wall time
+  bool checkpoint_at_end = true;    ///< so that the run can be extended
   bool go_on = false;               ///< where results cannot be written, without them
 };
 
@@ -191,9 +206,10 @@ struct Expectation {
 
 struct Case {
   std::string name, title, path;
-  std::string digest;          ///< of the resolved text: all programs of a run must agree
-  std::string restart_digest;  ///< of the part that a restart must not change
-  std::string resolved;        ///< the case with parameters and overrides filled in, as YAML
+  std::string digest;               ///< of the resolved text: all programs of a run must agree
+  std::string restart_digest;       ///< of the part that a restart must not change
+  std::string resolved;             ///< the case with parameters and overrides filled in, as YAML
+  std::vector<std::string> chosen;  ///< keys that the file left open, with the values chosen for them
   std::map<std::string, double> parameters;
   double grid_factor = 1;  ///< j of h = 1 / (10 j)
   TimeSpec time;

@@ -134,11 +134,9 @@ void check_outline(const Case& problem, const SolidSpec& solid, const Node& root
   const auto grids = std::ranges::count(problem.fluid->body_fitted, solid.name, &BodyFittedSpec::solid);
   const Node& gas = at(root, {"fluid", "body_fitted"});
   if (!meets) fail(node.place, path, "must be an interface: the case has a gas");
-  if (grids == 1) return;
-  fail(gas.place, "fluid.body_fitted",
-       grids == 0
-           ? fmt::format("solid `{}` meets no gas; add {{name: .., solid: {}}}", solid.name, solid.name)
-           : fmt::format("{} grids meet solid `{}`; keep one", grids, solid.name));
+  if (grids > 1)
+    fail(gas.place, "fluid.body_fitted",
+         fmt::format("{} grids meet solid `{}`; keep one", grids, solid.name));
 }
 
 void check_interfaces(const Case& problem, const Node& root) {
@@ -300,12 +298,11 @@ void check_motion(const Case& problem, const Node& root) {
 void check_projection(const Case& problem, const Node& root) {
   if (problem.interface.projection != "traditional" || !problem.fluid) return;
   for (const SolidSpec& solid : problem.solids) {
-    if (solid.law != "rigid") continue;
+    if (is_continuum(solid.law) || solid.law == external_law) continue;
     fail(at(root, {"interface", "projection"}).place, "interface.projection",
-         fmt::format(
-             "traditional is not there for the rigid solid `{}`, which is moved together with the gas's "
-             "answer to it; write simplified or full, which are the same for it",
-             solid.name));
+         fmt::format("traditional is not there for the {} `{}`, which is moved together with the gas's "
+                     "answer to it; write simplified or full, which are the same for it",
+                     solid.law == beam_law ? "beam" : "rigid solid", solid.name));
   }
   if (!problem.time.multirate || problem.solids.empty()) return;
   fail(
@@ -365,7 +362,7 @@ void check_case(const Case& problem, const Node& root) {
            fmt::format("`{}` is the name of another program; choose another", solid.name));
     }
     check_solid_grid(solid, at(root, {"solids", solid.name, "grid"}));
-    if (solid.law == "rigid" || solid.law == external_law) continue;  // need their outline only
+    if (!is_continuum(solid.law)) continue;  // need their outline only
     check_overlap({.background = solid.grid,
                    .body_fitted = solid.body_fitted,
                    .owner = at(root, {"solids", solid.name}),

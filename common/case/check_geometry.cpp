@@ -151,6 +151,25 @@ void check_within_gas(const Outline& outline, const GridSpec& gas) {
                   direction_of(excess.side) == 0 ? "x" : "y", end_of(gas, excess.side)));
 }
 
+/// The ends of an open curve stand on the sides it names.
+void check_ends(const Outline& outline, const GridSpec& gas) {
+  if (outline.curve.closed()) return;
+  const auto last = static_cast<std::size_t>(outline.curve.points()) - 1;
+  for (const std::size_t end : {0U, 1U}) {
+    const Side wall = (*outline.curve.walls)[end];
+    const Vec2 x = outline.point(end == 0 ? 0 : last);
+    const double distance = std::abs(x[direction_of(wall)] - end_of(gas, wall));
+    if (distance <= tolerance(gas)) continue;
+    fail(
+        outline.node.place, outline.path,
+        fmt::format(
+            "an end of the outline of {}, ({:.4g}, {:.4g}), is {:.4g} from the {} side of fluid.grid, {} = "
+            "{:.4g}, on which `walls` has it stand; let it end there (bodies cannot stand on other outlines)",
+            outline.name, x[0], x[1], distance, name_of(wall), direction_of(wall) == 0 ? "x" : "y",
+            end_of(gas, wall)));
+  }
+}
+
 /// The outline's bounds, rounded outwards.
 std::array<double, 2> bounds(const Outline& outline, int direction) {
   const std::vector<double>& x = outline.curve.x;
@@ -208,14 +227,16 @@ void check_geometry(const Case& problem, const Node& root) {
   for (const SolidSpec& solid : problem.solids) {
     if (solid.body_fitted.empty()) continue;
     check_crossing_itself(outline_of(solid, root));
-    const bool has_core = solid.law != "rigid" && solid.law != external_law;
+    const bool has_core = is_continuum(solid.law);
     if (has_core && is_upright(solid.grid)) check_core(solid, root);
   }
   if (!problem.fluid) return;
   const std::vector<Outline> outlines = outlines_in_gas(problem, root);
   for (const Outline& outline : outlines) {
     check_crossing_itself(outline);
-    if (is_upright(problem.fluid->grid)) check_within_gas(outline, problem.fluid->grid);
+    if (!is_upright(problem.fluid->grid)) continue;
+    check_within_gas(outline, problem.fluid->grid);
+    check_ends(outline, problem.fluid->grid);
   }
   for (std::size_t k = 1; k < outlines.size(); ++k) {
     for (std::size_t l = 0; l < k; ++l) check_apart(outlines[k], outlines[l]);

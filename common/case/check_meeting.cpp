@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/case/grid_points.hpp"
+#include "common/case/laws.hpp"
 #include "common/core/types.hpp"
 
 namespace fsi {
@@ -48,8 +49,11 @@ void check_periods_meet(const Case& problem, const SolidSpec& solid, Side gas_si
                              "`periodic` in both or in neither",
                              own ? "" : "not ", own ? "not" : "periodic"));
   }
-  if (own && solid.law == "rigid")
-    config::fail(place.place, path, "a rigid body ends somewhere: it cannot be periodic; write symmetry");
+  if (own && (solid.law == rigid_law || solid.law == beam_law)) {
+    config::fail(place.place, path,
+                 fmt::format("a {} ends somewhere: it cannot be periodic; write symmetry",
+                             solid.law == beam_law ? "beam" : "rigid body"));
+  }
 }
 
 void check_sides_meet(const Case& problem, const SolidSpec& solid, Side gas_side, Side solid_side,

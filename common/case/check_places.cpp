@@ -77,7 +77,7 @@ void check_probe_in_gas(const FluidSpec& fluid, const Vec2& x, const Node& node,
 }
 
 void check_probe_in_solid(const SolidSpec& solid, const Vec2& x, const Node& node, const std::string& path) {
-  if (solid.law == "rigid" || solid.law == external_law) return;  // their motion is known everywhere
+  if (!is_continuum(solid.law)) return;  // their motion is known everywhere
   bool outside = !within_rim(solid.grid, x);
   for (const BodyFittedSpec& spec : solid.body_fitted) outside = outside || behind(spec, solid.grid, x);
   if (!outside) return;
@@ -113,13 +113,16 @@ void check_rigid_side(const BoundarySpec& spec, const Node& node, const std::str
   }
 }
 
+/// Neither a rigid body nor a beam.
+void check_initial(const SolidSpec& solid, const Node& node) {
+  if (!solid.initial_from_reference && !solid.initial_u) return;
+  fail(node.find("initial")->place, fmt::format("solids.{}.initial", solid.name),
+       fmt::format("a {} may begin with `v`, and nothing else; leave the rest out",
+                   solid.law == beam_law ? "beam" : "rigid solid"));
+}
+
 void check_rigid(const SolidSpec& solid, const Node& node) {
   const std::string path = "solids." + solid.name;
-  if (solid.initial_from_reference || solid.initial_u) {
-    const Node& initial = *node.find("initial");
-    fail(initial.place, path + ".initial",
-         "a rigid solid may begin with `v`, and nothing else; leave the rest out");
-  }
   const Node* boundary = node.find("boundary");
   if (boundary == nullptr) return;
   for (const Side side : all_sides) {
@@ -154,8 +157,9 @@ void check_laws(const Case& problem, const Node& root) {
   const bool computed = kind == "piston_1d" || kind == "rotating_disk";
   for (const SolidSpec& solid : problem.solids) {
     const Node& node = *root.find("solids")->find(solid.name);
-    if (solid.law == "rigid") check_rigid(solid, node);
-    if (!computed || (solid.law != "rigid" && solid.law != external_law)) continue;
+    if (solid.law == rigid_law || solid.law == beam_law) check_initial(solid, node);
+    if (solid.law == rigid_law) check_rigid(solid, node);
+    if (!computed || is_continuum(solid.law)) continue;
     fail(node.find("law")->place, fmt::format("solids.{}.law", solid.name),
          fmt::format(
              "reference `{}` is computed with a law of deformation, not with `{}`; write another law, or "

@@ -1,5 +1,7 @@
 #include "common/case/composite_from_case.hpp"
 
+#include "common/core/failure.hpp"
+
 namespace fsi {
 
 namespace {
@@ -73,6 +75,15 @@ void connect_once(const GridSpec& background, const std::vector<BodyFittedSpec>&
   for (const grid::MovingGrid& grid : grids) views.push_back(grid.x());
   grid::CompositeGrid composite(background_of(background), bodies_of(specs));
   composite.connect(views, 0);
+}
+
+bool connects(const GridSpec& background, const std::vector<BodyFittedSpec>& specs) {
+  try {
+    connect_once(background, specs);
+    return true;
+  } catch (const Failure&) {
+    return false;
+  }
 }
 
 }  // namespace fsi

@@ -22,4 +22,11 @@ std::vector<grid::BodyFittedGrid> bodies_of(const std::vector<BodyFittedSpec>& s
 /// can be done. @throws NumbersBroke for folds and points without donors
 void connect_once(const GridSpec& background, const std::vector<BodyFittedSpec>& specs);
 
+/// Whether that succeeds.
+bool connects(const GridSpec& background, const std::vector<BodyFittedSpec>& specs);
+
+/// Depth of a grid over the radius of the sharpest bend it turns inwards at [-], docs/theory_grids.md, "Grids
+/// in a body".
+inline constexpr double depth_by_radius = 0.6;
+
 }  // namespace fsi

@@ -33,6 +33,8 @@ and what to write.
 - **From the command line**: `--set KEY=VALUE` with a dotted key (`time.end`, `solids.solid.rho`, `parameters.NAME`;
   entries of a list by number from 0), `--solid NAME=LAW`. Parameters and solids must exist in the file.
 - YAML aliases, merge keys and second documents are not read; a key that is there twice is an error.
+- **Editors** complete and check case files by their JSON Schema: `./launch/fsi schema > case.schema.json`, and as the first line
+  of the case `# yaml-language-server: $schema=case.schema.json`. Only `check` knows formulas and what fits together.
 - Limits: a file of 4 MiB of UTF-8 text, 24 sections and lists within each other, 1000 keys in a section, 20 000 entries in
   a list (or points in a file of points), 16 384 characters in a value, 100 definitions, 100 parameters that need each other one after the other.
 - **Memory**: `check` estimates what the programs of a run need together, and refuses a case that needs more than the machine

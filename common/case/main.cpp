@@ -8,7 +8,9 @@
 #include <string_view>
 
 #include "common/case/case.hpp"
+#include "common/case/cost.hpp"
 #include "common/case/document.hpp"
+#include "common/case/json_schema.hpp"
 #include "common/case/memory.hpp"
 #include "common/case/restart.hpp"
 #include "common/case/summary.hpp"
@@ -36,7 +38,13 @@ fsi::Case load(const Options& options) {
 
 void check(const Options& options) {
   const fsi::Case problem = load(options);
-  fmt::print("{}\n", options.as_json ? fsi::summary_as_json(problem) : fsi::summary_line(problem));
+  if (options.as_json) {
+    fmt::print("{}\n", fsi::summary_as_json(problem));
+    return;
+  }
+  fmt::print("{}\n", fsi::summary_line(problem));
+  for (const std::string& line : problem.chosen) fmt::print("  chosen: {}\n", line);
+  if (const std::string text = fsi::cost_text(fsi::cost_of(problem)); !text.empty()) fmt::print("{}\n", text);
 }
 
 void resolve(const Options& options) {
@@ -74,6 +82,7 @@ constexpr std::string_view usage = R"(fsi_case COMMAND ..: checks, resolves and 
   resolve CASE    the case with parameters and overrides filled in, as JSON or into a file
   list            names and titles of the cases
   document        docs/case_file.md
+  schema          JSON Schema of case files, for editors
 
 fsi_case COMMAND --help lists the options.
 )";
@@ -95,6 +104,8 @@ int run(std::string_view command, std::span<const char* const> words) {
     if (line.parse(words)) list(options);
   } else if (command == "document") {
     if (line.parse(words)) fmt::print("{}", fsi::case_file_document());
+  } else if (command == "schema") {
+    if (line.parse(words)) fmt::print("{}", fsi::case_file_json_schema());
   } else if (command == "--help" || command == "-h") {
     fmt::print("{}", usage);
   } else {

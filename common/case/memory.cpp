@@ -22,11 +22,11 @@ struct Cost {
   double mapped;   ///< any other grid of the case
   double fitted;   ///< marched from a curve
 };
-constexpr Cost gas_cost{.lattice = 185, .mapped = 185, .fitted = 400};
-constexpr Cost solid_cost{.lattice = 250, .mapped = 345, .fitted = 450};
+constexpr Cost gas_cost{.lattice = 235, .mapped = 235, .fitted = 500};
+constexpr Cost solid_cost{.lattice = 340, .mapped = 450, .fitted = 600};
 constexpr Cost rigid_cost{.lattice = 0, .mapped = 0, .fitted = 0};
-constexpr double program_cost = 21e6;    ///< without any points, the bus included
-constexpr double coupler_cost = 16.5e6;  ///< it holds no fields
+constexpr double program_cost = 24e6;    ///< without any points, the bus included
+constexpr double coupler_cost = 23.5e6;  ///< it holds no fields
 constexpr double interface_cost = 1700;  ///< of the coupler, for each point of an interface
 
 double points_of(const GridSpec& grid) {
@@ -119,7 +119,7 @@ std::vector<MemoryNeed> memory_of(const Case& problem) {
   if (problem.fluid) needs.push_back(need_of("fluid", *problem.fluid, gas_cost));
   for (const SolidSpec& solid : problem.solids) {
     if (solid.law == external_law) continue;
-    needs.push_back(need_of(solid.name, solid, solid.law == "rigid" ? rigid_cost : solid_cost));
+    needs.push_back(need_of(solid.name, solid, is_continuum(solid.law) ? solid_cost : rigid_cost));
     for (const BodyFittedSpec& fitted : solid.body_fitted) meeting += fitted.curve.points();
     if (solid.body_fitted.empty()) meeting += solid.grid.n1 + solid.grid.n2;
   }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "common/case/composite_from_case.hpp"
@@ -17,7 +18,7 @@ namespace {
 using config::Node;
 
 /// Rules of docs/theory_grids.md, "Grids in a body".
-constexpr double depth_by_radius = 0.6, core_by_depth = 0.2;
+constexpr double core_by_depth = 0.2;
 constexpr int fewest_lines = 5;
 
 /// From the curve to the last line.
@@ -46,15 +47,6 @@ GridSpec refined(GridSpec grid, double spacing) {
   grid.n1 = static_cast<int>(std::round((grid.x_b - grid.x_a) / spacing)) + 1;
   grid.n2 = static_cast<int>(std::round((grid.y_b - grid.y_a) / spacing)) + 1;
   return grid;
-}
-
-bool connects(const GridSpec& background, const std::vector<BodyFittedSpec>& specs) {
-  try {
-    connect_once(background, specs);
-    return true;
-  } catch (const Failure&) {
-    return false;
-  }
 }
 
 std::vector<BodyFittedSpec> with_lines(std::vector<BodyFittedSpec> specs, int lines) {
@@ -126,7 +118,8 @@ std::optional<Advice> too_near(const OverlapCheck& check, const Node& list) {
                       "deep; move them {:.3g} apart, or make the grids less deep with fewer `lines`, a "
                       "smaller `spacing` or a greater grid.factor",
                       name_of_curve(a), name_of_curve(b), gap.distance, x[0], x[1], depth_of(a), depth_of(b),
-                      needed)});
+                      needed),
+          shortest});
     }
   }
   return advice;
@@ -140,18 +133,23 @@ std::optional<Advice> too_near_to_side(const OverlapCheck& check, const Node& li
     const BodyFittedSpec& spec = check.body_fitted[k];
     if (!spec.curve.closed()) continue;
     const auto n = static_cast<std::size_t>(spec.curve.points());
+    double distance = std::numeric_limits<double>::infinity();
+    Vec2 nearest = Vec2::Zero();
     for (std::size_t m = 0; m < n; ++m) {
       const double x = spec.curve.x[m], y = spec.curve.x[n + m];
-      const double distance = std::min({x - gas.x_a, gas.x_b - x, y - gas.y_a, gas.y_b - y});
-      if (distance >= depth_of(spec) + 2 * h) continue;
-      return Advice{
-          list.items[k], fmt::format("{}.body_fitted[{}]", check.path, k),
-          fmt::format(
-              "{} is {:.3g} from the rim of {}.grid at ({:.4g}, {:.4g}), but its grid is {:.3g} deep; "
-              "leave {:.3g} between them, or make the grid less deep with fewer `lines`, a smaller "
-              "`spacing` or a greater grid.factor",
-              name_of_curve(spec), distance, check.path, x, y, depth_of(spec), depth_of(spec) + 2 * h)};
+      const double here = std::min({x - gas.x_a, gas.x_b - x, y - gas.y_a, gas.y_b - y});
+      if (here < distance) distance = here, nearest = {x, y};
     }
+    if (distance >= depth_of(spec) + 2 * h) continue;
+    const Vec2 x = without_noise(nearest, 1e-6 * h);
+    return Advice{
+        list.items[k], fmt::format("{}.body_fitted[{}]", check.path, k),
+        fmt::format("{} is {:.3g} from the rim of {}.grid at ({:.4g}, {:.4g}), but its grid is {:.3g} deep; "
+                    "leave {:.3g} between them, or make the grid less deep with fewer `lines`, a smaller "
+                    "`spacing` or a greater grid.factor",
+                    name_of_curve(spec), distance, check.path, x[0], x[1], depth_of(spec),
+                    depth_of(spec) + 2 * h),
+        depth_of(spec) + 2 * h - distance};
   }
   return std::nullopt;
 }
@@ -198,8 +196,9 @@ Advice advice_for(const OverlapCheck& check) {
   const Node& place = list != nullptr ? *list : *shape;
   const std::string path = fmt::format("{}.{}", check.path, list != nullptr ? "body_fitted" : "shape");
   if (shape == nullptr) {  // the gas
-    if (auto advice = too_near(check, *list)) return *advice;
-    if (auto advice = too_near_to_side(check, *list)) return *advice;
+    const auto to_other = too_near(check, *list), to_side = too_near_to_side(check, *list);
+    if (to_side && (!to_other || to_side->missing > to_other->missing)) return *to_side;
+    if (to_other) return *to_other;
   }
   if (auto advice = by_trial(check, place, path)) return *advice;
   if (auto advice = too_sharp(check, place, path)) return *advice;

@@ -17,7 +17,8 @@ using config::Entry;
 using config::Node;
 
 constexpr std::array free_of_time{"end", "join_timeout", "peer_timeout", "step_timeout"};
-constexpr std::array free_of_output{"times", "every", "checkpoint_every", "checkpoint_seconds", "on_failure"};
+constexpr std::array free_of_output{
+    "times", "every", "checkpoint_every", "checkpoint_seconds", "checkpoint_at_end", "on_failure"};
 constexpr std::array free_sections{"name", "title", "expect"};
 
 void remove(Node& map, const auto& keys) {

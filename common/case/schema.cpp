@@ -192,6 +192,7 @@ constexpr array time_keys{
 constexpr Section time_section{.title = "Time", .keys = time_keys};
 
 constexpr array<string_view, 3> projection_words{"full", "simplified", "traditional"};
+constexpr array<string_view, 2> interface_riemann_words{"exact", "linear"};
 constexpr array interface_keys{
     Key{.name = "projection",
         .type = Type::word,
@@ -200,6 +201,13 @@ constexpr array interface_keys{
             "and so have substeps; `traditional` goes with neither",
         .fallback = "simplified",
         .words = projection_words},
+    Key{.name = "riemann",
+        .type = Type::word,
+        .meaning =
+            "the gas's side of the projection: its whole wave curve (shock or rarefaction of any "
+            "strength), or the tangent of that curve as in (28); they differ by the square of the jump",
+        .fallback = "exact",
+        .words = interface_riemann_words},
     Key{.name = "motion",
         .type = Type::vector,
         .meaning = "chosen solutions of gas and solid: where the interface point at (x, y) at t = 0 is at t",
@@ -249,6 +257,10 @@ constexpr array output_keys{
         .unit = "s",
         .fallback = "600",
         .range = positive},
+    Key{.name = "checkpoint_at_end",
+        .type = Type::boolean,
+        .meaning = "one at the end, from which `--restart` goes on to a later `time.end`",
+        .fallback = "true"},
     Key{.name = "on_failure",
         .type = Type::word,
         .meaning = "when results cannot be written: end the run (exit 5), or go on without them",

@@ -46,8 +46,8 @@ inline constexpr Range not_negative{.low = 0};
 struct Section;
 
 /// Kinds of boundaries that a bare word may stand for.
-inline constexpr std::array<std::string_view, 7> gas_boundary_words{
-    "slip_wall", "symmetry", "inflow", "outflow", "far_field", "dirichlet", "periodic"};
+inline constexpr std::array<std::string_view, 8> gas_boundary_words{
+    "slip_wall", "symmetry", "inflow", "imposed", "outflow", "far_field", "dirichlet", "periodic"};
 inline constexpr std::array<std::string_view, 9> solid_boundary_words{
     "interface", "slip_wall", "symmetry", "traction", "displacement",
     "dirichlet", "periodic",  "free",     "clamped"};

@@ -94,7 +94,12 @@ constexpr array gas_boundary_variants{
     Variant{"interface", "a solid is on the other side", gas_interface_keys},
     Variant{"slip_wall", "wall without friction", {}},
     Variant{"symmetry", "mirror images across a straight side", {}},
-    Variant{"inflow", "the state is imposed", gas_boundary_state},
+    Variant{
+        "inflow",
+        "gas of this state comes in: all of it where it is faster than sound, else along characteristics, so "
+        "that waves from inside leave",
+        gas_boundary_state},
+    Variant{"imposed", "all four values are imposed; waves from inside are reflected", gas_boundary_state},
     Variant{"outflow", "extrapolation", {}},
     Variant{"far_field", "what comes in along characteristics is that of the state, what goes out leaves",
             gas_boundary_state},
@@ -187,7 +192,7 @@ constexpr array fluid_keys{
     Key{.name = "body_fitted",
         .type = Type::list,
         .meaning = "grids before `grid`, which then is a rectangle that covers them: around solids and walls",
-        .fallback = "[]",
+        .fallback = "one around each solid with a `shape`",
         .most = 64,
         .element = &gas_fitted_element},
     Key{.name = "scheme",

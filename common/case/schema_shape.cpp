@@ -80,8 +80,15 @@ constexpr array polygon_keys{
         .required = true,
         .most = 200,
         .element = &point_element},
+    Key{.name = "radius",
+        .meaning = "corners become arcs of this radius between edges that stay where they are",
+        .unit = "length",
+        .fallback = "from `sharpness`",
+        .range = positive},
     Key{.name = "sharpness",
-        .meaning = "one over the radius of the rounded corners, in parts of the length",
+        .meaning =
+            "in place of `radius`: one over the radius of the rounded corners, in parts of the length; "
+            "the outline is drawn in from its corners",
         .fallback = "50",
         .range = positive},
 };
@@ -107,12 +114,12 @@ constexpr array shape_variants{
 constexpr Key lines_key{.name = "lines",
                         .type = Type::integer,
                         .meaning = "grid lines along the curve, the curve included",
-                        .fallback = "8",
+                        .fallback = "8, or chosen",
                         .range = {.low = 5, .high = 1000}};
 constexpr Key line_spacing_key{.name = "spacing",
                                .meaning = "distance of the first line from the curve",
                                .unit = "length",
-                               .fallback = "h",
+                               .fallback = "h, or chosen",
                                .range = positive};
 constexpr Key growth_key{.name = "growth",
                          .meaning = "ratio of successive distances",

@@ -112,17 +112,17 @@ constexpr array solid_scheme_keys{
     Key{.name = "tangential_stress",
         .type = Type::section,
         .meaning = "beta^P of (39)",
-        .fallback = "0; with a `shape` {scaled: 0.5}",
+        .fallback = "{scaled: 0.5}",
         .section = &beta_section},
     Key{.name = "displacement",
         .type = Type::section,
         .meaning = "beta^u of (40)",
-        .fallback = "0; with a `shape` {scaled: 0.5}",
+        .fallback = "{scaled: 0.5}",
         .section = &beta_section},
     Key{.name = "relaxation",
         .type = Type::section,
         .meaning = "beta^r of (41)",
-        .fallback = "0; with a `shape` {scaled: 0.2}",
+        .fallback = "{scaled: 0.2}",
         .section = &beta_section},
     Key{.name = "bulk_diffusion",
         .meaning = "coefficient of undivided second differences of v and P",
@@ -147,6 +147,46 @@ constexpr array solid_initial_keys{
 constexpr Section solid_initial{.title = "Initial state of a solid", .keys = solid_initial_keys};
 
 constexpr Key data_element{.name = "number", .type = Type::number, .meaning = "a number for the program"};
+
+constexpr array<string_view, 2> motion_words{"free", "fixed"};
+constexpr array<string_view, 4> end_words{"free", "pinned", "clamped", "guided"};
+constexpr Key end_element{
+    .name = "end", .type = Type::word, .meaning = "what holds an end", .words = end_words};
+constexpr Key line_point{
+    .name = "point", .type = Type::pair, .meaning = "a point of the centre line", .unit = "length"};
+constexpr array beam_keys{
+    Key{.name = "line",
+        .type = Type::list,
+        .meaning =
+            "points [x, y] of the centre line: a straight line through two, a spline through four or more",
+        .unit = "length",
+        .required = true,
+        .element = &line_point},
+    Key{.name = "closed",
+        .type = Type::boolean,
+        .meaning = "the line is a ring: its last point is joined to the first",
+        .fallback = "false"},
+    Key{.name = "thickness",
+        .type = Type::field,
+        .meaning = "thickness d, of the reference position: axial force E' d, shear 5/6 mu d, bending E' d^3 "
+                   "/ 12, with E' = "
+                   "E / (1 - nu^2); mass rho d",
+        .unit = "length",
+        .required = true},
+    Key{.name = "elements",
+        .type = Type::integer,
+        .meaning = "elements along the line",
+        .fallback = "as long as the spacing h",
+        .range = {.low = 3, .high = 5000}},
+    Key{.name = "ends",
+        .type = Type::list,
+        .meaning = "what holds the first and the last end: free, pinned (its place), clamped (place and "
+                   "direction), guided "
+                   "(direction, and it moves across the line only)",
+        .fallback = "[free, free]",
+        .element = &end_element},
+};
+constexpr Section beam_section{.title = "A beam", .keys = beam_keys};
 
 constexpr array solid_keys{
     Key{.name = "law",
@@ -179,10 +219,15 @@ constexpr array solid_keys{
         .unit = "pressure",
         .fallback = "required, but where `law` is `rigid` or `external`",
         .range = positive},
+    Key{.name = "motion",
+        .type = Type::word,
+        .meaning = "of a rigid body: `fixed` holds it where it is; its load is in forces_NAME.csv",
+        .fallback = "free",
+        .words = motion_words},
     Key{.name = "grid",
         .type = Type::section,
-        .meaning = "the reference configuration",
-        .required = true,
+        .meaning = "the reference configuration; with a `shape` the core of its grids, a rectangle around it",
+        .fallback = "required; with a `shape` chosen, as what else is missing of its grids",
         .section = &grid_section},
     Key{.name = "boundary",
         .type = Type::section,
@@ -205,6 +250,13 @@ constexpr array solid_keys{
         .meaning = "choices of the solver",
         .fallback = "all defaults",
         .section = &solid_scheme},
+    Key{.name = "beam",
+        .type = Type::section,
+        .meaning = "centre line, thickness and supports where `law` is `beam`; the outline, which the gas "
+                   "meets, moves with "
+                   "the sections of the line",
+        .fallback = "required with `law: beam`",
+        .section = &beam_section},
     Key{.name = "initial",
         .type = Type::section,
         .meaning = "state at t = 0",

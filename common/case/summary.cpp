@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "common/case/cost.hpp"
 #include "common/case/laws.hpp"
 #include "common/case/memory.hpp"
 #include "common/core/config.hpp"
@@ -33,6 +34,21 @@ ordered_json time_json(const TimeSpec& time) {
           {"join_timeout", time.join_timeout},
           {"peer_timeout", time.peer_timeout},
           {"step_timeout", time.step_timeout}};
+}
+
+ordered_json cost_json(const Case& problem) {
+  const RunCost cost = cost_of(problem);
+  ordered_json programs = ordered_json::array();
+  for (const StepCost& program : cost.programs) {
+    programs.push_back({{"program", program.program},
+                        {"dt", std::isfinite(program.dt) ? ordered_json(program.dt) : ordered_json(nullptr)},
+                        {"substeps", cost.substeps(program)},
+                        {"grid", program.grid}});
+  }
+  return {{"steps", cost.steps},
+          {"dt", cost.steps > 0 ? ordered_json(cost.dt) : ordered_json(nullptr)},
+          {"seconds", cost.seconds},
+          {"programs", programs}};
 }
 
 ordered_json expect_json(const std::vector<Expectation>& expect) {
@@ -104,6 +120,8 @@ std::string summary_as_json(const Case& problem) {
       {"solids", solids},
       {"participants", participants},
       {"memory", memory},
+      {"cost", cost_json(problem)},
+      {"chosen", problem.chosen},
       {"parameters", problem.parameters},
       {"grid_factor", problem.grid_factor},
       {"time", time_json(problem.time)},

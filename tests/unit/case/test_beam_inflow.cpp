@@ -15,7 +15,7 @@ constexpr double gas_gamma = 1.4, mach = 1.1;
 /// rho, v1, v2, p on the left side of the channel at t.
 std::array<double, 4> inflow(const Case& problem, double t) {
   const BoundarySpec& left = problem.fluid->boundary[static_cast<std::size_t>(Side::left)];
-  EXPECT_EQ(left.kind, BoundaryKind::inflow);
+  EXPECT_EQ(left.kind, BoundaryKind::imposed);
   const GasExpressions& state = left.state.value();
   const double x = -1, y = 0.7;
   return {state.rho(x, y, t), state.v1(x, y, t), state.v2(x, y, t), state.p(x, y, t)};

@@ -75,8 +75,8 @@ TEST(CaseGeometry, OneSolidWithinAnotherOverlapsItToo) {
 }
 
 TEST(CaseGeometry, SolidsNearerThanTheirGridsAreToldTheDistanceThatIsEnough) {
-  const TwoBodies near{.right = disk_at(0.1)};
-  expect_mistake(near, ring_b + "fluid.body_fitted[1]: ", "solid `b` and solid `a` are 0.10");
+  const TwoBodies near{.right = disk_at(0.02)};
+  expect_mistake(near, ring_b + "fluid.body_fitted[1]: ", "solid `b` and solid `a` are 0.02");
   const double enough = number_after(mistake_in(text_of(near)), "move them ");
   EXPECT_EQ(mistake_in(text_of({.right = disk_at(enough + 1e-3)})), "");
 }

@@ -149,16 +149,16 @@ const Mistake values[] = {
      "case.yaml:9:13: fluid.grid.x: the second end must be greater than the first"},
     {"UnknownWord", "bottom: symmetry\n    top", "bottom: symetry\n    top",
      "case.yaml:13:13: fluid.boundary.bottom: unknown word `symetry`; did you mean `symmetry`? (a section of "
-     "keys, or one of slip_wall, symmetry, inflow, "
+     "keys, or one of slip_wall, symmetry, inflow, imposed, "
      "outflow, far_field, dirichlet, periodic)"},
     {"UnknownKind", "kind: interface", "kind: interfaec",
      "case.yaml:11:18: fluid.boundary.left.kind: unknown kind `interfaec`; did you mean `interface`? (one of "
-     "interface, slip_wall, symmetry, inflow, outflow, "
+     "interface, slip_wall, symmetry, inflow, imposed, outflow, "
      "far_field, dirichlet, periodic)"},
     {"UnknownLaw", "law: neo_hookean", "law: neohooke",
      "case.yaml:18:10: solids.solid.law: `neohooke` does not exist here; did you mean `neo_hookean`? (one of "
      "linear_elastic, saint_venant_kirchhoff, "
-     "neo_hookean, rigid, external)"},
+     "neo_hookean, rigid, beam, external)"},
     {"ExternalSolidWithoutAProgram", "law: neo_hookean", "law: external",
      "case.yaml:18:5: solids.solid: law `external` needs `program: NAME`, the program that is the solid"},
     {"ProgramOfALaw", "law: neo_hookean", "law: neo_hookean\n    program: mine",

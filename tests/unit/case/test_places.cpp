@@ -77,6 +77,25 @@ TEST(CaseLaw, ClampedSolidCannotBeRigid) {
   EXPECT_EQ(mistake_of("beam", {"solids.beam.boundary.bottom=slip_wall"}, {"beam=rigid"}), "");
 }
 
+TEST(CaseLaw, ABeamNeedsItsSectionAndHasAMotionOfItsOwn) {
+  EXPECT_EQ(mistake_of("plate", {}), "");
+  const auto refused = [](const std::vector<std::string>& settings, const char* words) {
+    const std::string message = mistake_of("plate", settings);
+    EXPECT_NE(message.find(words), std::string::npos) << message;
+  };
+  refused({"solids.plate.beam.line=[[0, 0]]"}, "solids.plate.beam.line: give two points");
+  refused({"solids.plate.beam.line=[[0, 0], [0, 0]]"}, "point 2 is the one before it again");
+  refused({"solids.plate.beam.ends=[guided]"}, "solids.plate.beam.ends: must be two words");
+  refused({"solids.plate.beam.ends=[guided, welded]"},
+          "solids.plate.beam.ends: `welded` does not exist here");
+  refused({"solids.plate.beam.elements=2"}, "solids.plate.beam.elements");
+  refused({"interface.projection=traditional"}, "traditional is not there for the beam `plate`");
+  refused({"solids.plate.initial={u: [0, x]}"}, "a beam may begin with `v`, and nothing else");
+  EXPECT_NE(mistake_of("rotating_disk", {}, {"disk=beam"}).find("law `beam` needs the section `beam:"),
+            std::string::npos);
+  EXPECT_EQ(mistake_of("beam", {}, {"beam=beam"}), "");
+}
+
 TEST(CaseLaw, LoadedSideCannotBeRigid) {
   const std::string side = "solids.beam.boundary.bottom={kind: traction, value: [t, 0]}";
   const std::string message = mistake_of("beam", {side}, {"beam=rigid"});

@@ -1,0 +1,181 @@
+// Grids that a case leaves open, and what a run with them costs.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "common/case/composite_from_case.hpp"
+#include "common/case/cost.hpp"
+#include "tests/unit/case/cases.hpp"
+
+namespace fsi {
+namespace {
+
+using tests::load_text;
+using tests::mistake_in;
+
+constexpr auto head =
+    "time: {end: 1}\ngrid: {factor: 2}\n"
+    "fluid:\n"
+    "  grid: {x: [-2, 2], y: [-2, 2]}\n"
+    "  boundary: {left: outflow, right: outflow, bottom: slip_wall, top: outflow}\n"
+    "  initial: {rho: 1, v: [0, 0], p: 1}\n";
+
+/// Bodies in a gas, with nothing but their outlines; `more`: lines of each of them.
+std::string bodies_case(const std::vector<std::string>& shapes, const std::string& more = "") {
+  std::string text = std::string(head) + "solids:\n";
+  for (std::size_t k = 0; k < shapes.size(); ++k) {
+    text += "  body_" + std::to_string(k) +
+            ":\n    law: neo_hookean\n    rho: 1\n    lambda: 1\n    mu: 1\n    shape: " + shapes[k] + "\n" +
+            more;
+  }
+  return text;
+}
+
+/// A rigid wall in a gas.
+std::string wall_case(const std::string& corners, const std::string& walls) {
+  return std::string(head) +
+         "  body_fitted: [{name: wall, lines: 8, shape: {kind: polygon, corners: " + corners +
+         ", walls: " + walls + "}}]\n";
+}
+
+const std::string circle = "{kind: circle, radius: 0.5}";
+
+TEST(ChosenGrids, AnOutlineIsEnough) {
+  for (const std::string shape :
+       {"{kind: circle, radius: 0.5}", "{kind: circle, radius: 0.08}",
+        "{kind: ellipse, semi_axes: [0.8, 0.2], angle: 30}",
+        "{kind: polygon, corners: [[-0.6, -0.4], [0.7, -0.3], [0, 0.5]]}",
+        "{kind: polygon, corners: [[-0.6, -0.4], [0.7, -0.4], [0.7, 0.2], [-0.6, 0.2]], radius: 0.05}",
+        "{kind: spline, through: [[0.8, 0], [0.3, 0.3], [0, 0.8], [-0.3, 0.3], [-0.8, 0], [0, -0.4]]}"}) {
+    const Case problem = load_text(bodies_case({shape}));
+    ASSERT_EQ(problem.solids.size(), 1U);
+    EXPECT_NO_THROW(connect_once(problem.solids[0].grid, problem.solids[0].body_fitted)) << shape;
+    EXPECT_NO_THROW(connect_once(problem.fluid->grid, problem.fluid->body_fitted)) << shape;
+    EXPECT_EQ(problem.chosen.size(), 3U) << shape;
+    // What was chosen is in the resolved case, whose programs choose nothing any more.
+    const Case again = load_text(problem.resolved);
+    EXPECT_TRUE(again.chosen.empty()) << shape;
+    EXPECT_EQ(again.digest, problem.digest) << shape;
+    EXPECT_EQ(again.fluid->body_fitted[0].curve.x, problem.fluid->body_fitted[0].curve.x) << shape;
+    EXPECT_EQ(again.solids[0].grid.x_b, problem.solids[0].grid.x_b) << shape;
+  }
+}
+
+TEST(ChosenGrids, GentleOutlinesGetEightLinesAndACoreOneSpacingApart) {
+  const Case problem = load_text(bodies_case({"{kind: circle, radius: 0.9}"}));
+  const SolidSpec& solid = problem.solids[0];
+  EXPECT_EQ(solid.body_fitted[0].lines, 8);
+  EXPECT_NEAR(solid.body_fitted[0].spacing, 0.05, 1e-12);
+  EXPECT_NEAR((solid.grid.x_b - solid.grid.x_a) / (solid.grid.n1 - 1), 0.05, 1e-4);
+  EXPECT_EQ(problem.fluid->body_fitted[0].lines, 8);
+  EXPECT_NEAR(problem.fluid->body_fitted[0].spacing, 0.05, 1e-12);
+}
+
+TEST(ChosenGrids, KeysThatAreGivenStay) {
+  const Case own_lines = load_text(bodies_case({circle}, "    body_fitted: {lines: 6}\n"));
+  EXPECT_EQ(own_lines.solids[0].body_fitted[0].lines, 6);
+  const Case own_box = load_text(bodies_case({circle}, "    grid: {x: [-0.75, 0.75], y: [-0.6, 0.6]}\n"));
+  EXPECT_EQ(own_box.solids[0].grid.x_a, -0.75);
+  EXPECT_EQ(own_box.solids[0].grid.y_b, 0.6);
+  const Case own_points = load_text(bodies_case({"{kind: circle, radius: 0.5, points: 91}"}));
+  EXPECT_EQ(own_points.solids[0].body_fitted[0].curve.points(), 91);
+  // With points in `grid` nothing of the solid is open: the defaults of its keys hold.
+  const Case own_grid =
+      load_text(bodies_case({circle}, "    grid: {x: [-0.5, 0.5], y: [-0.5, 0.5], spacing: 0.4 * h}\n"));
+  EXPECT_EQ(own_grid.solids[0].body_fitted[0].lines, 8);
+  EXPECT_EQ(own_grid.solids[0].body_fitted[0].spacing, 0.05);
+}
+
+TEST(ChosenGrids, BodiesNearEachOtherGetGridsThatConnect) {
+  for (const double gap : {0.5, 0.25, 0.15, 0.1}) {
+    const std::string left = "{kind: circle, centre: [-0.6, 0], radius: 0.5}";
+    const std::string right = "{kind: circle, centre: [" + std::to_string(0.4 + gap) + ", 0], radius: 0.5}";
+    EXPECT_EQ(mistake_in(bodies_case({left, right})), "") << gap;
+  }
+}
+
+TEST(ChosenGrids, ABodyAtTheRimIsToldSoAndNotOfAnotherOne) {
+  const std::string message = mistake_in(
+      bodies_case({"{kind: circle, radius: 0.5}", "{kind: circle, centre: [1.48, 0], radius: 0.5}"}));
+  EXPECT_NE(message.find("solid `body_1` is 0.02 from the rim of fluid.grid at (1.98, 0)"), std::string::npos)
+      << message;
+}
+
+TEST(ChosenGrids, ABendThatTakesTooManyPointsIsNamedWithItsPlace) {
+  const std::string message = mistake_in(bodies_case({"{kind: ellipse, semi_axes: [1.5, 0.01]}"}));
+  EXPECT_NE(message.find("solids.body_0.shape: grids inside this outline would take"), std::string::npos)
+      << message;
+  EXPECT_NE(message.find("law: rigid"), std::string::npos) << message;
+  EXPECT_EQ(mistake_in(bodies_case({"{kind: ellipse, semi_axes: [1.5, 0.01]}"}), {}, {}).find('\n'),
+            std::string::npos);
+}
+
+TEST(OpenOutlines, AWallIsTheSmallerPartOfTheGasWhicheverWayItIsListed) {
+  // A ramp up from the lower left: gas above it.
+  const Case up = load_text(wall_case("[[-2, -2], [0, -2], [2, -1.6]]", "[left, right]"));
+  const Case back = load_text(wall_case("[[2, -1.6], [0, -2], [-2, -2]]", "[right, left]"));
+  for (const Case* problem : {&up, &back}) {
+    const BodyFittedSpec& wall = problem->fluid->body_fitted[0];
+    EXPECT_EQ(wall.side, Side::top);
+    EXPECT_GT(wall.curve.x.front(),
+              wall.curve.x[static_cast<std::size_t>(wall.curve.points()) - 1]);  // right to left
+    EXPECT_NO_THROW(connect_once(problem->fluid->grid, problem->fluid->body_fitted));
+  }
+  // The same ramp hanging from the top.
+  const Case hanging = load_text(wall_case("[[-2, 2], [0, 2], [2, 1.6]]", "[left, right]"));
+  const BodyFittedSpec& wall = hanging.fluid->body_fitted[0];
+  EXPECT_LT(wall.curve.x.front(), wall.curve.x[static_cast<std::size_t>(wall.curve.points()) - 1]);
+}
+
+TEST(OpenOutlines, EndsThatAreNotOnTheirWallAreNamedWithTheirDistance) {
+  const std::string message = mistake_in(wall_case("[[-2, -1.9], [0, -2], [1.75, -1.5]]", "[left, right]"));
+  EXPECT_NE(message.find("(1.75, -1.5), is 0.25 from the right side of fluid.grid, x = 2"), std::string::npos)
+      << message;
+}
+
+/// An elastic square alone, its waves of speed 2, without stabilisation.
+std::string square_case(const std::string& spacing) {
+  return "time: {end: 1, cfl: 0.5}\nsolids:\n  square:\n    law: linear_elastic\n    rho: 1\n    lambda: 2\n "
+         "   mu: 1\n"
+         "    grid: {x: [0, 1], y: [0, 1], spacing: " +
+         spacing +
+         "}\n"
+         "    boundary: {left: free, right: free, bottom: free, top: free}\n"
+         "    scheme: {tangential_stress: {scaled: 0}, displacement: {scaled: 0}, relaxation: {scaled: 0}}\n";
+}
+
+TEST(CostOfARun, IsThatOfTheWavesThroughTheSmallestCell) {
+  // 1 / dt = c (1 / dx + 1 / dy) / cfl, c^2 = (lambda + 2 mu) / rho = 4
+  const RunCost cost = cost_of(load_text(square_case("0.1")));
+  ASSERT_EQ(cost.programs.size(), 1U);
+  EXPECT_NEAR(cost.dt, 0.5 / (2 * (10 + 10)), 1e-12);
+  EXPECT_NEAR(cost.steps, 80, 1);
+  EXPECT_NEAR(cost_of(load_text(square_case("0.05"))).steps, 160, 1);
+  EXPECT_EQ(cost.programs[0].points, 121);
+}
+
+TEST(CostOfARun, CountsTheSubstepsOfAStiffSolid) {
+  const std::string stiff = bodies_case({circle});
+  const RunCost alike = cost_of(load_text(stiff, {"time.multirate=false"}));
+  const RunCost own =
+      cost_of(load_text(stiff, {"time.multirate=true", "solids.body_0.lambda=98", "solids.body_0.mu=1"}));
+  EXPECT_EQ(alike.substeps(alike.programs[1]), 1);
+  EXPECT_GT(own.substeps(own.programs[1]), 3);
+  EXPECT_LE(own.dt, own.substeps(own.programs[1]) * own.programs[1].dt * (1 + 1e-9));
+  EXPECT_EQ(own.dt, own.programs[0].dt);
+  EXPECT_NE(cost_text(own).find("substeps"), std::string::npos);
+}
+
+TEST(CostOfARun, SaysWhereAFewSmallCellsSetTheStep) {
+  // Points drawn together at one place of the outline.
+  const std::string drawn =
+      "{kind: circle, radius: 0.5, points: 120, weights: [{strength: 0.03, sharpness: 100, place: 0.5}]}";
+  EXPECT_NE(cost_text(cost_of(load_text(bodies_case({drawn})))).find("times smaller"), std::string::npos);
+  EXPECT_EQ(cost_text(cost_of(load_text(bodies_case({circle})))).find("times smaller"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace fsi
