@@ -21,7 +21,7 @@ Coupler::Coupler(const CouplerOptions& options, std::span<const wire::Hello> hel
     if (participants_.empty()) participants_.push_back(pair.fluid);
     if (std::ranges::find(participants_, pair.solid) == participants_.end())
       participants_.push_back(pair.solid);
-    interfaces_.emplace_back(std::move(pair), options.projection,
+    interfaces_.emplace_back(std::move(pair), options.combination,
                              options.multirate ? options.robin_order + 1 : 1, options.path);
   }
   bids_.resize(participants_.size());
@@ -48,7 +48,8 @@ std::span<const wire::ProjectedInterface> Coupler::step(std::span<const wire::Pr
   } else {
     agree_on_time_step(predicted);
   }
-  checkpoint_asked_ = std::exchange(checkpoint_, false) && !finished_;
+  const bool before_end = options_.checkpoint_at_end && next_.plan.end;
+  checkpoint_asked_ = (std::exchange(checkpoint_, false) || before_end) && !finished_;
   answer();
   return answers_;
 }
@@ -107,6 +108,7 @@ void Coupler::answer() {
     wire::ProjectedInterface& to_solid = answers_[2 * k + 1];
     to_solid = to_fluid;
     to_solid.to = interface.pair().solid;
+    to_solid.q_dot.assign(interface.q_dot().begin(), interface.q_dot().end());
     to_solid.substeps_next = substeps_of(to_solid.to);
     interface.fill_robin(to_solid);
     interface.fit(to_fluid, to_solid);

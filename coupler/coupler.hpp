@@ -23,7 +23,8 @@ struct CouplerOptions {
   double start = 0;        ///< time of the first exchange
   bool multirate = false;  ///< solids may take substeps inside the step of the gas
   int robin_order = 2;     ///< extrapolation of the Robin data in time: 1 linear, 2 quadratic
-  Projection projection = Projection::simplified;
+  Combination combination;
+  bool checkpoint_at_end = false;          ///< everybody writes one of the last step
   Path path = {};                          ///< of the interfaces; empty: the solids move them
   std::vector<std::string> periodic = {};  ///< interfaces that go on beyond their ends, a period further
 };

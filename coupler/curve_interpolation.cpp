@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "coupler/interface_motion.hpp"
 
@@ -110,6 +111,19 @@ void CurveInterpolation::apply(std::span<const double> values, std::span<double>
 
 void CurveInterpolation::cubic(std::span<const double> values, std::span<double> result) const {
   apply(values, result, &Place::cubic);
+}
+
+Eigen::SparseMatrix<double> CurveInterpolation::cubic_weights() const {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (std::size_t k = 0; k < places_.size(); ++k) {
+    const Weights& w = places_[k].cubic;
+    for (std::size_t l = 0; l < w.count; ++l)
+      entries.emplace_back(static_cast<int>(w.index[l]), static_cast<int>(k), w.weight[l]);
+  }
+  Eigen::SparseMatrix<double> weights(static_cast<Eigen::Index>(n_),
+                                      static_cast<Eigen::Index>(places_.size()));
+  weights.setFromTriplets(entries.begin(), entries.end());
+  return weights;
 }
 
 void CurveInterpolation::linear(std::span<const double> values, std::span<double> result) const {

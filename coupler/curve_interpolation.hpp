@@ -8,6 +8,7 @@
 /// period further, one-sided at open ends), or linear between two. The places are found once, in the
 /// configuration at t = 0.
 
+#include <Eigen/SparseCore>
 #include <array>
 #include <cstddef>
 #include <span>
@@ -31,6 +32,8 @@ class CurveInterpolation {
   /// Values of any number of components, component-major: n each in `values`, m each in `result`. Exact for
   /// cubic polynomials of the arclength; values at points of the curve are handed on as they are.
   void cubic(std::span<const double> values, std::span<double> result) const;
+  /// The weights of `cubic` as a matrix, n x m: values in rows are brought by multiplication from the right.
+  Eigen::SparseMatrix<double> cubic_weights() const;
   /// Never outside the two neighbouring values: for what must stay positive.
   void linear(std::span<const double> values, std::span<double> result) const;
 

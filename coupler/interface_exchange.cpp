@@ -10,6 +10,9 @@
 
 #include "common/core/failure.hpp"
 #include "common/core/types.hpp"
+#include "common/interface/modal.hpp"
+#include "common/wire/sparse.hpp"
+#include "coupler/checked_values.hpp"
 
 namespace fsi::coupler {
 
@@ -27,21 +30,6 @@ Curve curve_of(const InterfacePair& pair, const std::vector<double>& x, const st
   }
 }
 
-/// Throws unless `values` holds `expected` finite numbers.
-void check_values(const Moment& moment, const wire::PredictedInterface& state, const char* quantity,
-                  std::span<const double> values, std::size_t expected, std::size_t points) {
-  if (values.size() != expected) {
-    throw PeerLost(fmt::format("\"{}\" sent {} numbers for {} of interface \"{}\", not {}", state.from,
-                               values.size(), quantity, state.interface, expected));
-  }
-  for (std::size_t k = 0; k < expected; ++k) {
-    if (std::isfinite(values[k])) continue;
-    throw NumbersBroke(fmt::format("step {}, t = {:.6g}: \"{}\" at interface \"{}\", point {}: {} is {}",
-                                   moment.step, moment.t, state.from, state.interface, k % points, quantity,
-                                   values[k]));
-  }
-}
-
 /// At most `most` of n indices, the first and the last among them.
 std::vector<std::size_t> evenly_spread(std::size_t n, std::size_t most) {
   const std::size_t count = std::min(n, most);
@@ -50,18 +38,12 @@ std::vector<std::size_t> evenly_spread(std::size_t n, std::size_t most) {
   return shown;
 }
 
-[[noreturn]] void throw_broken(const Moment& moment, const InterfacePair& pair, const std::string& who,
-                               std::size_t k, const std::string& what) {
-  throw NumbersBroke(fmt::format("step {}, t = {:.6g}: \"{}\" at interface \"{}\", point {}: {}", moment.step,
-                                 moment.t, who, pair.name, k, what));
-}
-
 }  // namespace
 
-InterfaceExchange::InterfaceExchange(InterfacePair pair, Projection projection, int robin_levels,
+InterfaceExchange::InterfaceExchange(InterfacePair pair, Combination combination, int robin_levels,
                                      const Path& path)
     : pair_(std::move(pair)),
-      projection_(projection),
+      combination_(combination),
       curve_(curve_of(pair_, pair_.x, pair_.n0)),
       motion_(curve_.n),
       levels_(static_cast<std::size_t>(robin_levels)),
@@ -88,8 +70,15 @@ void InterfaceExchange::check_gas(const Moment& moment, const wire::PredictedInt
   check_values(moment, gas, "the pressure", gas.p, n, n);
   check_values(moment, gas, "the impedance", gas.z_f, n, n);
   for (std::size_t k = 0; k < n; ++k) {
-    if (!(gas.z_f[k] > 0))
-      throw_broken(moment, pair_, gas.from, k, fmt::format("the impedance is {}", gas.z_f[k]));
+    if (!(gas.z_f[k] > 0)) throw_broken(moment, gas, k, fmt::format("the impedance is {}", gas.z_f[k]));
+  }
+  if (gas.rho.empty() && gas.gamma.empty()) return;
+  check_values(moment, gas, "the density", gas.rho, n, n);
+  check_values(moment, gas, "the exponent gamma", gas.gamma, n, n);
+  for (std::size_t k = 0; k < n; ++k) {
+    if (!(gas.rho[k] > 0)) throw_broken(moment, gas, k, fmt::format("the density is {}", gas.rho[k]));
+    if (!(gas.gamma[k] > 1) && gas.gamma[k] != 0)
+      throw_broken(moment, gas, k, fmt::format("gamma is {}", gas.gamma[k]));
   }
 }
 
@@ -103,7 +92,7 @@ void InterfaceExchange::check_solid(const Moment& moment, const wire::PredictedI
   }
   check_modes(solid);
   if (solid.modal.modes > 0) {
-    if (projection_ == Projection::traditional) {
+    if (combination_.projection == Projection::traditional) {
       throw UserMistake(fmt::format(
           "interface.projection: traditional is not there for solid \"{}\": a body with a few degrees of "
           "freedom is "
@@ -111,10 +100,10 @@ void InterfaceExchange::check_solid(const Moment& moment, const wire::PredictedI
           solid.from));
     }
     const auto k = static_cast<std::size_t>(solid.modal.modes);
-    check_values(moment, solid, "the mass matrix", solid.modal.M, k * k, k * k);
-    check_values(moment, solid, "the mode vectors", solid.modal.N, k * n, n);
+    check_entries(moment, solid, "the modal response S", solid.modal.S, {.rows = k, .columns = k});
+    check_entries(moment, solid, "the mode vectors", solid.modal.N, {.rows = k, .columns = n});
     check_values(moment, solid, "the modal velocity", solid.modal.q_dot, k, k);
-    check_values(moment, solid, "the modal load", solid.modal.f_own, k, k);
+    check_values(moment, solid, "the modal response g", solid.modal.g, k, k);
     return;
   }
   check_values(moment, solid, "the traction", solid.w, 2 * n, n);
@@ -125,10 +114,10 @@ void InterfaceExchange::check_solid(const Moment& moment, const wire::PredictedI
   }
 }
 
-/// The body has the modes of its first message for ever: the velocities are integrated here.
+/// The body has the degrees of freedom of its first message for ever.
 void InterfaceExchange::check_modes(const wire::PredictedInterface& solid) const {
   if (known_ == 0) return;
-  const auto before = modal_ ? modal_->q_dot().size() : 0;
+  const auto before = q_dot_.size();
   if (solid.modal.modes == before) return;
   throw PeerLost(
       fmt::format("\"{}\" sent modal.modes = {} for interface \"{}\", {} before; a solid must keep the "
@@ -163,7 +152,9 @@ void InterfaceExchange::project(const Moment& moment, const wire::PredictedInter
   point_lengths(x_gas_, ds_);
   for (std::size_t k = 0; k < curve_.n; ++k) {
     const GasPoint<2> point{.v = vector_at(gas.v, k), .p = gas.p[k], .p_e = gas.p_e, .z_f = gas.z_f[k]};
-    gas_[k] = normal_side<2>(point, vector_at(n_, k));
+    gas_[k] = {.state = normal_side<2>(point, vector_at(n_, k)), .curve = {.z = gas.z_f[k]}};
+    if (!gas.rho.empty()) gas_[k].curve.rho = gas.rho[k];
+    if (combination_.wave_curve && !gas.gamma.empty()) gas_[k].curve.gamma = gas.gamma[k];
     solid_v_n_[k] = vector_at(n_, k).dot(vector_at(solid.v, k));
   }
   std::ranges::rotate(levels_, levels_.end() - 1);
@@ -187,21 +178,24 @@ void InterfaceExchange::project_deformable(const Moment& moment, const wire::Pre
         .v = vector_at(solid.v, k), .w = vector_at(solid.w, k), .Z = Mat2::Zero(), .z_p = solid.z_p};
     point.Z << solid.Z[k], solid.Z[n + k], solid.Z[n + k], solid.Z[2 * n + k];
     if (!(point.Z(0, 0) > 0 && point.Z.determinant() > 0)) {
-      throw_broken(moment, pair_, solid.from, k,
-                   "the impedance matrix is not positive: the solid is no longer hyperbolic");
+      throw_broken(
+          moment, solid, k,
+          fmt::format("the impedance matrix is not positive: the solid is no longer hyperbolic, which "
+                      "too large a strain does, or noise; try solids.{}.scheme.relaxation: {{scaled: 0.5}}",
+                      pair_.solid));
     }
     const bool fixed = !solid.fixed.empty() && solid.fixed[k] == wire::Freedom::fixed;
     NormalState state;
-    if (fixed && projection_ != Projection::traditional) {
+    if (fixed && combination_.projection != Projection::traditional) {
       state = at_wall(solid_v_n_[k], gas_[k]);
     } else {
-      state = fsi::project<2>(point, gas_[k], normal, projection_);
+      state = fsi::project<2>(point, gas_[k], normal, combination_.projection);
     }
     now.v_n[k] = state.v_n;
     now.w_n[k] = state.w_n;
   }
   const bool solid_is_coarser = transfer_ && !pair_.coarser->is_gas;
-  if (solid_is_coarser && projection_ != Projection::traditional) follow_solid();
+  if (solid_is_coarser && combination_.projection != Projection::traditional) follow_solid();
 }
 
 /// The gas on finer points than the solid's sees an interface that moves as those points can; its own
@@ -219,17 +213,22 @@ void InterfaceExchange::follow_solid() {
 
 void InterfaceExchange::project_modal(const Moment& moment, const wire::ModalResponse& modal) {
   const auto k = static_cast<Eigen::Index>(modal.modes);
-  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  const Eigen::MatrixXd N =
-      Eigen::Map<const RowMajor>(modal.N.data(), k, static_cast<Eigen::Index>(curve_.n));
-  if (!modal_) {
-    modal_.emplace(Eigen::Map<const Eigen::VectorXd>(modal.q_dot.data(), k));
+  const Eigen::SparseMatrix<double> N = wire::matrix_of(modal.N, k, static_cast<Eigen::Index>(curve_.n));
+  if (moment.dt > 0) {
+    const Eigen::SparseMatrix<double> S = wire::matrix_of(modal.S, k, k);
+    const Eigen::VectorXd g = Eigen::Map<const Eigen::VectorXd>(modal.g.data(), k);
+    const auto answer = [&](const ModalLoad& load) { return project_modes(S, g, load, moment.dt); };
+    q_dot_ = balance(N, gas_, ds_, answer);
+    if (q_dot_.size() == 0) {
+      throw NumbersBroke(fmt::format(
+          "step {}, t = {:.6g}: \"{}\" at interface \"{}\": nothing resists one of its {} modes, no "
+          "mass, no stiffness, no gas",
+          moment.step, moment.t, pair_.solid, pair_.name, k));
+    }
   } else {
-    const Eigen::MatrixXd M = Eigen::Map<const RowMajor>(modal.M.data(), k, k);
-    const Eigen::VectorXd f_own = Eigen::Map<const Eigen::VectorXd>(modal.f_own.data(), k);
-    modal_->advance(M, f_own, modal_load(N, gas_, ds_), moment.dt);
+    q_dot_ = Eigen::Map<const Eigen::VectorXd>(modal.q_dot.data(), k);
   }
-  const Eigen::VectorXd v_n = N.transpose() * modal_->q_dot();
+  const Eigen::VectorXd v_n = N.transpose() * q_dot_;
   Level& now = levels_.front();
   for (std::size_t i = 0; i < curve_.n; ++i) {
     const NormalState state = at_wall(v_n(static_cast<Eigen::Index>(i)), gas_[i]);
@@ -244,8 +243,9 @@ void InterfaceExchange::remember(const Moment& moment, const wire::PredictedInte
   const Level& now = levels_.front();
   for (std::size_t k = 0; k < n; ++k) {
     if (!std::isfinite(now.v_n[k]) || !std::isfinite(now.w_n[k])) {
-      throw_broken(moment, pair_, "coupler", k, "the projected state is not finite");
+      throw_broken(moment, solid, k, "the projected state is not finite");
     }
+    z_f_[k] = gas_[k].tangent(now.v_n[k]).z;  // what the gas answers to further changes with
     const double correction = now.v_n[k] - solid_v_n_[k];
     v_[k] = solid.v[k] + correction * n_[k];
     v_[n + k] = solid.v[n + k] + correction * n_[n + k];
@@ -265,13 +265,17 @@ void InterfaceExchange::measure(const wire::PredictedInterface& gas, const wire:
     const Vec2 normal = vector_at(n_, k);
     const bool fixed = !solid.fixed.empty() && solid.fixed[k] == wire::Freedom::fixed;
     if (!fixed)
-      report_.velocity_jump = std::max(report_.velocity_jump, std::abs(gas_[k].v_n - solid_v_n_[k]));
+      report_.velocity_jump = std::max(report_.velocity_jump, std::abs(gas_[k].state.v_n - solid_v_n_[k]));
     if (!solid.w.empty()) {
       solid_w_n_[k] = normal.dot(vector_at(solid.w, k));
-      const Vec2 jump = vector_at(solid.w, k) - gas_[k].w_n * normal;
+      const Vec2 jump = vector_at(solid.w, k) - gas_[k].state.w_n * normal;
       report_.traction_jump = std::max(report_.traction_jump, jump.norm());
     }
     report_.gap = std::max(report_.gap, std::abs(normal.dot(vector_at(gas.x, k) - vector_at(solid.x, k))));
+    report_.velocity_scale =
+        std::max({report_.velocity_scale, gas_[k].curve.sound(), std::abs(gas_[k].state.v_n)});
+    report_.traction_scale = std::max(report_.traction_scale, gas.p[k]);
+    report_.vacuum += gas_[k].curve.at(now.v_n[k] - gas_[k].state.v_n).vacuum ? 1 : 0;
     report_.power += ds_[k] * now.w_n[k] * now.v_n[k];
   }
 }
@@ -325,10 +329,9 @@ void InterfaceExchange::archive(Archive& archive) {
       archive.values("w_n", levels_[k].w_n);
     });
   }
-  auto modes = modal_ ? modal_->q_dot().size() : 0;
+  auto modes = q_dot_.size();
   archive.number("modes", modes);
-  if (archive.loading() && modes > 0) modal_.emplace(Eigen::VectorXd::Zero(modes));
-  if (modal_) archive.inside("modal", [&] { modal_->archive(archive); });
+  if (archive.loading()) q_dot_ = Eigen::VectorXd::Zero(modes);
 }
 
 wire::Telemetry::Interface InterfaceExchange::profile(std::size_t most) const {
@@ -352,11 +355,11 @@ wire::Telemetry::Interface InterfaceExchange::profile(std::size_t most) const {
   const std::vector<std::size_t> shown = evenly_spread(n, most);
   for (const std::size_t k : shown) {
     profile.s.push_back(s[k]);
-    profile.p_predicted.push_back(p_e_ - gas_[k].w_n);
+    profile.p_predicted.push_back(p_e_ - gas_[k].state.w_n);
     if (!solid_w_n_.empty()) profile.p_predicted_solid.push_back(p_e_ - solid_w_n_[k]);
     profile.p_projected.push_back(p_e_ - now.w_n[k]);
     profile.v_predicted.push_back(solid_v_n_[k]);
-    profile.v_predicted_gas.push_back(gas_[k].v_n);
+    profile.v_predicted_gas.push_back(gas_[k].state.v_n);
     profile.v_projected.push_back(now.v_n[k]);
   }
   for (const std::size_t component : {std::size_t{0}, n}) {

@@ -49,7 +49,9 @@ CouplerOptions options_of(const Case& problem) {
           .start = 0,
           .multirate = time.multirate,
           .robin_order = time.robin_order,
-          .projection = projection_named(problem.interface.projection),
+          .combination = {.projection = projection_named(problem.interface.projection),
+                          .wave_curve = problem.interface.riemann == "exact"},
+          .checkpoint_at_end = problem.output.checkpoint_at_end,
           .path = path_of(problem.interface),
           .periodic = periodic_interfaces(problem)};
 }
@@ -193,6 +195,9 @@ void CoupledRun::record() {
     extremes.max_velocity_jump = std::max(extremes.max_velocity_jump, report->velocity_jump);
     extremes.max_traction_jump = std::max(extremes.max_traction_jump, report->traction_jump);
     extremes.max_gap = std::max(extremes.max_gap, report->gap);
+    extremes.velocity_scale = std::max(extremes.velocity_scale, report->velocity_scale);
+    extremes.traction_scale = std::max(extremes.traction_scale, report->traction_scale);
+    part_.counters["vacuum_points"] += static_cast<double>(report->vacuum);
   }
   table_.row(row);
 }

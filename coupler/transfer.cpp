@@ -3,6 +3,8 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 
+#include "common/wire/sparse.hpp"
+
 namespace fsi::coupler {
 
 namespace {
@@ -45,7 +47,8 @@ void impose_force(std::span<const double> x, std::span<const double> n, const Ve
   Mat2 carried = Mat2::Zero();
   for (std::size_t k = 0; k < ds.size(); ++k)
     carried += ds[k] * vector_at(n, k) * vector_at(n, k).transpose();
-  const Eigen::SelfAdjointEigenSolver<Mat2> directions(carried);
+  Eigen::SelfAdjointEigenSolver<Mat2> directions;
+  directions.computeDirect(carried);
   const Vec2 missing = wanted - force_of(x, n, w_n);
   Vec2 c = Vec2::Zero();
   for (Eigen::Index i = 0; i < 2; ++i) {
@@ -62,6 +65,7 @@ InterfaceTransfer::InterfaceTransfer(const Curve& curve, std::span<const double>
     : curve_(curve),
       to_fine_(coarse, fine, curve.periodic),
       to_coarse_(fine, coarse, curve.periodic),
+      modes_to_fine_(to_fine_.cubic_weights()),
       x_0_(coarse.begin(), coarse.end()),
       x_0_fine_(fine.begin(), fine.end()) {}
 
@@ -79,8 +83,10 @@ const wire::PredictedInterface& InterfaceTransfer::bring(const wire::PredictedIn
   fill(coarse.v, brought_.v, &CurveInterpolation::cubic);
   fill(coarse.w, brought_.w, &CurveInterpolation::cubic);
   fill(coarse.p, brought_.p, &CurveInterpolation::cubic);
-  fill(coarse.modal.N, brought_.modal.N, &CurveInterpolation::cubic);
+  bring_modes(coarse.modal);
   fill(coarse.z_f, brought_.z_f, &CurveInterpolation::linear);
+  fill(coarse.rho, brought_.rho, &CurveInterpolation::linear);
+  fill(coarse.gamma, brought_.gamma, &CurveInterpolation::linear);
   fill(coarse.Z, brought_.Z, &CurveInterpolation::linear);
   std::vector<double> marks(coarse.fixed.size()), fine_marks;
   std::ranges::transform(coarse.fixed, marks.begin(),
@@ -93,6 +99,12 @@ const wire::PredictedInterface& InterfaceTransfer::bring(const wire::PredictedIn
   if (coarse.fixed.front() == wire::Freedom::slides) brought_.fixed.front() = wire::Freedom::slides;
   if (coarse.fixed.back() == wire::Freedom::slides) brought_.fixed.back() = wire::Freedom::slides;
   return brought_;
+}
+
+void InterfaceTransfer::bring_modes(const wire::ModalResponse& coarse) {
+  if (coarse.modes == 0) return;
+  const auto n = static_cast<Eigen::Index>(curve_.n);
+  brought_.modal.N = wire::entries_of(wire::matrix_of(coarse.N, coarse.modes, n) * modes_to_fine_);
 }
 
 std::vector<double> InterfaceTransfer::at_coarse(std::span<const double> fine) const {

@@ -8,6 +8,7 @@
 ///
 /// What is handed back acts with exactly the same force as at the finer points.
 
+#include <Eigen/SparseCore>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -52,11 +53,13 @@ class InterfaceTransfer {
   void give(std::span<const double> x, wire::ProjectedInterface& answer) const;
 
  private:
+  void bring_modes(const wire::ModalResponse& coarse);
   std::vector<double> at_coarse(std::span<const double> fine) const;
   void give_robin(wire::ProjectedInterface& answer) const;
 
   Curve curve_;  ///< of the coarser side
   CurveInterpolation to_fine_, to_coarse_;
+  Eigen::SparseMatrix<double> modes_to_fine_;
   std::vector<double> x_0_, x_0_fine_;  ///< positions at t = 0
   std::vector<double> x_, v_;           ///< coarser side, predicted
   wire::PredictedInterface brought_;

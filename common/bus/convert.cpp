@@ -33,12 +33,20 @@ amp_fsi_Health borrow(const wire::Health& health) {
           .floors = health.floors};
 }
 
+amp_fsi_Indices borrow(const std::vector<std::int32_t>& values) {
+  return borrowed<amp_fsi_Indices>(values);
+}
+
+amp_fsi_SparseMatrix borrow(const wire::SparseMatrix& matrix) {
+  return {.row = borrow(matrix.row), .column = borrow(matrix.column), .value = borrow(matrix.value)};
+}
+
 amp_fsi_ModalResponse borrow(const wire::ModalResponse& modal) {
   return {.modes = modal.modes,
-          .M = borrow(modal.M),
+          .S = borrow(modal.S),
+          .g = borrow(modal.g),
           .N = borrow(modal.N),
-          .q_dot = borrow(modal.q_dot),
-          .f_own = borrow(modal.f_own)};
+          .q_dot = borrow(modal.q_dot)};
 }
 
 void copy(const amp_fsi_Numbers& from, std::vector<double>& to) {
@@ -47,6 +55,16 @@ void copy(const amp_fsi_Numbers& from, std::vector<double>& to) {
 
 void copy(const amp_fsi_Flags& from, std::vector<std::uint8_t>& to) {
   to.assign(from._buffer, from._buffer + from._length);
+}
+
+void copy(const amp_fsi_Indices& from, std::vector<std::int32_t>& to) {
+  to.assign(from._buffer, from._buffer + from._length);
+}
+
+void copy(const amp_fsi_SparseMatrix& from, wire::SparseMatrix& to) {
+  copy(from.row, to.row);
+  copy(from.column, to.column);
+  copy(from.value, to.value);
 }
 
 void copy(const char* from, std::string& to) {
@@ -64,10 +82,10 @@ void copy(const amp_fsi_Health& from, wire::Health& to) {
 
 void copy(const amp_fsi_ModalResponse& from, wire::ModalResponse& to) {
   to.modes = from.modes;
-  copy(from.M, to.M);
+  copy(from.S, to.S);
+  copy(from.g, to.g);
   copy(from.N, to.N);
   copy(from.q_dot, to.q_dot);
-  copy(from.f_own, to.f_own);
 }
 
 template <class... Vectors>
@@ -163,6 +181,8 @@ amp_fsi_PredictedInterface borrow(const wire::PredictedInterface& predicted) {
           .w = borrow(predicted.w),
           .p = borrow(predicted.p),
           .z_f = borrow(predicted.z_f),
+          .rho = borrow(predicted.rho),
+          .gamma = borrow(predicted.gamma),
           .Z = borrow(predicted.Z),
           .z_p = predicted.z_p,
           .is_fixed = borrow(predicted.fixed),
@@ -184,6 +204,7 @@ amp_fsi_ProjectedInterface borrow(const wire::ProjectedInterface& projected) {
           .w_n = borrow(projected.w_n),
           .v = borrow(projected.v),
           .a = borrow(projected.a),
+          .q_dot = borrow(projected.q_dot),
           .z_f = borrow(projected.z_f),
           .robin_t = borrow(projected.robin_t),
           .robin_r = borrow(projected.robin_r),
@@ -295,6 +316,8 @@ void copy(const amp_fsi_PredictedInterface& from, wire::PredictedInterface& to) 
   copy(from.w, to.w);
   copy(from.p, to.p);
   copy(from.z_f, to.z_f);
+  copy(from.rho, to.rho);
+  copy(from.gamma, to.gamma);
   copy(from.Z, to.Z);
   to.z_p = from.z_p;
   copy(from.is_fixed, to.fixed);
@@ -316,6 +339,7 @@ void copy(const amp_fsi_ProjectedInterface& from, wire::ProjectedInterface& to) 
   copy(from.w_n, to.w_n);
   copy(from.v, to.v);
   copy(from.a, to.a);
+  copy(from.q_dot, to.q_dot);
   copy(from.z_f, to.z_f);
   copy(from.robin_t, to.robin_t);
   copy(from.robin_r, to.robin_r);
@@ -355,16 +379,18 @@ bool same_state(const amp_fsi_PredictedInterface& incoming, const wire::Predicte
            (other.empty() || std::memcmp(one._buffer, other.data(), other.size() * sizeof(double)) == 0);
   };
   return same(incoming.x, state.x) && same(incoming.v, state.v) && same(incoming.w, state.w) &&
-         same(incoming.p, state.p) && same(incoming.z_f, state.z_f) && same(incoming.Z, state.Z);
+         same(incoming.p, state.p) && same(incoming.z_f, state.z_f) && same(incoming.rho, state.rho) &&
+         same(incoming.gamma, state.gamma) && same(incoming.Z, state.Z);
 }
 
 std::size_t payload(const wire::PredictedInterface& m) {
-  return bytes_of(m.x, m.v, m.w, m.p, m.z_f, m.Z, m.fixed, m.modal.M, m.modal.N, m.modal.q_dot,
-                  m.modal.f_own);
+  return bytes_of(m.x, m.v, m.w, m.p, m.z_f, m.rho, m.gamma, m.Z, m.fixed, m.modal.S.row, m.modal.S.column,
+                  m.modal.S.value, m.modal.N.row, m.modal.N.column, m.modal.N.value, m.modal.g,
+                  m.modal.q_dot);
 }
 
 std::size_t payload(const wire::ProjectedInterface& m) {
-  return bytes_of(m.n, m.v_n, m.w_n, m.v, m.a, m.z_f, m.robin_t, m.robin_r, m.x_next);
+  return bytes_of(m.n, m.v_n, m.w_n, m.v, m.a, m.q_dot, m.z_f, m.robin_t, m.robin_r, m.x_next);
 }
 
 }  // namespace fsi::bus

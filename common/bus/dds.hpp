@@ -48,7 +48,7 @@ enum class Delivery {
   lasting,    ///< reliable, late joiners get the last samples: abort, control; what hears hello, welcome
   newest,     ///< the same, but only the last sample of each sender: who says hello, welcome
   passing,    ///< reliable, nothing for late joiners: waiting
-  listening,  ///< best effort, newest only: telemetry, and everything a monitor reads
+  listening,  ///< best effort, newest only: telemetry
 };
 
 Qos writer_qos(Delivery delivery);

@@ -12,7 +12,7 @@ namespace fsi::bus {
 namespace {
 
 constexpr std::int32_t most_dimensions = 3;
-constexpr std::int32_t most_modes = 64;
+constexpr std::int32_t most_modes = 20000;
 
 /// Compares lengths, remembering whose message it is.
 class Lengths {
@@ -30,6 +30,24 @@ class Lengths {
     if (count >= lowest && count <= highest) return;
     throw PeerLost(fmt::format("{} sent {} = {} for interface '{}', not {} to {}", from_, what, count,
                                interface_, lowest, highest));
+  }
+
+  /// Every entry has a row, a column and a value, and lies within a matrix of `rows` x `columns`.
+  void check_entries(const std::string& array, const wire::SparseMatrix& matrix, std::size_t rows,
+                     std::size_t columns) const {
+    const std::size_t entries = matrix.value.size();
+    if (matrix.row.size() != entries || matrix.column.size() != entries) {
+      throw PeerLost(fmt::format("{} sent {} rows, {} columns and {} values of {} for interface '{}'", from_,
+                                 matrix.row.size(), matrix.column.size(), entries, array, interface_));
+    }
+    const auto outside = [](std::int32_t index, std::size_t end) {
+      return index < 0 || static_cast<std::size_t>(index) >= end;
+    };
+    for (std::size_t e = 0; e < entries; ++e) {
+      if (!outside(matrix.row[e], rows) && !outside(matrix.column[e], columns)) continue;
+      throw PeerLost(fmt::format("{} sent an entry ({}, {}) of {}, which is {} x {}, for interface '{}'",
+                                 from_, matrix.row[e], matrix.column[e], array, rows, columns, interface_));
+    }
   }
 
  private:
@@ -56,14 +74,16 @@ void check_lengths(const wire::PredictedInterface& m, InterfaceSize size) {
   lengths.check("w", m.w, vectors);
   lengths.check("p", m.p, size.points);
   lengths.check("z_f", m.z_f, size.points);
+  lengths.check("rho", m.rho, size.points);
+  lengths.check("gamma", m.gamma, size.points);
   lengths.check("Z", m.Z, size.points * size.dimension * (size.dimension + 1) / 2);
   lengths.check("fixed", m.fixed, size.points);
   lengths.check_count("modal.modes", m.modal.modes, 0, most_modes);
   const auto modes = static_cast<std::size_t>(m.modal.modes);
-  lengths.check("modal.M", m.modal.M, modes * modes);
-  lengths.check("modal.N", m.modal.N, modes * size.points);
+  lengths.check("modal.g", m.modal.g, modes);
   lengths.check("modal.q_dot", m.modal.q_dot, modes);
-  lengths.check("modal.f_own", m.modal.f_own, modes);
+  lengths.check_entries("modal.S", m.modal.S, modes, modes);
+  lengths.check_entries("modal.N", m.modal.N, modes, size.points);
 }
 
 void check_lengths(const wire::ProjectedInterface& m, InterfaceSize size) {

@@ -41,7 +41,7 @@ struct Listener::Implementation {
         participant(create_participant(run, parse_key(key), "monitor")),
         waitset(participant),
         telemetry_reader(participant, telemetry_topic, Delivery::listening),
-        abort_reader(participant, abort_topic, Delivery::listening) {
+        abort_reader(participant, abort_topic, Delivery::lasting) {
     waitset.attach(telemetry_reader.condition());
     waitset.attach(abort_reader.condition());
   }

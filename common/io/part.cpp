@@ -37,7 +37,9 @@ std::string to_json(const Part& part) {
   if (part.interface) {
     json["interface"] = {{"max_velocity_jump", part.interface->max_velocity_jump},
                          {"max_traction_jump", part.interface->max_traction_jump},
-                         {"max_gap", part.interface->max_gap}};
+                         {"max_gap", part.interface->max_gap},
+                         {"velocity_scale", part.interface->velocity_scale},
+                         {"traction_scale", part.interface->traction_scale}};
   }
   if (const auto& noise = part.noise) {
     json["noise"] = {{"value", noise->size}, {"noisy", noise->noisy}, {"field", noise->field},

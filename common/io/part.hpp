@@ -18,11 +18,14 @@ enum class Work { advance, time_step, boundary, grids, messages, output, waiting
 inline constexpr std::array work_names{"advance",  "time_step", "boundary", "grids",
                                        "messages", "output",    "waiting"};
 
-/// Largest jumps over an interface in a whole run.
+/// Largest jumps over an interface in a whole run, before the projection, and what they are to be compared
+/// with.
 struct InterfaceExtremes {
   double max_velocity_jump = 0;
   double max_traction_jump = 0;
   double max_gap = 0;
+  double velocity_scale = 0;  ///< largest speed of sound, or of the gas along the normal, at an interface
+  double traction_scale = 0;  ///< largest pressure of the gas at an interface
 };
 
 /// A ripple of the grid's scale: a row of maxima and minima along a grid line (common/grid/ripple.hpp).

@@ -32,6 +32,9 @@ void archive_part(Archive& archive, io::Part& part) {
   archive.number("max_velocity_jump", part.interface->max_velocity_jump);
   archive.number("max_traction_jump", part.interface->max_traction_jump);
   archive.number("max_gap", part.interface->max_gap);
+  archive.number("velocity_scale", part.interface->velocity_scale);
+  archive.number("traction_scale", part.interface->traction_scale);
+  archive.number("vacuum_points", part.counters["vacuum_points"]);
 }
 
 }  // namespace

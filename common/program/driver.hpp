@@ -46,9 +46,10 @@ void with_last_state(const io::Part& part, Participant& solver, const LastState&
     loop();
   } catch (const NumbersBroke& broke) {
     leave_state();
-    const std::string words = broke.what();
-    if (words.starts_with("step ")) throw;
-    throw NumbersBroke(fmt::format("step {}, {}", part.steps + 1, words));
+    std::string words = broke.what();
+    if (!words.starts_with("step ")) words = fmt::format("step {}, {}", part.steps + 1, words);
+    if (const std::string remedy = solver.remedy(); !remedy.empty()) words += "; try " + remedy;
+    throw NumbersBroke(words);
   } catch (const Failure& failure) {
     if (failure.code() == ExitCode::numbers_broke) leave_state();  // those of somebody else
     throw;

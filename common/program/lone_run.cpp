@@ -50,12 +50,16 @@ class LoneRun {
     if (setup_.restart.empty()) {
       solver_.apply_bcs(0, {});
       write(schedule_.output_at_start());
+    } else {
+      end_ = schedule_.is_end(at_.t);
+      if (end_) watch_noise(part_, solver_, at_, true);
     }
     while (!end_ && go_on()) {
       advance();
       last_ = {.t = at_.t, .step = at_.step};
       watch_.end_step();
     }
+    if (end_ && at_.step > begun_at_ && setup_.problem.output.checkpoint_at_end) save();
   }
 
   void advance() {

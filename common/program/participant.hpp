@@ -60,6 +60,8 @@ class Participant {
   virtual wire::Health health() const { return {.min_det_F = 1}; }
   /// Looks for noise in the fields at t; once in a while, at output times and at the end.
   virtual void look_for_noise(double /*t*/) {}
+  /// What to change in the case where the numbers broke: one thing, the likeliest.
+  virtual std::string remedy() const { return {}; }
   /// What was found; null for a solver without fields.
   virtual const grid::RippleWatch* noise() const { return nullptr; }
   /// Errors, counters and budgets at the end of the run.

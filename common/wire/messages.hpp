@@ -9,7 +9,7 @@
 
 namespace fsi::wire {
 
-inline constexpr std::uint32_t protocol_version = 6;
+inline constexpr std::uint32_t protocol_version = 8;
 
 /// Where one program meets the gas or a solid.
 struct InterfaceInfo {
@@ -44,13 +44,20 @@ struct Health {
   std::uint64_t floors = 0;
 };
 
-/// Response of a solid with k global degrees of freedom; empty for a deformable solid.
+/// A sparse matrix as a list of entries in any order; entries of the same place add up.
+struct SparseMatrix {
+  std::vector<std::int32_t> row, column;  ///< from 0
+  std::vector<double> value;
+};
+
+/// Response of a solid with k degrees of freedom q to a load f on them, for the step that led to the state:
+/// S q_dot = g + dt f. Empty for a deformable solid.
 struct ModalResponse {
   std::int32_t modes = 0;     ///< k
-  std::vector<double> M;      ///< mass matrix, k * k
-  std::vector<double> N;      ///< mode vectors: n . dx/dq_m at every point, k * n
-  std::vector<double> q_dot;  ///< modal velocities, k
-  std::vector<double> f_own;  ///< springs, gravity, damping, k
+  SparseMatrix S;             ///< k x k, symmetric: its lower triangle (column <= row) [mass]
+  std::vector<double> g;      ///< what the solid's own past, springs and loads contribute, k [momentum]
+  SparseMatrix N;             ///< mode vectors: n . dx/dq_m at point i, k x n
+  std::vector<double> q_dot;  ///< predicted velocities, k; those of the initial state at the first message
 };
 
 /// How free a point of a solid's interface is.
@@ -76,6 +83,8 @@ struct PredictedInterface {
   std::vector<double> w;            ///< solid: traction eta n0^T P per current area, n_d * n
   std::vector<double> p;            ///< gas: pressure, n
   std::vector<double> z_f;          ///< gas: impedance rho a, n
+  std::vector<double> rho;          ///< gas: density, n
+  std::vector<double> gamma;        ///< gas: exponent of its simple waves, n; 0: its answer is linear
   std::vector<double> Z;            ///< solid: impedance matrix Z11, Z12, Z22, 3 * n
   double z_p = 0;                   ///< solid: rest impedance rho_bar c_p of the simplified projection (29)
   std::vector<std::uint8_t> fixed;  ///< solid: how free the points are, n values of `Freedom`
@@ -94,11 +103,12 @@ struct ProjectedInterface {
   std::string interface;
   std::uint64_t step = 0;  ///< the predicted state this answers
   double t = 0;
-  std::vector<double> n;    ///< unit normal, solid -> gas, n_d * n
-  std::vector<double> v_n;  ///< normal velocity v_n^I, n
-  std::vector<double> w_n;  ///< normal traction w_n^I = p_e - p^I, n
-  std::vector<double> v;    ///< velocity of the interface points at t, n_d * n
-  std::vector<double> a;    ///< their acceleration at t, n_d * n
+  std::vector<double> n;      ///< unit normal, solid -> gas, n_d * n
+  std::vector<double> v_n;    ///< normal velocity v_n^I, n
+  std::vector<double> w_n;    ///< normal traction w_n^I = p_e - p^I, n
+  std::vector<double> v;      ///< velocity of the interface points at t, n_d * n
+  std::vector<double> a;      ///< their acceleration at t, n_d * n
+  std::vector<double> q_dot;  ///< solid with degrees of freedom: their velocities at t, k
   // The gas characteristic as Robin data for substeps: w_n + z_f v_n = r(t), r_k at t_k, newest first.
   std::vector<double> z_f;      ///< n
   std::vector<double> robin_t;  ///< times t_k, 1 to 3 of them

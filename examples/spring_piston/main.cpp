@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <cstdint>
 #include <limits>
 #include <string>
 #include <utility>
@@ -19,6 +19,7 @@
 
 #include "common/case/grid_points.hpp"
 #include "common/core/archive.hpp"
+#include "common/core/backward_difference.hpp"
 #include "common/core/failure.hpp"
 #include "common/grid/interface_geometry.hpp"
 #include "common/io/csv_writer.hpp"
@@ -30,34 +31,46 @@ namespace {
 
 using fsi::Vec2;
 
-constexpr int points = 5;            ///< on the piston's face; the gas may have any other number
-constexpr double steps_in_time = 5;  ///< at least so many in the time sqrt(m / k) or m / c
+constexpr int points = 5;  ///< on the piston's face; the gas may have any other number
 
-/// Motion along one line, advanced by a prediction and a correction of second order.
+/// Motion along one line: predicted with the acceleration, then what the coupler makes of its response.
 struct Oscillator {
   double mass = 1, stiffness = 0, damping = 0;
   double q = 0, q_dot = 0;  ///< position from rest, velocity
 
-  double own_load() const { return -stiffness * q - damping * q_dot; }
-
   /// To the end of a step, with the acceleration of the last two.
   void predict(double step) {
+    q_older = q_old;
+    q_dot_older = q_dot_old;
     q_old = q;
     q_dot_old = q_dot;
     q += step * (q_dot + 0.5 * step * a);
     q_dot += step * a;
+    dt_before = dt;
     dt = step;
+  }
+
+  /// How it answers a load f at the end of the step: S q_dot = g + dt f. Backward differences for q_dot and
+  /// for q, which is (h + dt q_dot) / b at the end, with b the leading weight and h the past.
+  struct Response {
+    double S, g;
+  };
+  Response response(double pull) const {
+    const fsi::BackwardDifference bdf = difference();
+    const double b = bdf.leading, h = bdf.history(q_old, q_older);
+    return {.S = b * mass + dt * (damping + dt * stiffness / b),
+            .g = mass * bdf.history(q_dot_old, q_dot_older) + dt * (pull - stiffness * h / b)};
   }
 
   /// The velocity at the end of the step is known now.
   void correct(double velocity) {
     q_dot = velocity;
     if (dt == 0) return;
-    q = q_old + 0.5 * dt * (q_dot_old + q_dot);
+    const fsi::BackwardDifference bdf = difference();
+    q = (bdf.history(q_old, q_older) + dt * q_dot) / bdf.leading;
     const double mean = (q_dot - q_dot_old) / dt;
     a = mean + (dt_before > 0 ? dt / (dt + dt_before) * (mean - mean_before) : 0);
     mean_before = mean;
-    dt_before = dt;
   }
 
   /// All that the next steps depend on.
@@ -65,7 +78,9 @@ struct Oscillator {
     for (const auto& [name, value] : {std::pair{"q", &q},
                                       {"q_dot", &q_dot},
                                       {"q_old", &q_old},
+                                      {"q_older", &q_older},
                                       {"q_dot_old", &q_dot_old},
+                                      {"q_dot_older", &q_dot_older},
                                       {"a", &a},
                                       {"mean_before", &mean_before},
                                       {"dt", &dt},
@@ -73,7 +88,10 @@ struct Oscillator {
       archive.number(name, *value);
   }
 
-  double q_old = 0, q_dot_old = 0, a = 0, mean_before = 0, dt = 0, dt_before = 0;
+  fsi::BackwardDifference difference() const { return fsi::backward_difference(dt, dt_before); }
+
+  double q_old = 0, q_older = 0, q_dot_old = 0, q_dot_older = 0, a = 0, mean_before = 0, dt = 0,
+         dt_before = 0;
 };
 
 /// The side of the piston that meets the gas.
@@ -116,10 +134,7 @@ class Piston final : public fsi::Participant {
   }
 
   fsi::TimeStepBid compute_time_step() const override {
-    const double never = std::numeric_limits<double>::infinity();
-    const double spring = motion_.stiffness > 0 ? std::sqrt(motion_.mass / motion_.stiffness) : never;
-    const double damper = motion_.damping > 0 ? motion_.mass / motion_.damping : never;
-    return {.dt = std::min(spring, damper) / steps_in_time, .reason = "spring and damper"};
+    return {.dt = std::numeric_limits<double>::infinity(), .reason = "implicit"};
   }
 
   /// The predicted state as the coupler wants it: face, and response of the one mode, n . dx/dq = 1.
@@ -132,16 +147,19 @@ class Piston final : public fsi::Participant {
         state.v.push_back(motion_.q_dot * e_[c]);
       }
     }
+    const Oscillator::Response response = motion_.response(pull(state.t));
     state.modal = {.modes = 1,
-                   .M = {motion_.mass},
-                   .N = std::vector<double>(points, 1.0),
-                   .q_dot = {motion_.q_dot},
-                   .f_own = {motion_.own_load() + pull(state.t)}};
+                   .S = {.row = {0}, .column = {0}, .value = {response.S}},
+                   .g = {response.g},
+                   .N = {.row = std::vector<std::int32_t>(points, 0),
+                         .column = {0, 1, 2, 3, 4},
+                         .value = std::vector<double>(points, 1.0)},
+                   .q_dot = {motion_.q_dot}};
   }
 
   /// The answer: velocity of the face, and by the traction the force of the gas along e.
   void apply_bcs(double /*t*/, fsi::ProjectedStates gas) override {
-    motion_.correct(gas.front()->v_n[points / 2]);
+    motion_.correct(gas.front()->q_dot.front());
     force_ = width_ * gas.front()->w_n[points / 2];
   }
 

@@ -28,34 +28,44 @@ Message carried(const Message& message) {
 }
 
 TEST(Convert, PredictedStateKeepsEveryField) {
-  const wire::PredictedInterface out{
-      .run = "r",
-      .from = "beam",
-      .interface = "i",
-      .step = 9,
-      .t = 1,
-      .dt_bid = 2,
-      .dt_reason = "why",
-      .x = {1, 2},
-      .v = {3},
-      .w = {4},
-      .p = {5},
-      .z_f = {6},
-      .Z = {7, 8, 9},
-      .z_p = 10,
-      .fixed = {1, 0},
-      .p_e = 11,
-      .modal = {.modes = 1, .M = {12}, .N = {13}, .q_dot = {14}, .f_own = {15}},
-      .health = {16, 17, 18, 18.5, 19, 20},
-      .compute_s = 21,
-      .wait_s = 22};
+  const wire::PredictedInterface out{.run = "r",
+                                     .from = "beam",
+                                     .interface = "i",
+                                     .step = 9,
+                                     .t = 1,
+                                     .dt_bid = 2,
+                                     .dt_reason = "why",
+                                     .x = {1, 2},
+                                     .v = {3},
+                                     .w = {4},
+                                     .p = {5},
+                                     .z_f = {6},
+                                     .rho = {6.25},
+                                     .gamma = {6.5},
+                                     .Z = {7, 8, 9},
+                                     .z_p = 10,
+                                     .fixed = {1, 0},
+                                     .p_e = 11,
+                                     .modal = {.modes = 1,
+                                               .S = {.row = {0}, .column = {1}, .value = {12}},
+                                               .g = {13},
+                                               .N = {.row = {2}, .column = {3}, .value = {14}},
+                                               .q_dot = {15}},
+                                     .health = {16, 17, 18, 18.5, 19, 20},
+                                     .compute_s = 21,
+                                     .wait_s = 22};
   const wire::PredictedInterface in = carried(out);
   EXPECT_EQ(std::tie(in.run, in.from, in.interface, in.step, in.t, in.dt_bid, in.dt_reason),
             std::tie(out.run, out.from, out.interface, out.step, out.t, out.dt_bid, out.dt_reason));
-  EXPECT_EQ(std::tie(in.x, in.v, in.w, in.p, in.z_f, in.Z, in.z_p, in.fixed, in.p_e),
-            std::tie(out.x, out.v, out.w, out.p, out.z_f, out.Z, out.z_p, out.fixed, out.p_e));
-  EXPECT_EQ(std::tie(in.modal.modes, in.modal.M, in.modal.N, in.modal.q_dot, in.modal.f_own),
-            std::tie(out.modal.modes, out.modal.M, out.modal.N, out.modal.q_dot, out.modal.f_own));
+  EXPECT_EQ(
+      std::tie(in.x, in.v, in.w, in.p, in.z_f, in.rho, in.gamma, in.Z, in.z_p, in.fixed, in.p_e),
+      std::tie(out.x, out.v, out.w, out.p, out.z_f, out.rho, out.gamma, out.Z, out.z_p, out.fixed, out.p_e));
+  EXPECT_EQ(std::tie(in.modal.modes, in.modal.g, in.modal.q_dot),
+            std::tie(out.modal.modes, out.modal.g, out.modal.q_dot));
+  for (const auto matrix : {&wire::ModalResponse::S, &wire::ModalResponse::N}) {
+    const wire::SparseMatrix &i = in.modal.*matrix, &o = out.modal.*matrix;
+    EXPECT_EQ(std::tie(i.row, i.column, i.value), std::tie(o.row, o.column, o.value));
+  }
   EXPECT_EQ(std::tie(in.health.min_rho, in.health.min_p, in.health.min_det_F, in.health.min_cell_quality,
                      in.health.first_order_fallbacks, in.health.floors),
             std::tie(out.health.min_rho, out.health.min_p, out.health.min_det_F, out.health.min_cell_quality,
@@ -74,6 +84,7 @@ TEST(Convert, ProjectedStateKeepsEveryField) {
                                      .w_n = {5},
                                      .v = {6, 7},
                                      .a = {8},
+                                     .q_dot = {8.5},
                                      .z_f = {9},
                                      .robin_t = {10, 11},
                                      .robin_r = {12, 13},
@@ -86,9 +97,10 @@ TEST(Convert, ProjectedStateKeepsEveryField) {
                                      .stop = true,
                                      .stop_reason = "end"};
   const wire::ProjectedInterface in = carried(out);
-  EXPECT_EQ(std::tie(in.run, in.to, in.interface, in.step, in.t, in.n, in.v_n, in.w_n, in.v, in.a, in.z_f),
+  EXPECT_EQ(std::tie(in.run, in.to, in.interface, in.step, in.t, in.n, in.v_n, in.w_n, in.v, in.a, in.q_dot,
+                     in.z_f),
             std::tie(out.run, out.to, out.interface, out.step, out.t, out.n, out.v_n, out.w_n, out.v, out.a,
-                     out.z_f));
+                     out.q_dot, out.z_f));
   EXPECT_EQ(std::tie(in.robin_t, in.robin_r, in.dt_next, in.t_next, in.substeps_next, in.x_next,
                      in.write_output, in.write_checkpoint, in.stop, in.stop_reason),
             std::tie(out.robin_t, out.robin_r, out.dt_next, out.t_next, out.substeps_next, out.x_next,
@@ -233,6 +245,13 @@ TEST(Lengths, AbsurdModesAndRobinLevelsAreRefused) {
   EXPECT_THROW(check_lengths(predicted, size), PeerLost);
   predicted.modal.modes = -1;
   EXPECT_THROW(check_lengths(predicted, size), PeerLost);
+  predicted.modal = {
+      .modes = 1, .S = {.row = {0}, .column = {0}, .value = {1}}, .g = {0}, .N = {}, .q_dot = {0}};
+  EXPECT_NO_THROW(check_lengths(predicted, size));
+  predicted.modal.N = {.row = {0}, .column = {2}, .value = {1}};
+  EXPECT_THROW(check_lengths(predicted, size), PeerLost) << "the interface has two points";
+  predicted.modal.N = {.row = {0}, .column = {}, .value = {1}};
+  EXPECT_THROW(check_lengths(predicted, size), PeerLost) << "no column";
   wire::ProjectedInterface projected;
   projected.robin_t = {0, 1};
   projected.robin_r = {1, 2, 3};

@@ -1,9 +1,13 @@
 #pragma once
 /// Messages of small runs for the tests of the coupler.
 
+#include <cstddef>
+#include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "common/core/backward_difference.hpp"
 #include "common/wire/messages.hpp"
 
 namespace fsi::coupler::testing {
@@ -20,6 +24,34 @@ inline std::vector<double> everywhere(std::size_t n, double c1, double c2) {
   std::vector<double> values(2 * n, c1);
   for (std::size_t k = 0; k < n; ++k) values[n + k] = c2;
   return values;
+}
+
+/// A mass without any other load, by backward differences.
+struct BdfBody {
+  double mass = 1;
+  double now = 0, before = 0, dt = 0, dt_before = 0;
+
+  double S() const { return backward_difference(dt, dt_before).leading * mass; }
+  double g() const { return mass * backward_difference(dt, dt_before).history(now, before); }
+  /// Velocity at the end of a step, and the next one's size.
+  void take(double q_dot, double dt_next) {
+    before = now;
+    now = q_dot;
+    dt_before = dt;
+    dt = dt_next;
+  }
+};
+
+/// A solid of one mode of velocity N at the points, S q_dot = g + dt f.
+inline wire::ModalResponse one_mode(double S, double g, const std::vector<double>& N, double q_dot = 0) {
+  wire::ModalResponse modal{
+      .modes = 1, .S = {.row = {0}, .column = {0}, .value = {S}}, .g = {g}, .N = {}, .q_dot = {q_dot}};
+  for (std::size_t k = 0; k < N.size(); ++k) {
+    modal.N.row.push_back(0);
+    modal.N.column.push_back(static_cast<std::int32_t>(k));
+    modal.N.value.push_back(N[k]);
+  }
+  return modal;
 }
 
 inline wire::Hello fluid_hello(std::vector<wire::InterfaceInfo> interfaces) {

@@ -9,32 +9,13 @@
 
 #include "common/core/failure.hpp"
 #include "coupler/coupler.hpp"
+#include "exchanges.hpp"
 #include "messages.hpp"
 
 namespace fsi::coupler {
 namespace {
 
 using namespace testing;
-
-constexpr std::size_t n = 4;
-
-CouplerOptions until(double end) {
-  CouplerOptions options;
-  options.time = {.end = end, .output_times = {}, .growth = 1.2, .dt_max = 0};
-  return options;
-}
-
-/// Message of the failure of one exchange, or "none".
-template <class Failure>
-std::string failure(const wire::PredictedInterface& gas, const wire::PredictedInterface& solid) {
-  Coupler coupler(until(1), piston_hellos(n));
-  try {
-    coupler.step(std::vector{gas, solid});
-  } catch (const Failure& found) {
-    return found.what();
-  }
-  return "none";
-}
 
 TEST(Coupler, Eq12GasAndSolidAreToldTheSameNormalVelocityAndTraction) {
   Coupler coupler(until(1), piston_hellos(n));
@@ -66,7 +47,7 @@ TEST(Coupler, UniformMotionAtEquilibriumPressureStaysUniformToTheLastBit) {
   for (const Projection how : {Projection::full, Projection::simplified, Projection::traditional}) {
     for (const bool multirate : {false, true}) {
       CouplerOptions options = until(1);
-      options.projection = how;
+      options.combination.projection = how;
       options.multirate = multirate;
       Coupler coupler(options, piston_hellos(n));
       for (std::uint64_t k = 0; k < 5; ++k) {
@@ -252,7 +233,7 @@ TEST(Coupler, ABodyWithoutMassMovesWithTheGasThroughTheModalResponse) {
     auto piston = solid_state(n, k);
     piston.w.clear();
     piston.Z.clear();
-    piston.modal = {.modes = 1, .M = {0.0}, .N = std::vector<double>(n, 1.0), .q_dot = {0.0}, .f_own = {0.0}};
+    piston.modal = one_mode(0, 0, std::vector<double>(n, 1.0));
     const auto answers = coupler.step(std::vector{gas, piston});
     const double expected = k == 0 ? 0.0 : 0.3;
     for (std::size_t i = 0; i < n; ++i) EXPECT_NEAR(answers[1].v_n[i], expected, 1e-15);
@@ -293,7 +274,7 @@ TEST(Coupler, NumbersThatAreNotFiniteAreNamed) {
   auto solid = solid_state(n, 0);
   solid.w[n + 3] = std::numeric_limits<double>::infinity();
   message = failure<NumbersBroke>(gas_state(n, 0), solid);
-  EXPECT_NE(message.find("point 3: the traction is inf"), std::string::npos) << message;
+  EXPECT_NE(message.find("point 3 at (0, 1): the traction is inf"), std::string::npos) << message;
   solid = solid_state(n, 0);
   solid.Z[1] = -1;
   EXPECT_NE(failure<NumbersBroke>(gas_state(n, 0), solid).find("hyperbolic"), std::string::npos);
@@ -305,62 +286,6 @@ TEST(Coupler, MessagesThatDoNotFitAreNamed) {
   EXPECT_NE(failure<PeerLost>(gas_state(n, 0), solid).find("the traction"), std::string::npos);
   EXPECT_NE(failure<PeerLost>(gas_state(n, 7), solid_state(n, 0)).find("step 0 from \"fluid\""),
             std::string::npos);
-}
-
-/// A solid of k modes; 0: a deformable one.
-wire::PredictedInterface solid_of_modes(std::size_t modes, std::uint64_t step) {
-  auto solid = solid_state(n, step);
-  if (modes == 0) return solid;
-  solid.w.clear();
-  solid.Z.clear();
-  solid.modal = {.modes = static_cast<std::int32_t>(modes),
-                 .M = std::vector<double>(modes * modes),
-                 .N = std::vector<double>(modes * n),
-                 .q_dot = std::vector<double>(modes),
-                 .f_own = std::vector<double>(modes)};
-  for (std::size_t m = 0; m < modes; ++m) {
-    solid.modal.M[m * modes + m] = 1;
-    solid.modal.N[m * n + m] = 1;
-  }
-  return solid;
-}
-
-TEST(Coupler, ABodyWithModesIsRefusedByTheTraditionalScheme) {
-  for (const Projection how : {Projection::full, Projection::simplified, Projection::traditional}) {
-    CouplerOptions options = until(1);
-    options.projection = how;
-    Coupler coupler(options, piston_hellos(n));
-    const std::vector first{gas_state(n, 0), solid_of_modes(1, 0)};
-    if (how != Projection::traditional) {
-      EXPECT_NO_THROW(coupler.step(first));
-      continue;
-    }
-    try {
-      coupler.step(first);
-      FAIL() << "the modal form has the added mass in itself";
-    } catch (const UserMistake& mistake) {
-      const std::string words = mistake.what();
-      EXPECT_NE(words.find("interface.projection"), std::string::npos) << words;
-      EXPECT_NE(words.find("\"solid\""), std::string::npos) << words;
-    }
-  }
-}
-
-TEST(Coupler, ASolidThatChangesTheNumberOfItsModesIsNamed) {
-  for (const auto& [first, then] : {std::pair{1U, 2U}, {2U, 1U}, {1U, 0U}, {0U, 1U}}) {
-    Coupler coupler(until(1), piston_hellos(n));
-    coupler.step(std::vector{gas_state(n, 0), solid_of_modes(first, 0)});
-    coupler.step(std::vector{gas_state(n, 1), solid_of_modes(first, 1)});
-    try {
-      coupler.step(std::vector{gas_state(n, 2), solid_of_modes(then, 2)});
-      FAIL() << first << " modes, then " << then;
-    } catch (const PeerLost& lost) {
-      const std::string words = lost.what();
-      EXPECT_NE(words.find("\"solid\" sent modal.modes = " + std::to_string(then)), std::string::npos)
-          << words;
-      EXPECT_NE(words.find(std::to_string(first) + " before"), std::string::npos) << words;
-    }
-  }
 }
 
 }  // namespace

@@ -89,7 +89,7 @@ CouplerOptions options() {
   CouplerOptions result;
   result.time.end = 1;
   result.multirate = true;
-  result.projection = Projection::full;
+  result.combination.projection = Projection::full;
   return result;
 }
 
@@ -197,14 +197,17 @@ TEST_P(PointRatio, AModalBodyOnOtherPointsMovesAsOnThoseOfTheGas) {
     const auto normals = outward(both.solid);
     body.w.clear();
     body.Z.clear();
-    body.modal = {.modes = 1, .M = {0.2}, .N = std::vector<double>(n), .q_dot = {0.0}, .f_own = {0.0}};
-    for (std::size_t k = 0; k < n; ++k) body.modal.N[k] = direction.dot(Vec2(normals[k], normals[n + k]));
+    std::vector<double> N(n);
+    for (std::size_t k = 0; k < n; ++k) N[k] = direction.dot(Vec2(normals[k], normals[n + k]));
+    BdfBody motion{.mass = 0.2};
     Coupler coupler(options(), both.hellos());
     double speed = 0;
     for (std::uint64_t step = 0; step < 5; ++step) {
       wire::PredictedInterface gas = both.of_gas({0, 0}, 0.5);
       gas.step = body.step = step;
+      body.modal = one_mode(motion.S(), motion.g(), N, motion.now);
       const auto answers = coupler.step(std::vector{gas, body});
+      motion.take(answers[1].q_dot.front(), answers[1].dt_next);
       const wire::ProjectedInterface& answer = answers[0];
       const std::size_t m = answer.v_n.size();
       for (std::size_t k = 0; k < m; ++k) {  // where the normal is (1, 0) or nearly so

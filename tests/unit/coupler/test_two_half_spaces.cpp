@@ -178,7 +178,7 @@ class ModelProblem {
 CouplerOptions with(Projection projection, bool multirate, int robin_order = 2) {
   CouplerOptions options;
   options.time.growth = 1.2;
-  options.projection = projection;
+  options.combination.projection = projection;
   options.multirate = multirate;
   options.robin_order = robin_order;
   return options;

@@ -1,0 +1,97 @@
+#include "common/interface/modal.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+namespace fsi {
+
+namespace {
+
+/// Up to so many unknowns a dense factorisation with pivoting costs less than a sparse one.
+constexpr Eigen::Index few = 16;
+
+using Factors = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>;
+
+/// A pivot that is less than this part of the diagonal it comes from is round-off.
+constexpr double round_off = 1e-14;
+
+bool is_singular(const Eigen::SparseMatrix<double>& S, const Factors& factors) {
+  const Eigen::VectorXd diagonal = factors.permutationP() * Eigen::VectorXd(S.diagonal());
+  return (factors.vectorD().array().abs() <= round_off * diagonal.array().abs()).any();
+}
+
+}  // namespace
+
+ModalLoad modal_load(const Eigen::SparseMatrix<double>& N, std::span<const NormalSide> gas,
+                     std::span<const double> ds) {
+  const auto points = static_cast<Eigen::Index>(gas.size());
+  Eigen::VectorXd resistance(points), push(points);
+  for (Eigen::Index i = 0; i < points; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    resistance[i] = gas[k].z * ds[k];
+    push[i] = (gas[k].w_n + gas[k].z * gas[k].v_n) * ds[k];
+  }
+  const Eigen::SparseMatrix<double> resisted = N * resistance.asDiagonal();
+  return {.A = resisted * N.transpose(), .f = N * push};
+}
+
+Eigen::VectorXd solve_modes(const Eigen::SparseMatrix<double>& S, const Eigen::VectorXd& right) {
+  if (S.rows() <= few) {
+    const Eigen::MatrixXd dense = Eigen::MatrixXd(S).selfadjointView<Eigen::Lower>();
+    return dense.ldlt().solve(right);
+  }
+  const Factors factors(S);
+  if (factors.info() != Eigen::Success || is_singular(S, factors)) return {};
+  return factors.solve(right);
+}
+
+Eigen::VectorXd project_modes(const Eigen::SparseMatrix<double>& S, const Eigen::VectorXd& g,
+                              const ModalLoad& load, double dt) {
+  return solve_modes(S + dt * load.A, g + dt * load.f);
+}
+
+Eigen::VectorXd balance(const Eigen::SparseMatrix<double>& N, std::span<const GasSide> gas,
+                        std::span<const double> ds,
+                        const std::function<Eigen::VectorXd(const ModalLoad&)>& answer) {
+  std::vector<NormalSide> tangents(gas.size());
+  double scale = 0;
+  bool straight = true;
+  for (std::size_t i = 0; i < gas.size(); ++i) {
+    tangents[i] = gas[i].state;
+    straight = straight && gas[i].curve.gamma == 0;
+    scale = std::max(scale, std::fabs(gas[i].state.v_n) + gas[i].curve.sound());
+  }
+  Eigen::VectorXd q_dot = answer(modal_load(N, tangents, ds));
+  if (straight || q_dot.size() == 0) return q_dot;
+
+  const auto change_at = [&](const Eigen::VectorXd& at) -> Eigen::VectorXd {
+    const Eigen::VectorXd v_n = N.transpose() * at;
+    for (std::size_t i = 0; i < gas.size(); ++i)
+      tangents[i] = gas[i].tangent(v_n(static_cast<Eigen::Index>(i)));
+    return answer(modal_load(N, tangents, ds)) - at;
+  };
+  const auto size_of = [&](const Eigen::VectorXd& change) {
+    return (N.transpose() * change).cwiseAbs().maxCoeff();
+  };
+  constexpr double round_off = 1e-14, least_part = 1e-3;
+  constexpr int most = 50;
+  Eigen::VectorXd change = change_at(q_dot);
+  for (int k = 0; k < most && size_of(change) > round_off * scale; ++k) {
+    double part = 1;
+    Eigen::VectorXd next = q_dot + change, after = change_at(next);
+    while (size_of(after) > size_of(change) && part > least_part) {
+      part *= 0.5;
+      next = q_dot + part * change;
+      after = change_at(next);
+    }
+    q_dot = next;
+    change = after;
+  }
+  return q_dot;
+}
+
+}  // namespace fsi
