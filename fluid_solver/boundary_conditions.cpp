@@ -124,7 +124,7 @@ class BoundaryConditions {
     return wall;
   }
 
-  /// n.v := v_n^I, p := p_e - w_n^I, and the density at constant entropy.
+  /// n.v := v_n^I, p := p_e - w_n^I, and the density that goes with the change of pressure.
   void set_interface(const SidePoints& side) {
     const InterfaceValues& values = values_of(side.side());
     const auto n = static_cast<std::size_t>(side.n());
@@ -134,16 +134,26 @@ class BoundaryConditions {
       const double p_I = task_.options.p_e - values.w_n[k];
       if (!(p_I > 0 && std::isfinite(p_I) && std::isfinite(values.v_n[k]))) {
         throw NumbersBroke(fmt::format(
-            "t = {:.6g}, grid \"{}\", interface point {} at ({:.6g}, {:.6g}): p^I = {:.3g}, v_n^I = {:.3g}",
-            task_.t, component_.grid().name(), k, x_(0, at.i, at.j), x_(1, at.i, at.j), p_I, values.v_n[k]));
+            "t = {:.6g}, grid \"{}\", interface point {} at ({:.6g}, {:.6g}): p^I = {:.3g}, v_n^I = {:.3g}{}",
+            task_.t, component_.grid().name(), k, x_(0, at.i, at.j), x_(1, at.i, at.j), p_I, values.v_n[k],
+            task_.options.wave_curve ? "" : "; write interface.riemann: exact, for jumps of this size"));
       }
       StateVector state = load(q_, at);
       const Vec2 v = state.segment<2>(1);
       state.segment<2>(1) = v + (values.v_n[k] - normal.dot(v)) * normal;
-      state[0] *= std::pow(p_I / state[3], 1 / task_.options.gamma);
+      state[0] *= density_ratio(p_I / state[3]);
       state[3] = p_I;
       store(q_, at, state);
     }
+  }
+
+  /// Of the gas through the wave that changes its pressure so many times: behind a shock by Rankine and
+  /// Hugoniot, else at constant entropy.
+  double density_ratio(double pressure_ratio) const {
+    const double gamma = task_.options.gamma, k = (gamma - 1) / (gamma + 1);
+    if (pressure_ratio > 1 && task_.options.wave_curve)
+      return (pressure_ratio + k) / (k * pressure_ratio + 1);
+    return std::pow(pressure_ratio, 1 / gamma);
   }
 
   /// n.v := that of the wall; pressure and density follow along the simple wave that makes this change of

@@ -9,6 +9,7 @@
 #include "common/core/failure.hpp"
 #include "fluid_solver/ghost_lines.hpp"
 #include "fluid_solver/kernels/rates.hpp"
+#include "fluid_solver/positivity.hpp"
 #include "fluid_solver/shocks.hpp"
 
 namespace fsi::fluid {
@@ -53,6 +54,13 @@ AnyLimiter limiter_of(Limiter limiter) {
     default:
       return LimiterMinmod{};
   }
+}
+
+/// What to change in the case where density or pressure is lost.
+std::string remedy_of(const Scheme& scheme) {
+  if (std::holds_alternative<LimiterNone>(scheme.limiter)) return "fluid.scheme.limiter: minmod, for jumps";
+  if (scheme.viscosity.shock == 0) return "fluid.scheme.shock_viscosity: 0.5";
+  return "a smaller time.cfl";
 }
 
 }  // namespace
@@ -133,15 +141,18 @@ double Component::fill_row(int j, const StateField& initial, double t) {
 
 void Component::start(double t) {
   const Layout& shape = grid_.layout();
-  for (int j = 1; j < shape.n2 - 1; ++j) {
-    double& most = row_rates_[static_cast<std::size_t>(j)];
-    most = 0;
-    for (const Range& run : runs_.advanced(j)) {
-      const Range inner{std::max(run.first, 1), std::min(run.last, shape.n1 - 1)};
-      if (inner.first < inner.last) most = std::max(most, largest(step_rates(j, inner), inner));
-    }
-  }
+  for (int j = 1; j < shape.n2 - 1; ++j) measure_row(j);
   if (grid_.moves()) measure_initial_motion(t, 0.1 / fastest_point().rate);
+}
+
+/// Largest wave rate of a row's inner points.
+void Component::measure_row(int j) {
+  double& most = row_rates_[static_cast<std::size_t>(j)];
+  most = 0;
+  for (const Range& run : runs_.advanced(j)) {
+    const Range inner{std::max(run.first, 1), std::min(run.last, grid_.layout().n1 - 1)};
+    if (inner.first < inner.last) most = std::max(most, largest(step_rates(j, inner), inner));
+  }
 }
 
 /// A grid that follows commands tells nothing about its future and starts as if at rest.
@@ -201,15 +212,18 @@ void Component::advance(double t, double dt) {
     forcing_->add(source_.view(), 0.5 * dt, state_.view());
   }
   for (std::vector<double>& edge : edges_) std::ranges::fill(edge, 0.0);
-  const SweepCounts counts =
-      sweep({.q = state_.view(), .q_new = next_.view(), .grid = step_grid(), .runs = runs_, .dt = dt},
-            scheme_, {workspace_, row_rates_, fallbacks_, {edges_[0], edges_[1], edges_[2], edges_[3]}});
+  const SweepTask task{
+      .q = state_.view(), .q_new = next_.view(), .grid = step_grid(), .runs = runs_, .dt = dt};
+  const SweepOutput output{workspace_, row_rates_, fallbacks_, {edges_[0], edges_[1], edges_[2], edges_[3]}};
+  const bool thin = sweep(task, scheme_, output) > 0;
   count_fallbacks();
+  std::vector<int> changed_rows;
+  if (thin) changed_rows = keep_positive(task, output);
   std::swap(state_, next_);
   advanced_ = true;
-  counters_.floors += counts.floors;
   counters_.steps += 1;
-  if (counts.broken > 0) report_broken(t);
+  if (thin) check_numbers(t);
+  for (const int j : changed_rows) measure_row(j);
   if (forcing_) add_source(t, dt);
 }
 
@@ -218,19 +232,34 @@ void Component::note_edges() {
     edges_[static_cast<std::size_t>(side)].assign(4 * static_cast<std::size_t>(grid_.side_size(side)), 0.0);
 }
 
-void Component::report_broken(double t) const {
+std::vector<int> Component::keep_positive(const SweepTask& task, const SweepOutput& output) {
+  std::array<Beyond, 4> beyond{};
+  for (const Side side : all_sides) {
+    const bool mirror = std::holds_alternative<Symmetry>(boundary(side)),
+               period = std::holds_alternative<Periodic>(boundary(side));
+    beyond[static_cast<std::size_t>(side)] = mirror   ? Beyond::mirror
+                                             : period ? Beyond::period
+                                                      : Beyond::other;
+  }
+  Positivity done = fluid::keep_positive(task, scheme_, output, beyond);
+  counters_.positive_fluxes += static_cast<double>(done.thin.size());
+  counters_.floors += static_cast<double>(done.floors);
+  return std::move(done.rows);
+}
+
+void Component::check_numbers(double t) const {
   const Layout& shape = grid_.layout();
   const ConstFieldView q = state_.view(), x = grid_.x();
   for (int j = 0; j < shape.n2; ++j) {
     for (int i = 0; i < shape.n1; ++i) {
       const double rho = q(0, i, j), p = q(3, i, j);
       if ((rho > 0 && std::fabs(p) < 1e300) || !discretised_.contains(i, j)) continue;
-      throw NumbersBroke(
-          fmt::format("t = {:.6g}, grid \"{}\", point ({}, {}) at ({:.6g}, {:.6g}): rho = {:.3g}, p = {:.3g}",
-                      t, grid_.name(), i, j, x(0, i, j), x(1, i, j), rho, p));
+      throw NumbersBroke(fmt::format(
+          "t = {:.6g}, grid \"{}\", point ({}, {}) at ({:.6g}, {:.6g}): rho = {:.3g}, p = {:.3g}; "
+          "try {}",
+          t, grid_.name(), i, j, x(0, i, j), x(1, i, j), rho, p, remedy_of(scheme_)));
     }
   }
-  throw NumbersBroke(fmt::format("t = {:.6g}, grid \"{}\": the state is no longer finite", t, grid_.name()));
 }
 
 double* Component::step_rates(int j, Range range) const {
@@ -279,6 +308,8 @@ void Component::archive(Archive& archive) {
   archive.number("p_floor", scheme_.p_floor);
   archive.number("first_order", counters_.first_order);
   archive.number("first_order_outside_shocks", counters_.first_order_outside_shocks);
+  archive.number("positive_fluxes", counters_.positive_fluxes);
+  archive.number("positive_values", counters_.positive_values);
   archive.number("floors", counters_.floors);
   archive.number("steps", counters_.steps);
   for (const Side side : all_sides) {

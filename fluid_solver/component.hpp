@@ -42,6 +42,8 @@ struct FastestPoint {
 struct Counters {
   double first_order = 0;                 ///< points advanced with first-order states
   double first_order_outside_shocks = 0;  ///< of these, those without a shock near them
+  double positive_fluxes = 0;             ///< points advanced with positive first-order fluxes
+  double positive_values = 0;             ///< interpolated points that got their smallest donor's value
   double floors = 0;                      ///< points whose pressure was lifted to the floor
   double steps = 0;
 };
@@ -67,6 +69,8 @@ class Component {
   const Boundary& boundary(Side side) const { return boundaries_[static_cast<std::size_t>(side)]; }
   const WallMotion& wall(Side side) const { return walls_[static_cast<std::size_t>(side)]; }
   const Counters& counters() const { return counters_; }
+  /// Of points that are not advanced by the sweep but interpolated.
+  void count_positive_values(std::size_t points) { counters_.positive_values += static_cast<double>(points); }
   /// From now on each step notes what it carries through the faces half a cell inside the sides.
   void note_edges();
   /// Of the last step through the faces inside a side; see EdgeFluxes. Empty where they are not noted.
@@ -125,7 +129,11 @@ class Component {
   double* step_rates(int j, Range range) const;
   void add_source(double t, double dt);
   void count_fallbacks();
-  [[noreturn]] void report_broken(double t) const;
+  /// @returns the rows that were changed
+  std::vector<int> keep_positive(const SweepTask& task, const SweepOutput& output);
+  void measure_row(int j);
+  /// @throws NumbersBroke at a point without positive density or finite pressure
+  void check_numbers(double t) const;
 };
 
 }  // namespace fsi::fluid

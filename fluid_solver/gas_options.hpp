@@ -28,7 +28,8 @@ struct GasOptions {
   double entropy_fix = 0.1;           ///< width of the sonic-point fix, as part of the sound speed [-]
   double shock_viscosity = 0;         ///< coefficient of max(0, -div v) on undivided differences [-]
   double linear_diffusion = 0;        ///< of undivided second differences of the conserved variables [1/time]
-  double cfl = 0.9;                   ///< safety factor C_CFL of the time step [-]
+  bool wave_curve = true;  ///< density at an interface along the wave curve; false: at constant entropy
+  double cfl = 0.9;        ///< safety factor C_CFL of the time step [-]
 };
 
 /// Meets a solid: normal velocity and pressure are the projected ones.

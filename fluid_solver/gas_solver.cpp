@@ -8,6 +8,7 @@
 
 #include "common/core/failure.hpp"
 #include "fluid_solver/boundary_conditions.hpp"
+#include "fluid_solver/positivity.hpp"
 #include "fluid_solver/side_points.hpp"
 
 namespace fsi::fluid {
@@ -147,6 +148,7 @@ void GasSolver::update_overlapping_grid(double t_new) {
   composite_->update(positions_, t_new);
   use_points();
   composite_->fill_exposed(gather_fields());
+  keep_interpolated_positive(composite_->exposed());
 }
 
 void GasSolver::advance_fluid(double t, double dt) {
@@ -154,12 +156,19 @@ void GasSolver::advance_fluid(double t, double dt) {
   t_ = t;
 }
 
+void GasSolver::keep_interpolated_positive(std::span<const grid::InterpolationList> lists) {
+  for (const grid::InterpolationList& list : lists) {
+    const std::size_t points = keep_positive(list, fields_);
+    components_[static_cast<std::size_t>(list.target_grid)].count_positive_values(points);
+  }
+}
+
 GasInterface GasSolver::interface_state(Side side, int grid) const {
   const ConstFieldView q = state(grid), x = this->grid(grid).x();
   const SidePoints points(q.layout, side);
   const auto n = static_cast<std::size_t>(points.n());
   GasInterface gas{std::vector<double>(2 * n), std::vector<double>(2 * n), std::vector<double>(n),
-                   std::vector<double>(n)};
+                   std::vector<double>(n), std::vector<double>(n)};
   for (std::size_t k = 0; k < n; ++k) {
     const auto [i, j] = points.at(static_cast<int>(k), 0);
     gas.x[k] = x(0, i, j);
@@ -167,6 +176,7 @@ GasInterface GasSolver::interface_state(Side side, int grid) const {
     gas.v[k] = q(1, i, j);
     gas.v[n + k] = q(2, i, j);
     gas.p[k] = q(3, i, j);
+    gas.rho[k] = q(0, i, j);
     gas.z_f[k] = std::sqrt(options_.gamma * q(3, i, j) * q(0, i, j));
   }
   return gas;
@@ -183,7 +193,10 @@ void GasSolver::apply_fluid_bcs(double t, std::span<const InterfaceValues> inter
     }
   };
   each([](Component& component, const BoundaryTask& task) { set_boundary_points(component, task); });
-  if (composite_) composite_->interpolate(gather_fields());
+  if (composite_) {
+    composite_->interpolate(gather_fields());
+    keep_interpolated_positive(composite_->interpolation());
+  }
   each([](Component& component, const BoundaryTask& task) { set_ghosts(component, task); });
   for (Component& component : components_) component.complete();
 }

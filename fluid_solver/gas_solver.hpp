@@ -34,6 +34,7 @@ struct GasInterface {
   std::vector<double> v;    ///< velocity, 2 n
   std::vector<double> p;    ///< pressure, n
   std::vector<double> z_f;  ///< impedance rho a, n
+  std::vector<double> rho;  ///< density, n
 };
 
 /// Totals over the body of gas: sums over the control volumes, those of boundary points cut at the boundary.
@@ -47,7 +48,9 @@ struct Health {
   double min_cell_quality = 1;                   ///< of the grids that move, grid::cell_quality
   std::uint64_t first_order_fallbacks = 0;       ///< points advanced with first-order states, since the start
   std::uint64_t first_order_outside_shocks = 0;  ///< of these, those without a shock near them
-  std::uint64_t floors = 0;  ///< points whose pressure was lifted to the floor, since the start
+  std::uint64_t positive_fluxes = 0;  ///< points advanced with positive first-order fluxes, since the start
+  std::uint64_t positive_values = 0;  ///< interpolated points that got their smallest donor's value
+  std::uint64_t floors = 0;           ///< points whose pressure was lifted to the floor, since the start
 };
 
 /// Largest errors over all grid points; T = p / rho.
@@ -148,6 +151,7 @@ class GasSolver {
   std::span<const FieldView> gather_fields();
   void use_points();
   void update_overlapping_grid(double t_new);
+  void keep_interpolated_positive(std::span<const grid::InterpolationList> lists);
 };
 
 }  // namespace fsi::fluid

@@ -156,7 +156,7 @@ bool GasSolver::lets_pass(Side side) const {
 Health GasSolver::health() const {
   constexpr double none = std::numeric_limits<double>::infinity();
   Health health{.min_rho = none, .min_p = none};
-  double first_order = 0, outside_shocks = 0, floors = 0;
+  double first_order = 0, outside_shocks = 0, positive_fluxes = 0, positive_values = 0, floors = 0;
   for (const Component& component : components_) {
     const ConstFieldView q = component.state();
     for (int j = 0; j < q.layout.n2; ++j) {
@@ -170,10 +170,14 @@ Health GasSolver::health() const {
       health.min_cell_quality = std::min(health.min_cell_quality, grid::cell_quality(component.grid().x()));
     first_order += component.counters().first_order;
     outside_shocks += component.counters().first_order_outside_shocks;
+    positive_fluxes += component.counters().positive_fluxes;
+    positive_values += component.counters().positive_values;
     floors += component.counters().floors;
   }
   health.first_order_fallbacks = static_cast<std::uint64_t>(first_order);
   health.first_order_outside_shocks = static_cast<std::uint64_t>(outside_shocks);
+  health.positive_fluxes = static_cast<std::uint64_t>(positive_fluxes);
+  health.positive_values = static_cast<std::uint64_t>(positive_values);
   health.floors = static_cast<std::uint64_t>(floors);
   return health;
 }

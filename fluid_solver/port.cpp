@@ -52,10 +52,11 @@ Boundary boundary_of(const BoundarySpec& spec, Side side,
       return SlipWall{};
     case BoundaryKind::symmetry:
       return Symmetry{};
-    case BoundaryKind::inflow:
+    case BoundaryKind::imposed:
       return Inflow{data()};
     case BoundaryKind::outflow:
       return Outflow{};
+    case BoundaryKind::inflow:
     case BoundaryKind::far_field:
       return FarField{data()};
     case BoundaryKind::dirichlet:
@@ -85,6 +86,7 @@ GasOptions options_of(const Case& problem) {
           .entropy_fix = scheme.entropy_fix,
           .shock_viscosity = scheme.shock_viscosity,
           .linear_diffusion = scheme.linear_diffusion,
+          .wave_curve = problem.interface.riemann == "exact",
           .cfl = problem.time.cfl};
 }
 
@@ -209,6 +211,8 @@ void FluidParticipant::fill(std::size_t k, wire::PredictedInterface& predicted) 
   predicted.v = std::move(state.v);
   predicted.p = std::move(state.p);
   predicted.z_f = std::move(state.z_f);
+  predicted.gamma.assign(state.rho.size(), spec_.gamma);
+  predicted.rho = std::move(state.rho);
   predicted.p_e = spec_.p_e;
 }
 
@@ -359,6 +363,8 @@ void FluidParticipant::report(double t, io::Part& part) const {
   part.counters["first_order_fallbacks"] = static_cast<double>(health.first_order_fallbacks);
   part.counters["first_order_fallbacks_outside_shocks"] =
       static_cast<double>(health.first_order_outside_shocks);
+  part.counters["positive_fluxes"] = static_cast<double>(health.positive_fluxes);
+  part.counters["positive_values"] = static_cast<double>(health.positive_values);
   part.counters["floors"] = static_cast<double>(health.floors);
   part.health["min_rho"] = health.min_rho;
   part.health["min_p"] = health.min_p;

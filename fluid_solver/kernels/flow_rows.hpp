@@ -146,10 +146,9 @@ struct VolumeRow {
   const double *old, *now;
 };
 
-struct UpdateCounts {
-  double floors = 0;  ///< points whose pressure was lifted to the floor
-  double broken = 0;  ///< points whose density is not positive or whose state is not finite
-};
+/// A step with positive fluxes leaves a point at least the part of its density and pressure that lies beyond
+/// the reach of its waves; one that leaves less than this is looked at again.
+inline constexpr double thin_part = 1e-2;
 
 /// What the gas law and the floor contribute to an update.
 struct UpdateLaw {
@@ -157,13 +156,15 @@ struct UpdateLaw {
 };
 
 /// V^{n+1} q^{n+1} = V^n q^n - dt * (sum of fluxes), the conservative form of (31). paper eq. (31)
+/// @returns the number of points that are left less than `thin_part` of their density or pressure, less than
+/// the floor, or no number
 template <bool mapped>
-[[gnu::noinline]] UpdateCounts update_row(StateRow<const double> old, const FluxRows& flux, VolumeRow volume,
-                                          UpdateLaw law, StateRow<double> out, Range range) {
+[[gnu::noinline]] double update_row(StateRow<const double> old, const FluxRows& flux, VolumeRow volume,
+                                    UpdateLaw law, StateRow<double> out, Range range) {
   const auto [along, lower, upper] = flux;
   const double gamma_1 = law.gamma - 1.0, internal = 1.0 / gamma_1;
-  double floors = 0, broken = 0;
-#pragma omp simd reduction(+ : floors, broken)
+  double thin = 0;
+#pragma omp simd reduction(+ : thin)
   for (int i = range.first; i < range.last; ++i) {
     double q0 = old.rho[i], q1 = q0 * old.v1[i], q2 = q0 * old.v2[i];
     double q3 = internal * old.p[i] + 0.5 * (q1 * old.v1[i] + q2 * old.v2[i]);
@@ -184,15 +185,15 @@ template <bool mapped>
     }
     const double specific = 1.0 / q0, v1 = specific * q1, v2 = specific * q2;
     const double p = gamma_1 * (q3 - 0.5 * (q1 * v1 + q2 * v2));
-    const bool finite = std::fabs(p) < 1e300, thin = p < law.p_floor;
-    broken += ((q0 > 0.0) & finite) ? 0.0 : 1.0;
-    floors += thin ? 1.0 : 0.0;
+    const double p_least = larger(thin_part * old.p[i], law.p_floor);
+    const bool sound = (q0 > thin_part * old.rho[i]) & (p > p_least) & (p < 1e300);
+    thin += sound ? 0.0 : 1.0;
     out.rho[i] = q0;
     out.v1[i] = v1;
     out.v2[i] = v2;
-    out.p[i] = thin ? law.p_floor : p;
+    out.p[i] = p;
   }
-  return {.floors = floors, .broken = broken};
+  return thin;
 }
 
 }  // namespace fsi::fluid

@@ -13,14 +13,14 @@ constexpr double diffusion_symbol = 8;  ///< of undivided second differences in 
 /// Undivided central differences of the velocity at point i in both directions.
 struct VelocityDifferences {
   double v1_r1, v2_r1, v1_r2, v2_r2;
-  VelocityDifferences(const StateRows& rows, int i)
+  [[gnu::always_inline]] VelocityDifferences(const StateRows& rows, int i)
       : v1_r1(0.5 * (rows.here.v1[i + 1] - rows.here.v1[i - 1])),
         v2_r1(0.5 * (rows.here.v2[i + 1] - rows.here.v2[i - 1])),
         v1_r2(0.5 * (rows.above.v1[i] - rows.below.v1[i])),
         v2_r2(0.5 * (rows.above.v2[i] - rows.below.v2[i])) {}
 };
 
-double damping(const Viscosity& viscosity, double divergence) {
+[[gnu::always_inline]] inline double damping(const Viscosity& viscosity, double divergence) {
   return diffusion_symbol * (viscosity.shock * larger(0.0, -divergence) + viscosity.linear);
 }
 

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "fluid_solver/kernels/rates.hpp"
+#include "fluid_solver/kernels/riemann_split.hpp"
 
 namespace fsi::fluid {
 
@@ -51,7 +52,7 @@ class Sweep {
         viscous_(scheme.viscosity.any()),
         columns_(columns) {}
 
-  SweepCounts run() {
+  double run() {
     const int n2 = task_.q.layout.n2;
     for (int r = -1; r <= n2; ++r) {
       each(task_.runs.predicted(r), 1, [&](Range run) { predict(r, run); });
@@ -65,7 +66,7 @@ class Sweep {
       std::swap(conserved_, conserved_before_);
       std::swap(lower_, upper_);
     }
-    return counts_;
+    return thin_;
   }
 
  private:
@@ -88,7 +89,7 @@ class Sweep {
   double *kappa_ = rows_.next(), *kappa_before_ = rows_.next();
   ConservedRow conserved_ = rows_.flux(), conserved_before_ = rows_.flux();
   double* rate_ = rows_.next();
-  SweepCounts counts_;
+  double thin_ = 0;
 
   /// The parts of runs that lie in the columns or `reach` beyond.
   template <class Action>
@@ -140,6 +141,7 @@ class Sweep {
                upper_.exchanged(), run);
     }
     if (viscous_) add_viscous_flux_row({conserved_before_, conserved_, kappa_before_, kappa_}, upper_, run);
+    if (!task_.guarded.empty()) guard_between(r, run);
     if (r == 1) note_between(edges_[2], run);
     if (r == task_.q.layout.n2 - 1) note_between(edges_[3], run);
   }
@@ -187,7 +189,39 @@ class Sweep {
     }
     if (viscous_)
       add_viscous_flux_row({conserved_, conserved_.shifted(1), kappa_, kappa_ + 1}, along_, faces);
+    if (!task_.guarded.empty()) guard_along(r, faces);
     note_along(r, faces);
+  }
+
+  bool guarded(int i, int j) const { return std::ranges::binary_search(task_.guarded, PointIndex{i, j}); }
+
+  /// First-order fluxes on the faces of guarded points.
+  void guard_between(int r, Range run) {
+    const StateRow<const double> before(task_.q, r - 1), after(task_.q, r);
+    const RiemannSplit split{scheme_.gamma};
+    for (int i = run.first; i < run.last; ++i) {
+      if (!guarded(i, r - 1) && !guarded(i, r)) continue;
+      const Range face{i, i + 1};
+      if constexpr (mapped) {
+        flux_row(before, after, split, face_, upper_, face);
+      } else {
+        flux_row(before.exchanged(), after.exchanged(), split, metric().dt_dy, upper_.exchanged(), face);
+      }
+    }
+  }
+
+  void guard_along(int r, Range faces) {
+    const StateRow<const double> before(task_.q, r);
+    const RiemannSplit split{scheme_.gamma};
+    for (int i = faces.first; i < faces.last; ++i) {
+      if (!guarded(i, r) && !guarded(i + 1, r)) continue;
+      const Range face{i, i + 1};
+      if constexpr (mapped) {
+        flux_row(before, before.shifted(1), split, face_, along_, face);
+      } else {
+        flux_row(before, before.shifted(1), split, metric().dt_dx, along_, face);
+      }
+    }
   }
 
   void list_fallbacks(int r, Range run) {
@@ -198,12 +232,10 @@ class Sweep {
 
   void update(int r, Range run) {
     if constexpr (mapped) volume_row(below_, above_, volume_old_, volume_, run);
-    const UpdateCounts counts = update_row<mapped>(
-        StateRow<const double>(task_.q, r), {along_, lower_, upper_}, {volume_old_, volume_},
-        {scheme_.gamma, scheme_.p_floor}, StateRow<double>(task_.q_new, r), run);
-    counts_.floors += counts.floors;
-    counts_.broken += counts.broken;
-    if (viscous_ || r == 0 || r == task_.q.layout.n2 - 1) return;
+    thin_ += update_row<mapped>(StateRow<const double>(task_.q, r), {along_, lower_, upper_},
+                                {volume_old_, volume_}, {scheme_.gamma, scheme_.p_floor},
+                                StateRow<double>(task_.q_new, r), run);
+    if (viscous_ || row_rates_.empty() || r == 0 || r == task_.q.layout.n2 - 1) return;
     const Range inner{std::max(run.first, 1), std::min(run.last, task_.q.layout.n1 - 1)};
     if (inner.first >= inner.last) return;
     step_rate_row(task_.q_new, task_.grid, task_.dt, scheme_, r, rate_, inner);
@@ -214,20 +246,20 @@ class Sweep {
 
 }  // namespace
 
-SweepCounts sweep(const SweepTask& task, const Scheme& scheme, const SweepOutput& output) {
+double sweep(const SweepTask& task, const Scheme& scheme, const SweepOutput& output) {
   std::ranges::fill(output.row_rates, 0.0);
   return std::visit(
       [&]<class Riemann, class Limiter>(const Riemann& solve, const Limiter&) {
-        SweepCounts counts;
+        double thin = 0;
         const int n1 = task.q.layout.n1, blocks = std::max(1, (n1 + block / 2) / block),
                   width = (n1 / blocks + 8) / 8 * 8;
         for (int first = 0; first < n1; first += width) {
           const Range columns{first, std::min(first + width, n1)};
-          counts += task.grid.cartesian
-                        ? Sweep<Limiter, Riemann, false>(task, scheme, solve, output, columns).run()
-                        : Sweep<Limiter, Riemann, true>(task, scheme, solve, output, columns).run();
+          thin += task.grid.cartesian
+                      ? Sweep<Limiter, Riemann, false>(task, scheme, solve, output, columns).run()
+                      : Sweep<Limiter, Riemann, true>(task, scheme, solve, output, columns).run();
         }
-        return counts;
+        return thin;
       },
       scheme.riemann, scheme.limiter);
 }

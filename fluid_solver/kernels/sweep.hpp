@@ -7,6 +7,7 @@
 /// One Riemann problem per face and step.
 
 #include <array>
+#include <compare>
 #include <optional>
 #include <span>
 #include <vector>
@@ -40,23 +41,16 @@ struct Scheme {
   Viscosity viscosity;
 };
 
-struct SweepCounts {
-  double floors = 0;  ///< points whose pressure was lifted to the floor
-  double broken = 0;  ///< points whose density is not positive or whose state is not finite
-
-  SweepCounts& operator+=(const SweepCounts& other) {
-    floors += other.floors;
-    broken += other.broken;
-    return *this;
-  }
-};
-
 /// Rows of scratch memory a sweep needs.
 inline constexpr int sweep_rows = 68;
 
-/// A point of the grid.
+/// A point of the grid; row by row.
 struct PointIndex {
   int i, j;
+  friend bool operator==(const PointIndex&, const PointIndex&) = default;
+  friend std::strong_ordering operator<=>(const PointIndex& a, const PointIndex& b) {
+    return a.j != b.j ? a.j <=> b.j : a.i <=> b.i;
+  }
 };
 
 /// What a step carried through the faces half a cell inside the sides left, right, bottom, top, towards
@@ -68,7 +62,7 @@ using EdgeFluxes = std::array<std::span<double>, 4>;
 struct SweepOutput {
   Workspace& work;              ///< scratch, sweep_rows rows
   std::span<double> row_rates;  ///< n2: largest wave rate of the inner points of each row, for the next time
-                                ///< step; without viscosity only
+                                ///< step; without viscosity only; empty: not wanted
   std::vector<PointIndex>& fallbacks;  ///< points advanced with first-order states are added
   EdgeFluxes edges = {};               ///< written where a point beside the face is advanced
 };
@@ -81,8 +75,10 @@ struct SweepTask {
   const StepGrid& grid;
   const SweepRuns& runs;
   double dt;
+  std::span<const PointIndex> guarded = {};  ///< sorted: points with first-order positive fluxes on all faces
 };
 
-SweepCounts sweep(const SweepTask& task, const Scheme& scheme, const SweepOutput& output);
+/// @returns the number of thin points, see update_row
+double sweep(const SweepTask& task, const Scheme& scheme, const SweepOutput& output);
 
 }  // namespace fsi::fluid

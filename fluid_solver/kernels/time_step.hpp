@@ -13,8 +13,8 @@ struct Eigenvalue {
 };
 
 /// 1 / dt of the largest dt for which Lambda dt lies in the ellipse with semi-axes l_r = 2 and l_i = 1.
-/// paper eq. (45)
-inline double stable_rate(const Eigenvalue& lambda) {
+/// paper eq. (45). By value: a reference to a temporary has an address in every iteration of a loop.
+[[gnu::always_inline]] inline double stable_rate(Eigenvalue lambda) {
   constexpr double l_r = 2, l_i = 1;
   const double real = lambda.damping / l_r, imaginary = lambda.waves / l_i;
   return std::sqrt(real * real + imaginary * imaginary);

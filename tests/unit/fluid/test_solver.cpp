@@ -38,7 +38,7 @@ TEST(GasSolverMistakes, AreNamedBeforeAnythingStarts) {
 TEST(GasSolverFailure, SaysWhenWhereAndWhatBroke) {
   GasSolver gas = box();
   gas.assign_initial_conditions([](double x, double, double) {
-    return State{1, 0, 0, x < 0.5 ? 100.0 : 0.1};
+    return x < 0.5 ? State{1, 0, 0, 100} : State{0.1, 0, 0, 0.1};
   });
   gas.apply_fluid_bcs(0);
   try {

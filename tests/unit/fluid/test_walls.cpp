@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "common/core/failure.hpp"
+#include "common/exact/riemann.hpp"
 #include "tests/unit/fluid/gas_runs.hpp"
 
 namespace fsi::fluid {
@@ -34,7 +35,7 @@ TEST(Eq31Interface, PutsTheProjectedValuesOnTheBoundaryAndKeepsEntropyAndShear) 
   const State state{1.2, 0.3, -0.5, 0.9};
   GasSolver gas = box_with_interface([=](double, double, double) { return state; }, 0.8);
   const Vec2 n = Vec2(0.8, 0.6);
-  const test::OwnedInterface side = uniform_interface(9, n, 0.25, -0.3);
+  const test::OwnedInterface side = uniform_interface(9, n, 0.25, 0.3);
   const std::vector<InterfaceValues> values{side.view()};
   gas.apply_fluid_bcs(0, values);
   const ConstFieldView q = gas.state();
@@ -42,7 +43,7 @@ TEST(Eq31Interface, PutsTheProjectedValuesOnTheBoundaryAndKeepsEntropyAndShear) 
     const Vec2 v(q(1, 0, j), q(2, 0, j)), t(-n[1], n[0]);
     EXPECT_NEAR(n.dot(v), 0.25, 1e-15);
     EXPECT_NEAR(t.dot(v), t.dot(Vec2(state.v1, state.v2)), 1e-15);
-    EXPECT_NEAR(q(3, 0, j), 1.1, 1e-15);
+    EXPECT_NEAR(q(3, 0, j), 0.5, 1e-15);
     EXPECT_NEAR(q(3, 0, j) / std::pow(q(0, 0, j), gamma), state.p / std::pow(state.rho, gamma), 1e-14);
     EXPECT_EQ(q(0, 1, j), state.rho);
   }
@@ -151,6 +152,36 @@ TEST(Outflow, LetsASoundWaveLeave) {
       },
       0));
   EXPECT_LT(left, 1e-5);  // one per cent of the pulse
+}
+
+/// An interface on the left of gas at rest that moves with v_n and has the pressure of the exact wave.
+struct SuddenWall {
+  exact::TubeState star;
+  State at_wall;
+
+  explicit SuddenWall(double v_n) {
+    const State rest{1.3, 0, 0.2, 0.8};
+    const exact::TubeState right{.rho = rest.rho, .v = 0, .p = rest.p},
+        mirrored{.rho = rest.rho, .v = 2 * v_n, .p = rest.p};  // its contact moves with v_n
+    const exact::Riemann waves(mirrored, right, 1.4);
+    star = waves.sample(v_n + 1e-9);
+    GasSolver gas = box_with_interface([rest](double, double, double) { return rest; }, 0.5);
+    const test::OwnedInterface side = uniform_interface(9, {1, 0}, v_n, 0.5 - star.p);
+    const std::vector<InterfaceValues> values{side.view()};
+    gas.apply_fluid_bcs(0, values);
+    const ConstFieldView q = gas.state();
+    at_wall = {.rho = q(0, 0, 4), .v1 = q(1, 0, 4), .v2 = q(2, 0, 4), .p = q(3, 0, 4)};
+  }
+};
+
+TEST(InterfaceState, IsThatBehindTheExactShockOrRarefactionOfAnyStrength) {
+  for (const double v_n : {-2.5, -0.3, 0.4, 3.0}) {
+    const SuddenWall wall(v_n);
+    EXPECT_NEAR(wall.at_wall.rho, wall.star.rho, 1e-12 * wall.star.rho) << v_n;
+    EXPECT_NEAR(wall.at_wall.p, wall.star.p, 1e-12 * wall.star.p) << v_n;
+    EXPECT_NEAR(wall.at_wall.v1, v_n, 1e-12);
+    EXPECT_EQ(wall.at_wall.v2, 0.2);
+  }
 }
 
 }  // namespace
