@@ -188,6 +188,7 @@ class CaseData {
         result.kind = Boundary::Kind::none;
         return result;
       case BoundaryKind::inflow:
+      case BoundaryKind::imposed:
       case BoundaryKind::outflow:
       case BoundaryKind::far_field:
         break;

@@ -17,17 +17,29 @@ namespace fsi::solid {
 /// Extremes over the points of a sweep, for the next time step and the health of the numbers.
 struct SweepResult {
   double rate_squared = 0;  ///< largest (sum over directions of c_p |grad r|)^2 [1/time^2]
+  /// Largest (difference of the two directions' c_p |grad r|)^2 + 4 |X|^2 (shared_upwinding) [1/time^2]; 0
+  /// where it is not measured.
+  double spread_squared = 0;
   double min_det_F = std::numeric_limits<double>::infinity();
   double min_phi_s = std::numeric_limits<double>::infinity();  ///< smallest phi_s |grad r|^2
   double broken = 0;                                           ///< points with det F <= 0 or phi_s <= 0
+  double settled = 0;  ///< ghost points that took the acoustic matrix of the body beside them
 
   void add(const SweepResult& other) {
     rate_squared = std::max(rate_squared, other.rate_squared);
+    spread_squared = std::max(spread_squared, other.spread_squared);
     min_det_F = std::min(min_det_F, other.min_det_F);
     min_phi_s = std::min(min_phi_s, other.min_phi_s);
     broken += other.broken;
+    settled += other.settled;
   }
 };
+
+/// What moves u in paper eq. (37): this share of the mean of the old and the new velocity, and of the
+/// predicted one at t + dt/2 what is left. The paper takes the latter alone; with the relaxation (41) long
+/// waves then grow. At 2/3 the integral of v is of third order in time, from 3/4 on no wave grows
+/// (docs/theory_solid.md, stability).
+inline constexpr double mean_velocity_share = 0.8;
 
 /// Rows of work space a sweep needs.
 inline constexpr int sweep_work_rows = 62;
@@ -41,6 +53,7 @@ struct SweepData {
   FieldView work;        ///< work rows: layout (n1, sweep_work_rows), one plane, zero at birth
   double rho = 1;
   double dt = 0;
+  bool measures_spread = true;  ///< SweepResult::spread_squared; only relaxation and (39) need it
 };
 
 template <Law L, class Row, Limiter limiter>
@@ -55,7 +68,8 @@ class GodunovSweep {
   // Functions of their own: inlined into run() they would be too much for the compiler to inline what their
   // loops call, and no loop with a call in it vectorises.
   [[gnu::noinline]] SweepResult predict(RowRun run) const;
-  [[gnu::noinline]] void settle(RowRun run) const;
+  [[gnu::noinline]] double spread_squared(RowRun run) const;
+  [[gnu::noinline]] double settle(RowRun run) const;
   [[gnu::noinline]] void solve_faces1(RowRun run) const;
   [[gnu::noinline]] void solve_faces2(RowRun run) const;
   [[gnu::noinline]] void update(RowRun run) const;
@@ -94,10 +108,14 @@ SweepResult GodunovSweep<L, Row, limiter>::run() const {
   for (int j = -1; j <= n2; ++j) {
     for (const auto& [begin, end] : points.beside(j)) {
       predict({j, begin, end});
-      settle({j, begin, end});
+      result.settled += settle({j, begin, end});
     }
     if (j >= 0 && j < n2) {
-      for (const auto& [begin, end] : points.discretised(j)) result.add(predict({j, begin, end}));
+      for (const auto& [begin, end] : points.discretised(j)) {
+        result.add(predict({j, begin, end}));
+        if (!d_.measures_spread) continue;
+        result.spread_squared = std::max(result.spread_squared, spread_squared({j, begin, end}));
+      }
     }
     if (j >= 0) {
       for (const auto& [begin, end] : points.faces(j)) solve_faces2({j, begin, end});
@@ -113,9 +131,9 @@ SweepResult GodunovSweep<L, Row, limiter>::run() const {
 }
 
 /// K at t + dt/2 from F of u + dt/2 v; slopes of v and P; states of the four faces and of the centre at t +
-/// dt/2, the last giving u, paper eq. (37). Differs from the paper: the acoustic matrix of a face is the mean
-/// of those of its two points, which the time step needs anyway, instead of one from an F differenced about
-/// the face. It multiplies a jump of O(h^3) in smooth flow.
+/// dt/2, the last giving its share of u, paper eq. (37). Differs from the paper: the acoustic matrix of a
+/// face is the mean of those of its two points, which the time step needs anyway, instead of one from an F
+/// differenced about the face. It multiplies a jump of O(h^3) in smooth flow.
 template <Law L, class Row, Limiter limiter>
 SweepResult GodunovSweep<L, Row, limiter>::predict(RowRun run) const {
   const int j = run.j;
@@ -127,7 +145,7 @@ SweepResult GodunovSweep<L, Row, limiter>::predict(RowRun run) const {
   const double *b1 = force(0, j), *b2 = force(1, j);
   double *next1 = d_.next.row(plane::u1, j), *next2 = d_.next.row(plane::u2, j);
   const L law = law_;
-  const double dt = d_.dt, dt_rho = dt / d_.rho;
+  const double dt = d_.dt, dt_rho = dt / d_.rho, dt_u = (1.0 - mean_velocity_share) * dt;
   double rate = 0, min_J = std::numeric_limits<double>::infinity(), min_phi = min_J, broken = 0;
 #pragma omp simd reduction(max : rate) reduction(min : min_J, min_phi) reduction(+ : broken)
   for (int i = run.begin; i < run.end; ++i) {
@@ -158,8 +176,8 @@ SweepResult GodunovSweep<L, Row, limiter>::predict(RowRun run) const {
         q.v2[i] + dt_rho * (row.gradient(i, s12.x, s12.y).x + row.gradient(i, s22.x, s22.y).y + 0.5 * b2[i]);
     const Tensor2 P = {q.P11[i] + dt * dP.a11, q.P12[i] + dt * dP.a12, q.P21[i] + dt * dP.a21,
                        q.P22[i] + dt * dP.a22};
-    next1[i] = q.u1[i] + dt * v1;
-    next2[i] = q.u2[i] + dt * v2;
+    next1[i] = q.u1[i] + dt_u * v1;
+    next2[i] = q.u2[i] + dt_u * v2;
     to_east.set(i, v1 + s1.x, v2 + s2.x,
                 row.force_east(i, {P.a11 + s11.x, P.a12 + s12.x, P.a21 + s21.x, P.a22 + s22.x}));
     to_west.set(i, v1 - s1.x, v2 - s2.x,
@@ -172,13 +190,33 @@ SweepResult GodunovSweep<L, Row, limiter>::predict(RowRun run) const {
   return {.rate_squared = rate / d_.rho, .min_det_F = min_J, .min_phi_s = min_phi, .broken = broken};
 }
 
+/// What `predict` left in the rows of run.j; for SweepResult::spread_squared.
+template <Law L, class Row, Limiter limiter>
+double GodunovSweep<L, Row, limiter>::spread_squared(RowRun run) const {
+  const Row row(metrics_, run.j);
+  const AcousticRows along1 = acoustic1(), along2 = acoustic2(run.j);
+  const StiffnessRows stiff = stiffness(run.j);
+  double spread = 0;
+#pragma omp simd reduction(max : spread)
+  for (int i = run.begin; i < run.end; ++i) {
+    const SymmetricTensor2 A1 = along1.at(i), A2 = along2.at(i);
+    const Pair phi1 = wave_eigenvalues(A1), phi2 = wave_eigenvalues(A2);
+    const double shared = shared_upwinding(A1, A2, row.acoustic12(i, stiff.at(i)));
+    const double scale = row.inverse_jacobian(i) * row.inverse_jacobian(i);
+    const double apart = scale * (phi1.x + phi2.x - 2.0 * std::sqrt(phi1.x * phi2.x) + 4.0 * shared);
+    spread = spread < apart ? apart : spread;
+  }
+  return spread / d_.rho;
+}
+
 /// Ghost points have a displacement that was extrapolated, and beside a corner with a singular stress it may
 /// turn the material inside out or leave it no wave speed, though the body itself is far from that. What such
 /// a point brings to its face is then its state at t, and the acoustic matrix of the point of the body beside
-/// it.
+/// it. Returns the number of such points.
 template <Law L, class Row, Limiter limiter>
-void GodunovSweep<L, Row, limiter>::settle(RowRun run) const {
+double GodunovSweep<L, Row, limiter>::settle(RowRun run) const {
   const int j = run.j;
+  double settled = 0;
   const auto bears_waves = [](const SymmetricTensor2& A) {
     return A.a11 > 0.0 && A.a11 * A.a22 - A.a12 * A.a12 > 0.0;  // false for what is no number
   };
@@ -197,9 +235,11 @@ void GodunovSweep<L, Row, limiter>::settle(RowRun run) const {
       west().set(i, q.v1[i], q.v2[i], row.force_west(i, P));
       north(j).set(i, q.v1[i], q.v2[i], row.force_north(i, P));
       south().set(i, q.v1[i], q.v2[i], row.force_south(i, P));
+      settled += 1;
       break;
     }
   }
+  return settled;
 }
 
 /// Faces i - 1/2 on both sides of the points of a run of the present row.
@@ -234,7 +274,8 @@ void GodunovSweep<L, Row, limiter>::solve_faces2(RowRun run) const {
 }
 
 /// paper eq. (35): momentum from the forces on the four faces; paper eq. (36): stress from the face
-/// velocities with the point's own K and grad r, exactly zero for a uniform velocity.
+/// velocities with the point's own K and grad r, exactly zero for a uniform velocity; paper eq. (37): what
+/// the mean of the old and the new velocity brings to the displacement.
 template <Law L, class Row, Limiter limiter>
 void GodunovSweep<L, Row, limiter>::update(RowRun run) const {
   const int j = run.j;
@@ -245,17 +286,22 @@ void GodunovSweep<L, Row, limiter>::update(RowRun run) const {
   const double *v1 = d_.q.row(plane::v1, j), *v2 = d_.q.row(plane::v2, j);
   const double *P11 = d_.q.row(plane::P11, j), *P12 = d_.q.row(plane::P12, j), *P21 = d_.q.row(plane::P21, j),
                *P22 = d_.q.row(plane::P22, j);
+  double *next_u1 = d_.next.row(plane::u1, j), *next_u2 = d_.next.row(plane::u2, j);
   double *next_v1 = d_.next.row(plane::v1, j), *next_v2 = d_.next.row(plane::v2, j);
   double *next_P11 = d_.next.row(plane::P11, j), *next_P12 = d_.next.row(plane::P12, j),
          *next_P21 = d_.next.row(plane::P21, j), *next_P22 = d_.next.row(plane::P22, j);
-  const double dt = d_.dt, dt_rho = dt / d_.rho;
+  const double dt = d_.dt, dt_rho = dt / d_.rho, dt_u = 0.5 * mean_velocity_share * dt;
 #pragma omp simd
   for (int i = run.begin; i < run.end; ++i) {
     const double per_area = row.inverse_area(i);
     const double f1 = (along1.f1[i + 1] - along1.f1[i]) + (high.f1[i] - low.f1[i]);
     const double f2 = (along1.f2[i + 1] - along1.f2[i]) + (high.f2[i] - low.f2[i]);
-    next_v1[i] = v1[i] + dt_rho * (per_area * f1 + b1[i]);
-    next_v2[i] = v2[i] + dt_rho * (per_area * f2 + b2[i]);
+    const double w1 = v1[i] + dt_rho * (per_area * f1 + b1[i]);
+    const double w2 = v2[i] + dt_rho * (per_area * f2 + b2[i]);
+    next_v1[i] = w1;
+    next_v2[i] = w2;
+    next_u1[i] += dt_u * (v1[i] + w1);
+    next_u2[i] += dt_u * (v2[i] + w2);
     const Pair L1 = row.gradient(i, along1.v1[i + 1] - along1.v1[i], high.v1[i] - low.v1[i]);
     const Pair L2 = row.gradient(i, along1.v2[i + 1] - along1.v2[i], high.v2[i] - low.v2[i]);
     const Tensor2 dP = contract(stiff.at(i), {L1.x, L1.y, L2.x, L2.y});

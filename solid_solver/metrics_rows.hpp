@@ -41,6 +41,11 @@ class CartesianRow {
   [[gnu::always_inline]] SymmetricTensor2 acoustic2(int /*i*/, const Stiffness& K) const {
     return {.a11 = h1_ * h1_ * K.k2112, .a12 = h1_ * h1_ * K.k2122, .a22 = h1_ * h1_ * K.k2222};
   }
+  /// What waves along r1 and along r2 share: a1_i K_ijkl a2_l of the two area vectors.
+  [[gnu::always_inline]] Tensor2 acoustic12(int /*i*/, const Stiffness& K) const {
+    const double area = h1_ * h2_;
+    return {area * K.k1112, area * K.k1122, area * K.k2121, area * K.k1222};
+  }
   [[gnu::always_inline]] double inverse_area(int /*i*/) const { return i1_ * i2_; }
   [[gnu::always_inline]] double inverse_jacobian(int /*i*/) const { return i1_ * i2_; }
   /// Unit tangents of the coordinate lines r1 = const and r2 = const.
@@ -85,6 +90,15 @@ class MappedRow {
   }
   [[gnu::always_inline]] SymmetricTensor2 acoustic2(int i, const Stiffness& K) const {
     return acoustic(jacobian_[i] * r2x_[i], jacobian_[i] * r2y_[i], K);
+  }
+  [[gnu::always_inline]] Tensor2 acoustic12(int i, const Stiffness& K) const {
+    const double square = jacobian_[i] * jacobian_[i];
+    const double xx = square * r1x_[i] * r2x_[i], xy = square * r1x_[i] * r2y_[i],
+                 yx = square * r1y_[i] * r2x_[i], yy = square * r1y_[i] * r2y_[i];
+    return {.a11 = (xx * K.k1111 + yy * K.k2112) + (xy + yx) * K.k1112,
+            .a12 = (xx * K.k1121 + yy * K.k2122) + (xy * K.k1122 + yx * K.k2121),
+            .a21 = (xx * K.k1121 + yy * K.k2122) + (xy * K.k2121 + yx * K.k1122),
+            .a22 = (xx * K.k1221 + yy * K.k2222) + (xy + yx) * K.k1222};
   }
   [[gnu::always_inline]] double inverse_area(int i) const { return inverse_area_[i]; }
   [[gnu::always_inline]] double inverse_jacobian(int i) const { return 1.0 / jacobian_[i]; }

@@ -139,6 +139,19 @@ class SolidParticipant final : public Participant {
     }
   }
 
+  std::string remedy() const override {
+    const SolidScheme& scheme = spec_.scheme;
+    const std::string path = "solids." + spec_.name + ".scheme";
+    if (scheme.limiter == "none") return path + ".limiter: minmod, for jumps";
+    for (const auto& [key, beta] :
+         {std::pair{"tangential_stress", &scheme.tangential_stress},
+          std::pair{"displacement", &scheme.displacement}, std::pair{"relaxation", &scheme.relaxation}}) {
+      if (beta->rate == 0 && beta->scaled == 0)
+        return fmt::format("{} without `{}`, whose default damps what no wave carries", path, key);
+    }
+    if (scheme.relaxation.scaled < 0.5) return path + ".relaxation: {scaled: 0.5}";
+    return "a smaller time.cfl";
+  }
   wire::Health health() const override {
     return {.min_rho = 0,
             .min_p = 0,
@@ -158,7 +171,9 @@ class SolidParticipant final : public Participant {
   const grid::RippleWatch* noise() const override { return &*ripples_; }
 
   void report(double t, io::Part& part) const override {
-    part.health["min_det_F"] = solver_.health().min_det_F;
+    const Health health = solver_.health();
+    part.health["min_det_F"] = health.min_det_F;
+    if (health.settled > 0) part.counters["settled_ghost_points"] = health.settled;
     const Totals now = solver_.totals();
     part.conservation["mass"] = now.mass - initial_totals_.mass;
     part.conservation["energy"] = now.energy() - initial_totals_.energy();

@@ -99,7 +99,7 @@ class SolidBoundary {
   static Vec2 difference_across(ConstFieldView q, const SideIndex& line, int first, int k, double sign);
 
   void set_motion(FieldView q, double t, std::span<const InterfaceValues> projected);
-  void project_velocity(FieldView q, double t, const InterfaceValues& values) const;
+  void project_velocity(FieldView q, double t, const InterfaceValues& values);
   void set_given_motion(FieldView q, Side side, double t);
   Motion displacement_of(Side side, const Vec2& x, double t) const;
   void remove_normal_motion(FieldView q, Side side, double t);
@@ -112,7 +112,9 @@ class SolidBoundary {
   double stretch_along(ConstFieldView q, Side side, int k) const;
   void find_projected_traction(ConstFieldView q, double t, const InterfaceValues& values);
   void set_normal_stress(FieldView q, Side side, double t) const;
+  Mat2 impedance(ConstFieldView q, Side side, int k) const;
   void follow_characteristics(FieldView q, Side side, double t) const;
+  void slide_along_interface(FieldView q, const InterfaceValues& values) const;
   void set_corner_stress(FieldView q, double t) const;
   void extend_stress_to_corners(FieldView q, Side side, double t) const;
   void match_side(FieldView q, Side side, double t) const;
@@ -145,5 +147,6 @@ class SolidBoundary {
 
 }  // namespace fsi::solid
 
-#include "solid_solver/solid_boundary_matching.hpp"  // IWYU pragma: export
-#include "solid_solver/solid_boundary_values.hpp"    // IWYU pragma: export
+#include "solid_solver/solid_boundary_matching.hpp"   // IWYU pragma: export
+#include "solid_solver/solid_boundary_tractions.hpp"  // IWYU pragma: export
+#include "solid_solver/solid_boundary_values.hpp"     // IWYU pragma: export

@@ -1,5 +1,5 @@
 #pragma once
-/// SolidBoundary, first half: values that are given on the sides, and ghost points that follow from them by
+/// SolidBoundary, first part: values that are given on the sides, and ghost points that follow from them by
 /// extrapolation, reflection or repetition.
 
 #include <algorithm>
@@ -155,7 +155,7 @@ Tensor2 SolidBoundary<L>::chosen_strain_rate(std::ptrdiff_t at, double t) const 
 }
 
 template <Law L>
-void SolidBoundary<L>::project_velocity(FieldView q, double t, const InterfaceValues& values) const {
+void SolidBoundary<L>::project_velocity(FieldView q, double t, const InterfaceValues& values) {
   const SideIndex line(layout(), values.side);
   const auto n = static_cast<std::size_t>(line.n);
   for (std::size_t k = 0; k < n; ++k) {
@@ -166,6 +166,7 @@ void SolidBoundary<L>::project_velocity(FieldView q, double t, const InterfaceVa
         values.v_n[k] - (values.n[k] * (v1 - exact.x()) + values.n[n + k] * (v2 - exact.y()));
     v1 += change * values.n[k];
     v2 += change * values.n[n + k];
+    v_change_[index(values.side)][k] = change * Vec2(values.n[k], values.n[n + k]);
   }
 }
 

@@ -61,6 +61,8 @@ class SolidComponent {
   /// Wave speeds and health of the present state.
   void measure() { measured_ = sweep(0.0); }
   const SweepResult& measured() const { return measured_; }
+  /// Ghost points of all steps so far that took the acoustic matrix of the body beside them.
+  double settled() const { return settled_; }
   /// F at a point by central differences of u inside, one-sided ones of second order at the sides (no ghost
   /// points).
   Tensor2 deformation_gradient(int i, int j) const;
@@ -94,6 +96,7 @@ class SolidComponent {
   bool has_source_ = false;  ///< it was evaluated
   double added_ = 0;         ///< weight of the source in the present state while a step is under way
   SweepResult measured_;
+  double settled_ = 0;
 };
 
 /// Time in which a p-wave of the rest state crosses the smallest cell.
@@ -225,13 +228,15 @@ void SolidComponent<L>::add_relaxation_offset(double t, double dt) {
 template <Law L>
 template <class Row>
 SweepResult SolidComponent<L>::sweep_with(double dt) {
-  const SweepData data = {.points = &points_,
-                          .q = q_.view(),
-                          .next = next_.view(),
-                          .force = force_.view(),
-                          .work = work_.view(),
-                          .rho = options_.rho,
-                          .dt = dt};
+  const SweepData data = {
+      .points = &points_,
+      .q = q_.view(),
+      .next = next_.view(),
+      .force = force_.view(),
+      .work = work_.view(),
+      .rho = options_.rho,
+      .dt = dt,
+      .measures_spread = options_.relaxation.active() || options_.tangential_stress.active()};
   if (options_.limiter == Limiter::minmod)
     return GodunovSweep<L, Row, Limiter::minmod>(data, metrics_, law_).run();
   return GodunovSweep<L, Row, Limiter::none>(data, metrics_, law_).run();
@@ -269,6 +274,7 @@ void SolidComponent<L>::predict(double t, double dt) {
     add_source(added_);
   }
   measured_ = sweep(dt);
+  settled_ += measured_.settled;
   if (measured_.broken > 0) throw NumbersBroke(trouble(dt));
 }
 
@@ -315,8 +321,10 @@ void SolidComponent<L>::archive(Archive& archive) {
   archive.values("state", q_.values());
   archive.values("next", next_.values());
   archive.number("rate_squared", measured_.rate_squared);
+  archive.number("spread_squared", measured_.spread_squared);
   archive.number("min_det_F", measured_.min_det_F);
   archive.number("min_phi_s", measured_.min_phi_s);
+  archive.number("settled", settled_);
   archive.inside("boundary", [&] { boundary_.archive(archive); });
   if (!chosen_) return;
   archive.values("source", source_.values());

@@ -40,6 +40,7 @@ struct TimeStep {
 struct Health {
   double min_det_F = 1;
   double min_phi_s = 0;  ///< smallest s-wave eigenvalue of the acoustic matrices, times |grad r|^2
+  double settled = 0;    ///< ghost points of all steps that took the acoustic matrix of the body beside them
 };
 
 template <Law L>
@@ -103,14 +104,18 @@ class SolidSolver {
     for (SolidComponent<L>& component : components_) component.choose(solution);
   }
 
-  /// Largest stable step for the present state: paper eq. (44) in paper eq. (45), times the safety factor.
+  /// Largest stable step for the present state: paper eq. (44) in paper eq. (45), times the safety factor,
+  /// and not beyond what the fastest decay of the stress allows, which is an upper bound and needs no factor.
   /// The wave speeds are those the last sweep met (half a step old).
   TimeStep compute_time_step() const {
-    const double waves = std::sqrt(measured().rate_squared);
+    const SweepResult met = measured();
+    const double waves = std::sqrt(met.rate_squared);
     const TimeSteppingEigenvalue lambda = time_stepping_eigenvalue(waves, options_);
     const double damping = -lambda.real + lambda.beta * waves;
-    return {.dt = options_.cfl * largest_time_step(lambda),
-            .reason = waves > damping ? "waves in the solid" : "dissipation in the solid"};
+    const double dt = options_.cfl * largest_time_step(lambda);
+    const double decay = largest_decay_step({waves, 0.5 * (waves + std::sqrt(met.spread_squared))}, options_);
+    if (decay < dt) return {.dt = decay, .reason = "upwinding and relaxation of the stress in the solid"};
+    return {.dt = dt, .reason = waves > damping ? "waves in the solid" : "dissipation in the solid"};
   }
   /// Predicted state at t + dt at all discretised points; no boundary or interface condition is applied.
   /// @throws NumbersBroke at det F <= 0 or where the system is no longer hyperbolic; all grids then keep the
@@ -148,7 +153,12 @@ class SolidSolver {
     t_ = t;
   }
 
-  Health health() const { return {.min_det_F = measured().min_det_F, .min_phi_s = measured().min_phi_s}; }
+  Health health() const {
+    const SweepResult met = measured();
+    Health health = {.min_det_F = met.min_det_F, .min_phi_s = met.min_phi_s};
+    for (const SolidComponent<L>& component : components_) health.settled += component.settled();
+    return health;
+  }
   /// Overlaps of grids count once.
   Totals totals() const;
   /// Over all points that have a value.

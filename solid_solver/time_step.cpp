@@ -26,4 +26,14 @@ double largest_time_step(const TimeSteppingEigenvalue& lambda) {
   return -2.0 * c / (b + std::sqrt(b * b - 4.0 * a * c));
 }
 
+double largest_decay_step(const UpwindRates& rates, const SolidOptions& options) {
+  constexpr double diffusion_symbol = 8, limit = 2;
+  const double bulk = diffusion_symbol * options.bulk_diffusion;
+  const double relaxation = options.relaxation.rate + 0.5 * options.tangential_stress.rate;
+  const double left = limit - options.relaxation.scaled - 0.5 * options.tangential_stress.scaled;
+  const double velocity_step = limit / (limit * rates.velocity + bulk);
+  const double stress_step = left / (limit * rates.stress + relaxation + bulk);
+  return std::min(velocity_step, stress_step);
+}
+
 }  // namespace fsi::solid

@@ -21,4 +21,17 @@ TimeSteppingEigenvalue time_stepping_eigenvalue(double wave_rate, const SolidOpt
 /// beta >= 2.
 double largest_time_step(const TimeSteppingEigenvalue& lambda);
 
+/// Rates at which upwinding acts [1/time].
+struct UpwindRates {
+  double velocity = 0;  ///< sum over directions of c_p |grad r|
+  double stress = 0;  ///< largest eigenvalue of sum over directions of K Z^-1 n^T |grad r|, or a bound of it
+};
+
+/// The dt at which a sawtooth in both directions reaches the amplification -1. There all first differences
+/// vanish and decay is all that is left: per step 2 dt times the upwind rate, beta^r and half of beta^P for
+/// the stress (paper eq. (39) shares it among the directions), and 8 dt times the bulk diffusion. The ellipse
+/// of paper eq. (45) has no such term, since (44) leaves upwinding out of Lambda_r: it ends at c_p dt / h =
+/// 1, where upwinding alone has used up the real axis.
+double largest_decay_step(const UpwindRates& rates, const SolidOptions& options);
+
 }  // namespace fsi::solid

@@ -1,15 +1,11 @@
 #include "solid_solver/rigid/body.hpp"
 
-#include <Eigen/QR>
 #include <cmath>
 #include <utility>
 
 namespace fsi::rigid {
 
 namespace {
-
-/// Modes that move the outline less than this part of the strongest one along the normals are not seen there.
-constexpr double invisible = 1e-6;
 
 Vec2 turned(const Vec2& r) {
   return {-r.y(), r.x()};
@@ -34,12 +30,13 @@ RigidBody::RigidBody(Outline outline, const Inertia& inertia, double rho, Eigen:
 
 void RigidBody::start(const Vec3& V) {
   s_ = modal_load(V);  // the columns of B are orthogonal unit vectors
-  old_s_ = s_;
+  old_s_ = older_s_ = s_;
   acceleration_ = old_mean_ = Eigen::VectorXd::Zero(modes());
 }
 
 void RigidBody::advance(double dt) {
   old_pose_ = pose_;
+  older_s_ = old_s_;
   old_s_ = s_;
   old_dt_ = dt_;
   dt_ = dt;
@@ -47,25 +44,19 @@ void RigidBody::advance(double dt) {
   s_ = old_s_ + dt * acceleration_;
 }
 
-void RigidBody::correct(std::span<const double> v_n, const Vec3& load) {
-  const Eigen::VectorXd own = dt_ * mass_matrix().diagonal().cwiseInverse().cwiseProduct(modal_load(load));
-  s_ = old_s_ + own;
-  if (!v_n.empty()) observe(v_n);
-  pose_ = moved(old_pose_, dynamics_.modes * (0.5 * dt_ * (old_s_ + s_)));
-  take_acceleration();
+Eigen::MatrixXd RigidBody::response() const {
+  return difference().leading * mass_matrix();
 }
 
-/// Least squares in the norm of the kinetic energy: of all changes that give v_n, the one with the least
-/// energy.
-void RigidBody::observe(std::span<const double> v_n) {
-  const Eigen::VectorXd scale = mass_matrix().diagonal().cwiseSqrt().cwiseInverse();
-  const Eigen::MatrixXd N = mode_vectors();
-  const Eigen::VectorXd wanted =
-      Eigen::Map<const Eigen::VectorXd>(v_n.data(), static_cast<Eigen::Index>(v_n.size()));
-  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> visible;
-  visible.setThreshold(invisible);
-  visible.compute(N.transpose() * scale.asDiagonal());
-  s_ += scale.asDiagonal() * visible.solve(wanted - N.transpose() * s_);
+Eigen::VectorXd RigidBody::history(const Vec3& own_load) const {
+  const Eigen::VectorXd past = difference().history(old_s_, older_s_);
+  return mass_matrix() * past + dt_ * modal_load(own_load);
+}
+
+void RigidBody::correct(const Eigen::VectorXd& s) {
+  s_ = s;
+  pose_ = moved(old_pose_, dynamics_.modes * (0.5 * dt_ * (old_s_ + s_)));
+  take_acceleration();
 }
 
 /// The mean acceleration of the step belongs to its middle; the trend of two steps brings it to the end.
@@ -90,6 +81,7 @@ void RigidBody::archive(Archive& archive) {
   pose("old_pose", old_pose_);
   vector("s", s_);
   vector("old_s", old_s_);
+  vector("older_s", older_s_);
   vector("acceleration", acceleration_);
   vector("old_mean", old_mean_);
   archive.number("dt", dt_);

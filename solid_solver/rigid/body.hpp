@@ -5,6 +5,8 @@
 /// 1, k = 3 modes; a body that slides between walls has the one that they leave.
 ///
 ///     M s' = B^T (force, moment),   M = B^T diag(m, m, I) B,   n . v = N^T s
+///
+/// It answers a load f on its modes by S s = g + dt f, second-order backward differences.
 
 #include <Eigen/Core>
 #include <cstddef>
@@ -12,6 +14,7 @@
 #include <vector>
 
 #include "common/core/archive.hpp"
+#include "common/core/backward_difference.hpp"
 #include "common/core/types.hpp"
 #include "common/grid/interface_geometry.hpp"
 #include "solid_solver/rigid/inertia.hpp"
@@ -47,10 +50,11 @@ class RigidBody {
   void start(const Vec3& V);
   /// Predicts pose and velocity after a step of size dt: x + dt V + dt^2/2 a, V + dt a.
   void advance(double dt);
-  /// Ends the step with the projected normal velocities of the outline: the modal velocities are those that
-  /// have them. What they do not show (the rotation of a circle) follows from `load` alone, the mean of the
-  /// own load in the step. The pose is integrated by the trapezoidal rule.
-  void correct(std::span<const double> v_n, const Vec3& load);
+  /// S and g of S s = g + dt f at the end of the step, with the own load there.
+  Eigen::MatrixXd response() const;
+  Eigen::VectorXd history(const Vec3& own_load) const;
+  /// Ends the step with the modal velocities `s`. The pose is integrated by the trapezoidal rule.
+  void correct(const Eigen::VectorXd& s);
 
   std::size_t points() const { return outline_.x.size() / 2; }
   Eigen::Index modes() const { return dynamics_.modes.cols(); }
@@ -85,11 +89,11 @@ class RigidBody {
   Vec2 reference_centre_;
   Dynamics dynamics_;
   Pose pose_, old_pose_;
-  Eigen::VectorXd s_, old_s_;                ///< modal velocities now and before the step
+  Eigen::VectorXd s_, old_s_, older_s_;      ///< modal velocities now, before the step, and one more before
   Eigen::VectorXd acceleration_, old_mean_;  ///< at the last corrected time; mean of the step before
   double dt_ = 0, old_dt_ = 0;
 
-  void observe(std::span<const double> v_n);
+  BackwardDifference difference() const { return backward_difference(dt_, old_dt_); }
   void take_acceleration();
 };
 

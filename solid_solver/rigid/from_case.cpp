@@ -177,6 +177,8 @@ BodyFromCase body_from_case(const SolidSpec& spec) {
   }
   BodyFromCase result =
       spec.body_fitted.empty() ? body_of_grid(spec) : body_of_shape(spec, spec.body_fitted.front());
+  if (spec.fixed && spec.initial_v)
+    refuse(spec, "it is fixed, but `initial` gives it a velocity; leave one of them out");
   if (spec.initial_v) result.body.start(initial_motion(result.body, *spec.initial_v));
   return result;
 }

@@ -2,8 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Cholesky>
 #include <array>
 #include <limits>
+#include <span>
+#include <vector>
+
+#include "common/wire/sparse.hpp"
 
 namespace fsi::rigid {
 
@@ -11,13 +16,8 @@ namespace {
 
 constexpr std::array<const char*, 8> quantities{"u1", "u2", "v1", "v2", "P11", "P12", "P21", "P22"};
 
-std::vector<double> row_major(const Eigen::MatrixXd& matrix) {
-  std::vector<double> values;
-  values.reserve(static_cast<std::size_t>(matrix.size()));
-  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
-    for (Eigen::Index j = 0; j < matrix.cols(); ++j) values.push_back(matrix(i, j));
-  }
-  return values;
+std::vector<double> numbers(const Eigen::VectorXd& values) {
+  return {values.begin(), values.end()};
 }
 
 }  // namespace
@@ -29,7 +29,6 @@ RigidParticipant::RigidParticipant(const Setup& setup, const SolidSpec& spec)
       body_(from_case_.body),
       fields_(setup.run_dir, "solid_" + spec.name),
       own_(own_load(0)),
-      old_own_(own_),
       initial_(totals()) {
   place_grid();
   open_tables();
@@ -59,18 +58,24 @@ TimeStepBid RigidParticipant::compute_time_step() const {
 void RigidParticipant::fill(std::size_t /*k*/, wire::PredictedInterface& predicted) const {
   predicted.x = body_.positions();
   predicted.v = body_.velocities(predicted.x);
+  if (spec_.fixed) {  // one mode that moves no point
+    predicted.modal = {
+        .modes = 1, .S = {.row = {0}, .column = {0}, .value = {1}}, .g = {0}, .N = {}, .q_dot = {0}};
+    return;
+  }
   predicted.modal = {.modes = static_cast<std::int32_t>(body_.modes()),
-                     .M = row_major(body_.mass_matrix()),
-                     .N = row_major(body_.mode_vectors()),
-                     .q_dot = row_major(body_.modal_velocity()),
-                     .f_own = row_major(body_.modal_load(own_))};
+                     .S = wire::lower_entries_of(body_.response().sparseView()),
+                     .g = numbers(body_.history(own_)),
+                     .N = wire::entries_of(body_.mode_vectors().sparseView()),
+                     .q_dot = numbers(body_.modal_velocity())};
 }
 
 void RigidParticipant::apply_bcs(double /*t*/, ProjectedStates projected) {
   const bool alone = projected.empty();
-  if (dt_ > 0) {
-    const Vec3 mean = 0.5 * (old_own_ + own_);
-    body_.correct(alone ? std::span<const double>{} : projected.front()->v_n, mean);
+  if (dt_ > 0 && !spec_.fixed) {
+    const std::span<const double> q_dot = alone ? std::span<const double>{} : projected.front()->q_dot;
+    body_.correct(alone ? Eigen::VectorXd(body_.response().ldlt().solve(body_.history(own_)))
+                        : Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(q_dot.data(), body_.modes())));
   }
   if (alone) return;
   const wire::ProjectedInterface& gas = *projected.front();
@@ -81,9 +86,8 @@ void RigidParticipant::apply_bcs(double /*t*/, ProjectedStates projected) {
 /// Any number of substeps is one: nothing happens inside a body during a step.
 void RigidParticipant::advance(double t, double dt, int /*substeps*/, ProjectedStates /*projected*/) {
   dt_ = dt;
-  old_own_ = own_;
   own_ = own_load(t + dt);
-  body_.advance(dt);
+  if (!spec_.fixed) body_.advance(dt);
 }
 
 io::GridOutput RigidParticipant::fields() {
@@ -119,7 +123,6 @@ void RigidParticipant::write_last_state(double t, std::uint64_t step) {
 void RigidParticipant::archive(Archive& archive) {
   archive.inside("body", [&] { body_.archive(archive); });
   archive.values("own", {own_.data(), 3});
-  archive.values("old_own", {old_own_.data(), 3});
   archive.inside("load", [&] { load_.archive(archive); });
   archive.inside("impulse", [&] { impulse_.archive(archive); });
   archive.number("dt", dt_);

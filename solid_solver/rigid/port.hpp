@@ -38,7 +38,7 @@ class RigidParticipant final : public Participant {
   std::optional<io::CsvWriter> forces_, probe_table_;
   std::vector<Vec2> probes_;  ///< reference positions
   Field reference_, state_;   ///< two lines of points: the outline, and its centre
-  Vec3 own_, old_own_;        ///< own load at the end of the step and at its beginning
+  Vec3 own_;                  ///< own load at the end of the step
   GasLoad load_;
   Impulse impulse_;
   double dt_ = 0;  ///< of the step going on; 0 before the first

@@ -1,8 +1,10 @@
 // Manufactured motions of a skewed block: second order in the maximum norm with every boundary condition and
 // law.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <string>

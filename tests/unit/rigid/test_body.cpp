@@ -11,6 +11,8 @@
 
 #include "common/grid/shapes/circle.hpp"
 #include "common/grid/shapes/ellipse.hpp"
+#include "common/interface/modal.hpp"
+#include "common/wire/sparse.hpp"
 #include "coupler/interface_exchange.hpp"
 #include "solid_solver/rigid/body.hpp"
 #include "solid_solver/rigid/load.hpp"
@@ -22,14 +24,6 @@ using coupler::InterfaceExchange;
 using std::numbers::pi;
 
 constexpr double z_f = 1.3, p_e = 1;
-
-std::vector<double> row_major(const Eigen::MatrixXd& m) {
-  std::vector<double> values;
-  for (Eigen::Index i = 0; i < m.rows(); ++i) {
-    for (Eigen::Index j = 0; j < m.cols(); ++j) values.push_back(m(i, j));
-  }
-  return values;
-}
 
 RigidBody body_within(const std::vector<double>& x, double rho, const Vec3& start = Vec3::Zero()) {
   RigidBody body(Outline{.x = x}, inertia_of(x), rho, Eigen::Matrix3d::Identity());
@@ -94,11 +88,12 @@ class InGas {
     wire::PredictedInterface solid, gas;
     solid.x = gas.x = body_.positions();
     solid.v = body_.velocities(solid.x);
+    const Eigen::VectorXd g = body_.history(own_), q_dot = body_.modal_velocity();
     solid.modal = {.modes = 3,
-                   .M = row_major(body_.mass_matrix()),
-                   .N = row_major(body_.mode_vectors()),
-                   .q_dot = row_major(body_.modal_velocity()),
-                   .f_own = row_major(own_)};
+                   .S = wire::lower_entries_of(body_.response().sparseView()),
+                   .g = {g.begin(), g.end()},
+                   .N = wire::entries_of(body_.mode_vectors().sparseView()),
+                   .q_dot = {q_dot.begin(), q_dot.end()}};
     gas.v.assign(2 * n, 0.0);
     gas.z_f.assign(n, z_f);
     gas.p_e = p_e;
@@ -106,7 +101,7 @@ class InGas {
     exchange_.project_interface({.step = step_, .t = t_, .dt = dt}, gas, solid);
     wire::ProjectedInterface answer;
     exchange_.fill_state(answer);
-    if (dt > 0) body_.correct(answer.v_n, own_);
+    if (dt > 0) body_.correct(Eigen::Map<const Eigen::VectorXd>(exchange_.q_dot().data(), 3));
     impulse_.add(load_of_gas(body_.positions(), answer.n, answer.w_n, answer.v_n), dt);
   }
 };
@@ -126,7 +121,8 @@ Eigen::Matrix3d added_mass(const RigidBody& body) {
     ds[k] += half;
     ds[k - 1] += half;
   }
-  return coupler::modal_load(N, std::vector<NormalSide>(n, {.z = z_f, .v_n = 0, .w_n = 0}), ds).A;
+  return Eigen::Matrix3d(
+      modal_load(N.sparseView(), std::vector<NormalSide>(n, {.z = z_f, .v_n = 0, .w_n = 0}), ds).A);
 }
 
 TEST(RigidBody, AGasResistsADiskInBothDirectionsAndNotItsRotation) {

@@ -226,6 +226,7 @@ TEST(GhostPoints, ThatAreInsideOutDoNotBreakTheBodyBesideThem) {
     solver.state()(plane::u2, 6, 14) += pushed;
     const double dt = solver.compute_time_step().dt;
     solver.advance_solid(0, dt);
+    EXPECT_EQ(solver.health().settled > 0, pushed != 0);  // and that is told
     const ConstFieldView q = std::as_const(solver).state();
     for (int k = 0; k < plane::count; ++k) {
       for (int j = 0; j < 13; ++j) {

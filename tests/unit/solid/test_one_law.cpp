@@ -8,11 +8,8 @@
 #include <string>
 #include <utility>
 
-#include "solid_solver/laws/neo_hookean.hpp"
-#include "solid_solver/solid_solver.hpp"
+#include "solid_solver/neo_hookean_solver.hpp"
 #include "tests/convergence/solid/skewed_grid.hpp"
-
-extern template class fsi::solid::SolidSolver<fsi::solid::NeoHookean>;
 
 namespace fsi::solid {
 namespace {

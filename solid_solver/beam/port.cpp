@@ -1,0 +1,281 @@
+#include "solid_solver/beam/port.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "common/core/failure.hpp"
+#include "common/wire/sparse.hpp"
+
+namespace fsi::beam {
+
+namespace {
+
+constexpr std::array<const char*, 12> quantities{"u1",  "u2",  "v1",    "v2", "P11", "P12",
+                                                 "P21", "P22", "theta", "N",  "Q",   "M"};
+
+/// The inner line of the fields lies beside the centre line, so much of the way to the outline: what is on
+/// its two sides then does not share a line with other points.
+constexpr double beside = 0.01;
+
+/// Nominal stress at the distance y from the centre line: axial force and moment make it linear across the
+/// section, the shear force a parabola.
+/// @param angle of the section at rest  @param theta its rotation
+Mat2 nominal_stress(const Section& section, const Resultants& force, double y, double angle, double theta) {
+  const double d = std::sqrt(12 * section.EI / section.EA);
+  const double axial = force.N / d - 12 * force.M * y / (d * d * d);
+  const double shear = 1.5 * force.Q / d * std::max(0.0, 1 - 4 * y * y / (d * d));
+  const Vec2 along(std::cos(angle + theta), std::sin(angle + theta)), across(-along.y(), along.x());
+  return Vec2(std::cos(angle), std::sin(angle)) * (axial * along + shear * across).transpose();
+}
+
+std::vector<double> numbers(const Eigen::VectorXd& values) {
+  return {values.begin(), values.end()};
+}
+
+/// Length of the outline that belongs to each point.
+std::vector<double> point_lengths(const std::vector<double>& x) {
+  const std::size_t n = x.size() / 2;
+  std::vector<double> ds(n);
+  for (std::size_t k = 1; k < n; ++k) {
+    const double half = 0.5 * std::hypot(x[k] - x[k - 1], x[n + k] - x[n + k - 1]);
+    ds[k - 1] += half;
+    ds[k] += half;
+  }
+  return ds;
+}
+
+/// Whether nothing but the gas acts on the beam.
+bool is_surrounded(const SolidSpec& spec) {
+  const bool free =
+      std::ranges::all_of(spec.beam->ends, [](const std::string& end) { return end == "free"; });
+  return free && !spec.body_force && !spec.body_fitted.empty() && spec.body_fitted.front().curve.closed();
+}
+
+}  // namespace
+
+BeamParticipant::BeamParticipant(const Setup& setup, const SolidSpec& spec)
+    : setup_(setup),
+      spec_(spec),
+      from_case_(beam_from_case(spec)),
+      motion_(from_case_.motion),
+      skin_(from_case_.skin),
+      fields_(setup.run_dir, "solid_" + spec.name),
+      initial_(totals()) {
+  if (!from_case_.meets_gas && !setup.problem.time.dt) {
+    throw UserMistake(fmt::format(
+        "solid \"{}\" is a beam without a gas: its implicit scheme has no largest step; write `time.dt`",
+        spec.name));
+  }
+  place_grid();
+  open_tables();
+}
+
+wire::Hello BeamParticipant::hello() const {
+  wire::Hello hello;
+  hello.role = "solid";
+  hello.name = spec_.name;
+  hello.law = spec_.law;
+  hello.config_digest = setup_.problem.digest;
+  hello.points = static_cast<std::uint64_t>(motion_.model().nodes());
+  if (from_case_.meets_gas) {
+    const std::vector<double>& x = skin_.outline().x;
+    hello.interfaces.push_back({.name = spec_.name, .dimension = 2, .x = x, .n = skin_.normals(x)});
+  }
+  return hello;
+}
+
+TimeStepBid BeamParticipant::compute_time_step() const {
+  return {.dt = std::numeric_limits<double>::infinity(), .reason = "a beam is integrated implicitly"};
+}
+
+void BeamParticipant::fill(std::size_t /*k*/, wire::PredictedInterface& predicted) const {
+  predicted.x = skin_.positions(motion_);
+  predicted.v = skin_.velocities(motion_);
+  predicted.fixed = skin_.freedom();
+  predicted.modal = {.modes = static_cast<std::int32_t>(motion_.modes()),
+                     .S = {},
+                     .g = std::vector<double>(static_cast<std::size_t>(motion_.modes())),
+                     .N = wire::entries_of(skin_.mode_vectors(motion_, skin_.normals(predicted.x))),
+                     .q_dot = numbers(motion_.q_dot())};
+  if (dt_ == 0) return;
+  const Response response = motion_.response();
+  predicted.modal.S = wire::lower_entries_of(response.S);
+  predicted.modal.g = numbers(response.g);
+}
+
+void BeamParticipant::apply_bcs(double /*t*/, ProjectedStates projected) {
+  if (projected.empty()) return;  // the prediction is the motion
+  const wire::ProjectedInterface& answer = *projected.front();
+  if (dt_ > 0) motion_.correct(Eigen::Map<const Eigen::VectorXd>(answer.q_dot.data(), motion_.modes()));
+  const std::vector<double> x = skin_.positions(motion_);
+  std::vector<NormalSide> gas;
+  for (std::size_t k = 0; k < skin_.points(); ++k)
+    gas.push_back({.z = answer.z_f[k], .v_n = answer.v_n[k], .w_n = answer.w_n[k]});
+  gas_ = modal_load(skin_.mode_vectors(motion_, answer.n), gas, point_lengths(x));
+  load_ = rigid::load_of_gas(x, answer.n, answer.w_n, answer.v_n);
+  impulse_.add(load_, dt_);
+}
+
+/// Any number of substeps is one.
+void BeamParticipant::advance(double t, double dt, int /*substeps*/, ProjectedStates /*projected*/) {
+  dt_ = dt;
+  motion_.advance(dt, own_load(t + dt), gas_ ? &*gas_ : nullptr);
+}
+
+std::array<double, 12> BeamParticipant::values_at(const Attached& point, const Vec2& x_bar) const {
+  const BeamModel& model = motion_.model();
+  const int element = std::min(static_cast<int>(point.s), model.elements() - 1);
+  const Resultants force = model.resultants(motion_.u(), element);
+  const PointState at = state_of(motion_, point);
+  const double angle = model.angle(element), y = Vec2(-std::sin(angle), std::cos(angle)).dot(point.r);
+  const Mat2 P = nominal_stress(model.section(element), force, y, angle, at.theta);
+  const Vec2 u = at.x - x_bar;
+  return {u[0],    u[1],    at.v[0],  at.v[1], P(0, 0), P(0, 1),
+          P(1, 0), P(1, 1), at.theta, force.N, force.Q, force.M};
+}
+
+io::GridOutput BeamParticipant::fields() {
+  for (int i = 0; i < reference_.layout().n1; ++i) {
+    const Attached& place = skin_.place(static_cast<std::size_t>(i));
+    Attached foot = place;
+    foot.r *= beside;
+    for (const auto& [j, point] : {std::pair{0, place}, std::pair{1, foot}}) {
+      const auto values = values_at(point, {reference_(0, i, j), reference_(1, i, j)});
+      for (std::size_t k = 0; k < values.size(); ++k) state_(static_cast<int>(k), i, j) = values[k];
+    }
+  }
+  std::vector<io::NamedPlane> planes;
+  for (std::size_t k = 0; k < quantities.size(); ++k)
+    planes.push_back({quantities[k], state_.view(), static_cast<int>(k)});
+  return {.grid = "beam", .x = reference_.view(), .u = state_.view(), .fields = std::move(planes)};
+}
+
+void BeamParticipant::write_fields(double t, std::uint64_t step) {
+  const io::GridOutput grids[] = {fields()};
+  fields_.write(t, step, grids);
+}
+
+/// The beam as it is: predicted where the others broke.
+void BeamParticipant::write_last_state(double t, std::uint64_t step) {
+  const io::GridOutput grids[] = {fields()};
+  fields_.write_apart("last_state", t, step, grids);
+}
+
+void BeamParticipant::archive(Archive& archive) {
+  archive.inside("motion", [&] { motion_.archive(archive); });
+  archive.inside("load", [&] { load_.archive(archive); });
+  archive.inside("impulse", [&] { impulse_.archive(archive); });
+  archive.number("dt", dt_);
+  archive.inside("fields", [&] { fields_.archive(archive); });
+  archive.inside("forces", [&] { forces_->archive(archive); });
+  archive.inside("energies", [&] { energies_->archive(archive); });
+  if (probe_table_) archive.inside("probes", [&] { probe_table_->archive(archive); });
+}
+
+void BeamParticipant::write_tables(double t, double /*dt*/, ProjectedStates /*projected*/) {
+  const BeamModel& model = motion_.model();
+  double mass = 0, angle = 0;
+  Vec2 centre = Vec2::Zero();
+  for (int node = 0; node < model.nodes(); ++node) {
+    const double part = model.mass()[freedom_of(node)];
+    mass += part;
+    centre +=
+        part * (model.line().x[static_cast<std::size_t>(node)] + motion_.u().segment<2>(freedom_of(node)));
+    angle += part * motion_.u()[3 * node + 2];
+  }
+  centre /= mass;
+  const Vec2 v = motion_.momentum() / mass;
+  forces_->row({t, load_.force[0], load_.force[1], load_.moment, load_.power, centre[0], centre[1], v[0],
+                v[1], angle / mass});
+  energies_->row({t, motion_.kinetic_energy(), model.strain_energy(motion_.u()), impulse_.sum().power});
+  if (!probe_table_) return;
+  std::vector<double> row{t};
+  for (std::size_t k = 0; k < probes_.size(); ++k) {
+    const auto values = values_at(probes_[k], probe_places_[k]);
+    row.insert(row.end(), values.begin(), values.end());
+  }
+  probe_table_->row(row);
+}
+
+void BeamParticipant::report(double /*t*/, io::Part& part) const {
+  const Totals now = totals();
+  const rigid::GasLoad& impulse = impulse_.sum();
+  part.health["min_det_F"] = 1;
+  part.conservation = {{"mass", 0},
+                       {"energy", now.energy - initial_.energy},
+                       {"energy_initial", initial_.energy},
+                       {"momentum1", now.momentum[0] - initial_.momentum[0]},
+                       {"momentum2", now.momentum[1] - initial_.momentum[1]},
+                       {"angular_momentum", now.angular_momentum - initial_.angular_momentum},
+                       {"angular_momentum_initial", initial_.angular_momentum},
+                       {"impulse1", impulse.force[0]},
+                       {"impulse2", impulse.force[1]},
+                       {"angular_impulse", impulse.moment},
+                       {"work", impulse.power}};
+  if (!is_surrounded(spec_)) return;
+  part.conservation["momentum1_defect"] = part.conservation["momentum1"] - impulse.force[0];
+  part.conservation["momentum2_defect"] = part.conservation["momentum2"] - impulse.force[1];
+  part.conservation["energy_defect"] = part.conservation["energy"] - impulse.power;
+}
+
+BeamParticipant::Totals BeamParticipant::totals() const {
+  return {.momentum = motion_.momentum(),
+          .angular_momentum = motion_.angular_momentum(),
+          .energy = motion_.kinetic_energy() + motion_.model().strain_energy(motion_.u())};
+}
+
+/// The body force at the nodes, on the thickness of the elements beside them.
+Eigen::VectorXd BeamParticipant::own_load(double t) const {
+  const BeamModel& model = motion_.model();
+  Eigen::VectorXd load = Eigen::VectorXd::Zero(model.freedoms());
+  if (!spec_.body_force) return load;
+  for (int node = 0; node < model.nodes(); ++node) {
+    const Vec2& x = model.line().x[static_cast<std::size_t>(node)];
+    const Vec2 force(spec_.body_force->c1(x[0], x[1], t), spec_.body_force->c2(x[0], x[1], t));
+    load.segment<2>(freedom_of(node)) = model.mass()[freedom_of(node)] / spec_.rho * force;
+  }
+  return load;
+}
+
+void BeamParticipant::open_tables() {
+  forces_.emplace(setup_.run_dir + "/forces_" + spec_.name + ".csv",
+                  std::vector<std::string>{"t [time]", "force1 [force/depth]", "force2 [force/depth]",
+                                           "moment [force*length/depth]", "power [power/depth]",
+                                           "centre1 [length]", "centre2 [length]", "velocity1 [length/time]",
+                                           "velocity2 [length/time]", "angle [rad]"},
+                  setup_.opening());
+  energies_.emplace(setup_.run_dir + "/energies_" + spec_.name + ".csv",
+                    std::vector<std::string>{"t [time]", "kinetic [energy/depth]", "strain [energy/depth]",
+                                             "work [energy/depth]"},
+                    setup_.opening());
+  std::vector<std::string> columns{"t [time]"};
+  for (const ProbeSpec& probe : setup_.problem.output.probes) {
+    if (probe.in != spec_.name) continue;
+    probe_places_.emplace_back(probe.x, probe.y);
+    probes_.push_back(attach(motion_.model().line(), probe_places_.back()));
+    for (const char* quantity : quantities) columns.push_back(fmt::format("{}.{}", probe.name, quantity));
+  }
+  if (!probes_.empty())
+    probe_table_.emplace(setup_.run_dir + "/parts/probes_" + spec_.name + ".csv", columns, setup_.opening());
+}
+
+void BeamParticipant::place_grid() {
+  const std::vector<double>& x = skin_.outline().x;
+  const auto n = static_cast<int>(skin_.points());
+  reference_ = Field(Layout(n, 2), 2);
+  state_ = Field(Layout(n, 2), static_cast<int>(quantities.size()));
+  for (int i = 0; i < n; ++i) {
+    for (int c = 0; c < 2; ++c) {
+      const double on_outline = x[static_cast<std::size_t>(c * n + i)];
+      reference_(c, i, 0) = on_outline;
+      reference_(c, i, 1) = on_outline - (1 - beside) * skin_.place(static_cast<std::size_t>(i)).r[c];
+    }
+  }
+}
+
+}  // namespace fsi::beam

@@ -1,0 +1,66 @@
+#pragma once
+/// The beam's port: a case file turned into a BeamMotion with its outline, its state turned into messages and
+/// files.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "common/core/field.hpp"
+#include "common/io/csv_writer.hpp"
+#include "common/io/grid_writer.hpp"
+#include "common/program/participant.hpp"
+#include "solid_solver/beam/from_case.hpp"
+#include "solid_solver/rigid/load.hpp"
+
+namespace fsi::beam {
+
+class BeamParticipant final : public Participant {
+ public:
+  BeamParticipant(const Setup& setup, const SolidSpec& spec);
+
+  wire::Hello hello() const override;
+  TimeStepBid compute_time_step() const override;
+  void fill(std::size_t k, wire::PredictedInterface& predicted) const override;
+  void apply_bcs(double t, ProjectedStates projected) override;
+  void advance(double t, double dt, int substeps, ProjectedStates projected) override;
+  void write_fields(double t, std::uint64_t step) override;
+  void write_tables(double t, double dt, ProjectedStates projected) override;
+  void write_last_state(double t, std::uint64_t step) override;
+  void archive(Archive& archive) override;
+  void report(double t, io::Part& part) const override;
+
+ private:
+  const Setup& setup_;
+  const SolidSpec& spec_;
+  BeamFromCase from_case_;
+  BeamMotion& motion_;
+  const Skin& skin_;
+  io::GridWriter fields_;
+  std::optional<io::CsvWriter> forces_, probe_table_, energies_;
+  std::vector<Attached> probes_;
+  std::vector<Vec2> probe_places_;  ///< reference positions
+  Field reference_, state_;  ///< two lines of points: the outline, and a line just beside the centre line
+  std::optional<ModalLoad> gas_;  ///< what the gas answered last
+  rigid::GasLoad load_;
+  rigid::Impulse impulse_;
+  double dt_ = 0;  ///< of the step going on; 0 before the first
+
+  struct Totals {
+    Vec2 momentum;
+    double angular_momentum, energy;
+  };
+  Totals initial_;
+
+  Totals totals() const;
+  io::GridOutput fields();
+  /// The values of `quantities` at a point of the beam.
+  std::array<double, 12> values_at(const Attached& point, const Vec2& x_bar) const;
+  Eigen::VectorXd own_load(double t) const;
+  void open_tables();
+  void place_grid();
+};
+
+}  // namespace fsi::beam

@@ -1,0 +1,69 @@
+#pragma once
+/// The outline of a beam: where the gas meets it.
+///
+///     o---o---o---o---o   outline        x = c(s) + Lambda(s) r
+///     |   |   |   |   |                  v = c'(s) + theta'(s) e_z x Lambda(s) r
+///     +---+---+---+---+   centre line    s, r: of each point of the outline, found at rest
+///
+/// Between the nodes the centre line and the rotation are the cubic through four of them, so that the outline
+/// has no corners at the nodes. A load on the outline acts on the degrees of freedom by the transpose: force
+/// and power are the same on both.
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "common/core/types.hpp"
+#include "solid_solver/beam/motion.hpp"
+#include "solid_solver/rigid/body.hpp"
+
+namespace fsi::beam {
+
+/// A point that moves with a section of the beam.
+struct Attached {
+  std::array<int, 4> node{};       ///< around the section
+  std::array<double, 4> weight{};  ///< of their values at the section
+  Vec2 r = Vec2::Zero();           ///< from the centre line, at rest
+  double s = 0;                    ///< place on the line, in elements
+};
+
+/// The section nearest to a point. @param line four nodes or more
+Attached attach(const Line& line, const Vec2& x);
+
+struct PointState {
+  Vec2 x, v;
+  double theta = 0;
+};
+
+/// Where an attached point is, and how fast.
+PointState state_of(const BeamMotion& beam, const Attached& point);
+
+class Skin {
+ public:
+  Skin(const Line& line, rigid::Outline outline, const std::array<End, 2>& ends);
+
+  const rigid::Outline& outline() const { return outline_; }
+  std::size_t points() const { return places_.size(); }
+  const Attached& place(std::size_t k) const { return places_[k]; }
+  std::vector<double> positions(const BeamMotion& beam) const;
+  std::vector<double> velocities(const BeamMotion& beam) const;
+  /// Outward unit normals of the outline at these positions. An end whose section cannot turn keeps that of
+  /// rest.
+  std::vector<double> normals(const std::vector<double>& x) const;
+  /// Marks of such ends, as in wire::Freedom.
+  std::vector<std::uint8_t> freedom() const;
+  /// N, modes x points: normal velocity of every point for every free motion of the beam.
+  Eigen::SparseMatrix<double> mode_vectors(const BeamMotion& beam, const std::vector<double>& normals) const;
+
+ private:
+  rigid::Outline outline_;
+  std::vector<Attached> places_;
+  std::array<bool, 2> upright_{false,
+                               false};  ///< the first and the last point belong to a section that cannot turn
+  std::vector<double> n_at_rest_;
+};
+
+}  // namespace fsi::beam

@@ -1,0 +1,75 @@
+// Growth of noise in a strained body over ten thousand steps, for all combinations of the three betas, cells
+// of three shapes, three laws and states: `bin/noise_of_solids [steps]`. One line per law, state, shape
+// and surroundings: the largest growth over all betas, and where it was.
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+
+#include "tests/convergence/solid/noise_growth.hpp"
+
+namespace {
+
+using namespace fsi::solid;
+using test::NoiseCase;
+
+struct Worst {
+  double growth = 0;
+  NoiseCase at;
+  int growing = 0, runs = 0;
+};
+
+template <class L>
+Worst worst_of_betas(NoiseCase noise, int steps) {
+  Worst worst;
+  for (const double P : {0.0, 0.1, 0.5, 1.0}) {
+    for (const double u : {0.0, 0.1, 0.5, 1.0}) {
+      for (const double r : {0.0, 0.2, 0.5, 0.9}) {
+        noise.beta_P = P;
+        noise.beta_u = u;
+        noise.beta_r = r;
+        const double growth = test::growth_of_noise<L>(noise, steps);
+        ++worst.runs;
+        if (growth > 1.5) ++worst.growing;
+        if (growth <= worst.growth) continue;
+        worst.growth = growth;
+        worst.at = noise;
+      }
+    }
+  }
+  return worst;
+}
+
+template <class L>
+void campaign(int steps) {
+  struct State {
+    const char* name;
+    Tensor2 F;
+  };
+  for (const State& state : {State{"at rest", {1, 0, 0, 1}}, State{"stretched by 1.3", {1.3, 0, 0, 1}},
+                             State{"sheared by 0.4", {1, 0.4, 0, 1}}}) {
+    for (const double aspect : {1.0, 4.0, 8.0}) {
+      for (const bool free : {false, true}) {
+        const Worst worst =
+            worst_of_betas<L>({.F = state.F, .aspect = aspect, .loaded = {false, free, free, free}}, steps);
+        fmt::print("| {} | {} | 1:{:g} | {} | {} of {} | {:.2g} | {:g}, {:g}, {:g} |\n", L::name, state.name,
+                   aspect, free ? "one held" : "held", worst.growing, worst.runs, worst.growth,
+                   worst.at.beta_P, worst.at.beta_u, worst.at.beta_r);
+        std::fflush(stdout);
+      }
+    }
+  }
+}
+
+}  // namespace
+
+int main(int count, char** words) {
+  const int steps = count > 1 ? std::atoi(words[1]) : 10000;
+  fmt::print(
+      "| law | state | cells | sides | growing | largest growth | at beta_P, beta_u, beta_r "
+      "|\n|---|---|---|---|---|---|---|\n");
+  campaign<LinearElastic>(steps);
+  campaign<SaintVenantKirchhoff>(steps);
+  campaign<NeoHookean>(steps);
+  return 0;
+}

@@ -1,0 +1,73 @@
+// Round-off does not grow: neither relaxation nor tangential dissipation makes waves unstable on cells of any
+// aspect ratio.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "tests/convergence/solid/noise_growth.hpp"
+
+namespace fsi::solid {
+namespace {
+
+using test::NoiseCase;
+
+constexpr Tensor2 at_rest = {1, 0, 0, 1}, stretched = {1.3, 0, 0, 1}, sheared = {1, 0.4, 0, 1};
+
+template <class L>
+class RoundOffNoise : public testing::Test {};
+using Laws = testing::Types<LinearElastic, SaintVenantKirchhoff, NeoHookean>;
+TYPED_TEST_SUITE(RoundOffNoise, Laws);
+
+struct Betas {
+  double P, u, r;
+};
+
+/// Those of the shipped cases, and ends of the range.
+constexpr Betas betas[] = {{0.1, 0.1, 0.5}, {0.5, 0.5, 0.2}, {0, 0, 1}, {0.5, 1, 0.5}};
+
+std::string name(const NoiseCase& noise) {
+  return fmt::format("F = {}, {}, {}, {}, cells 1:{}, beta {}, {}, {}", noise.F.a11, noise.F.a12, noise.F.a21,
+                     noise.F.a22, noise.aspect, noise.beta_P, noise.beta_u, noise.beta_r);
+}
+
+/// Ten thousand steps with each shape of cell and each set of betas, all sides held.
+template <class L>
+void expect_no_growth(const Tensor2& F) {
+  for (const double aspect : {1.0, 4.0, 8.0}) {
+    for (const Betas& beta : betas) {
+      const NoiseCase noise = {
+          .F = F, .aspect = aspect, .beta_P = beta.P, .beta_u = beta.u, .beta_r = beta.r};
+      EXPECT_LT(test::growth_of_noise<L>(noise, 10000), 1.0) << name(noise);
+    }
+  }
+}
+
+TYPED_TEST(RoundOffNoise, DoesNotGrowAtRestEq37Eq41Eq45) {
+  expect_no_growth<TypeParam>(at_rest);
+}
+
+TYPED_TEST(RoundOffNoise, DoesNotGrowInAStretchedBody) {
+  expect_no_growth<TypeParam>(stretched);
+}
+
+TYPED_TEST(RoundOffNoise, DoesNotGrowInAShearedBody) {
+  expect_no_growth<TypeParam>(sheared);
+}
+
+TYPED_TEST(RoundOffNoise, DoesNotGrowBesideLoadedSidesEq43) {
+  for (const double aspect : {1.0, 4.0}) {
+    for (const Betas& beta : {betas[0], betas[1]}) {
+      const NoiseCase noise = {.aspect = aspect,
+                               .beta_P = beta.P,
+                               .beta_u = beta.u,
+                               .beta_r = beta.r,
+                               .loaded = {false, true, true, true}};
+      EXPECT_LT(test::growth_of_noise<TypeParam>(noise, 10000), 1.0) << name(noise);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace fsi::solid

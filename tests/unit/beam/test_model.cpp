@@ -1,0 +1,205 @@
+/// The mechanics of a beam at rest and its small vibrations.
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "beams.hpp"
+
+namespace fsi::beam {
+namespace {
+
+using namespace testing;
+
+constexpr std::array cantilever{End::clamped, End::free}, hinged{End::pinned, End::pinned};
+constexpr std::array loose{End::free, End::free};
+
+/// Some state far from rest.
+Eigen::VectorXd bent(const BeamModel& model) {
+  Eigen::VectorXd u(model.freedoms());
+  for (Eigen::Index k = 0; k < u.size(); ++k) u[k] = 0.2 * std::sin(1.7 * static_cast<double>(k) + 0.3);
+  return u;
+}
+
+const Section thick{.EA = 3, .GA = 1.1, .EI = 0.2, .mass = 1, .inertia = 0.05};
+
+TEST(BeamModel, ItsForceIsTheGradientOfItsEnergyAndItsStiffnessThatOfItsForce) {
+  for (const BeamModel& model : {straight(thick, 4), ring(thick, 0.7, 5)}) {
+    const Eigen::VectorXd u = bent(model), force = model.internal_force(u);
+    const Eigen::MatrixXd K(model.stiffness(u));
+    constexpr double step = 1e-5;
+    for (Eigen::Index k = 0; k < u.size(); ++k) {
+      Eigen::VectorXd up = u, down = u;
+      up[k] += step;
+      down[k] -= step;
+      EXPECT_NEAR(force[k], -(model.strain_energy(up) - model.strain_energy(down)) / (2 * step), 1e-8);
+      const Eigen::VectorXd column = (model.internal_force(down) - model.internal_force(up)) / (2 * step);
+      EXPECT_LE((K.col(k) - column).norm(), 1e-7);
+    }
+    EXPECT_LE((K - K.transpose()).norm(), 1e-14);
+  }
+}
+
+TEST(BeamModel, ATurnOfTheWholeStrainsNothing) {
+  for (const BeamModel& model : {straight(thick, 4), ring(thick, 0.7, 5)}) {
+    constexpr double angle = 2.1;
+    Eigen::VectorXd u(model.freedoms());
+    for (int node = 0; node < model.nodes(); ++node) {
+      const Vec2 x = model.line().x[static_cast<std::size_t>(node)];
+      const Vec2 turned(std::cos(angle) * x.x() - std::sin(angle) * x.y() + 3,
+                        std::sin(angle) * x.x() + std::cos(angle) * x.y());
+      u.segment<2>(freedom_of(node)) = turned - x;
+      u[3 * node + 2] = angle;
+    }
+    EXPECT_LE(model.strain_energy(u), 1e-28);
+    EXPECT_LE(model.internal_force(u).norm(), 1e-13);
+  }
+}
+
+TEST(BeamModel, ACantileverUnderASmallLoadHasTheDeflectionOfTimoshenkoWithAnyNumberOfElements) {
+  for (const int elements : {1, 2, 7}) {
+    Section massless = thick;
+    massless.mass = massless.inertia = 0;
+    const BeamModel model = straight(massless, elements);
+    constexpr double load = 1e-7;
+    const BeamMotion tip = at_rest(model, cantilever, on_tip(model, 1, load));
+    const double exact = load * (1 / (3 * thick.EI) + 1 / thick.GA);
+    EXPECT_NEAR(tip.u()[model.freedoms() - 2] / exact, 1, 1e-9);
+  }
+}
+
+/// Tip of the elastica of length and bending stiffness 1 under an end load P across it, by shooting with fine
+/// Runge-Kutta steps: theta'' = -P cos(theta), theta(0) = 0, theta'(1) = 0.
+Vec2 elastica_tip(double P) {
+  const auto shoot = [&](double kappa, Vec2& tip) {
+    constexpr int steps = 4000;
+    constexpr double h = 1.0 / steps;
+    double theta = 0, rate = kappa;
+    tip.setZero();
+    for (int k = 0; k < steps; ++k) {
+      const double a = -P * std::cos(theta);
+      const double theta_mid = theta + h / 2 * rate + h * h / 8 * a, b = -P * std::cos(theta_mid);
+      const double theta_end = theta + h * rate + h * h / 2 * b, c = -P * std::cos(theta_end);
+      tip += h / 6 *
+             (Vec2(std::cos(theta), std::sin(theta)) + 4 * Vec2(std::cos(theta_mid), std::sin(theta_mid)) +
+              Vec2(std::cos(theta_end), std::sin(theta_end)));
+      theta += h * rate + h * h / 6 * (a + 2 * b);
+      rate += h / 6 * (a + 4 * b + c);
+    }
+    return rate;
+  };
+  double low = 0, high = P;
+  Vec2 tip;
+  for (int k = 0; k < 60; ++k) {
+    const double middle = 0.5 * (low + high);
+    (shoot(middle, tip) > 0 ? high : low) = middle;
+  }
+  return tip;
+}
+
+TEST(BeamModel, ACantileverBentFarIsTheElastica) {
+  const Vec2 exact = elastica_tip(10);
+  EXPECT_NEAR(1 - exact.x(), 0.55500, 1e-5);  // Mattiasson's table (1981)
+  EXPECT_NEAR(exact.y(), 0.81061, 1e-5);
+  const auto error = [&](int elements) {
+    const BeamModel model = straight(slender(), elements);
+    const BeamMotion tip = at_rest(model, cantilever, on_tip(model, 1, 10), 20);
+    return (Vec2(1, 0) + tip.u().segment<2>(model.freedoms() - 3) - exact).norm();
+  };
+  EXPECT_LE(error(40), 1e-4);
+  EXPECT_GE(std::log2(error(20) / error(40)), 1.9);
+}
+
+TEST(BeamModel, AnEndMomentRollsItUpToACircle) {
+  const BeamModel model = straight(slender(), 20);
+  const BeamMotion rolled = at_rest(model, cantilever, on_tip(model, 2, 2 * pi), 20);
+  EXPECT_LE((Vec2(1, 0) + rolled.u().segment<2>(model.freedoms() - 3)).norm(), 1e-6);  // strains of 1e-8
+  EXPECT_NEAR(rolled.u()[model.freedoms() - 1], 2 * pi, 1e-6);
+  const Resultants middle = model.resultants(rolled.u(), 10);
+  EXPECT_NEAR(middle.M, 2 * pi, 1e-6);
+  EXPECT_NEAR(middle.Q, 0, 1e-6);
+}
+
+/// Angular frequencies in ascending order, from the stiffness at u.
+Eigen::VectorXd frequencies(const BeamModel& model, const std::array<End, 2>& ends) {
+  const Eigen::SparseMatrix<double> B = free_motions(model.line(), ends);
+  const Eigen::MatrixXd K(B.transpose() * model.stiffness(Eigen::VectorXd::Zero(model.freedoms())) * B);
+  const Eigen::MatrixXd M = B.transpose() * model.mass().asDiagonal() * B;
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(K, M, Eigen::EigenvaluesOnly);
+  return modes.eigenvalues().cwiseMax(0).cwiseSqrt();
+}
+
+TEST(BeamModel, AHingedBeamHasTheFrequenciesOfTimoshenko) {
+  const Section section = plate_section(1.3, 2, 1, 0.1);
+  const auto exact = [&](int n) {  // slower root of the frequency equation
+    const double k = n * pi, a = section.mass * section.inertia / section.GA;
+    const double b = section.mass + (section.inertia + section.mass * section.EI / section.GA) * k * k;
+    return std::sqrt((b - std::sqrt(b * b - 4 * a * section.EI * std::pow(k, 4))) / (2 * a));
+  };
+  const auto error = [&](int elements, int n) {
+    const Eigen::VectorXd found = frequencies(straight(section, elements), hinged);
+    return (found.array() / exact(n) - 1).abs().minCoeff();
+  };
+  for (const int n : {1, 2, 3}) EXPECT_LE(error(60, n), 1e-3) << "mode " << n;
+  EXPECT_GE(std::log2(error(30, 3) / error(60, 3)), 1.9);
+}
+
+TEST(BeamModel, AThinCantileverHasTheFrequenciesOfEulerAndBernoulli) {
+  Section section = slender(0.7);
+  section.inertia = 1e-9;
+  const Eigen::VectorXd found = frequencies(straight(section, 60), cantilever);
+  const double unit = std::sqrt(section.EI / section.mass);
+  EXPECT_NEAR(found[0] / (std::pow(1.8751041, 2) * unit), 1, 1e-3);
+  EXPECT_NEAR(found[1] / (std::pow(4.6940911, 2) * unit), 1, 1e-3);
+}
+
+TEST(BeamModel, ARingHasThreeRigidMotionsAndItsFrequenciesOfBending) {
+  const Section section{.EA = 1e6, .GA = 1e6, .EI = 1, .mass = 0.7, .inertia = 1e-6};
+  constexpr double R = 0.8;
+  const Eigen::VectorXd found = frequencies(ring(section, R, 80), loose);
+  const auto exact = [&](double n) {  // without stretch, A. E. H. Love
+    return n * (n * n - 1) / std::sqrt(n * n + 1) * std::sqrt(section.EI / section.mass) / (R * R);
+  };
+  EXPECT_LE(found[2], 1e-3 * exact(2));
+  for (const int k : {3, 4}) EXPECT_NEAR(found[k] / exact(2), 1, 2e-3);
+  for (const int k : {5, 6}) EXPECT_NEAR(found[k] / exact(3), 1, 5e-3);
+}
+
+TEST(BeamModel, ARingUnderPressureBecomesSmallerByItsHoopStrain) {
+  constexpr double R = 0.8, p = 1e-5;
+  const BeamModel model = ring(thick, R, 64);
+  std::vector<Vec2> push;
+  for (const Vec2& x : model.line().x) push.emplace_back(-p * x.normalized());
+  // Rigid motions are free: a little mass holds them.
+  Section heavy = thick;
+  heavy.mass = 1e-6;
+  const BeamModel with_mass = ring(heavy, R, 64);
+  const BeamMotion pressed = at_rest(with_mass, loose, model.nodal_load(push));
+  for (int node = 0; node < 64; ++node) {
+    const Vec2 out = model.line().x[static_cast<std::size_t>(node)].normalized();
+    EXPECT_NEAR(out.dot(pressed.u().segment<2>(freedom_of(node))) / (-p * R * R / thick.EA), 1, 2e-3);
+  }
+  EXPECT_NEAR(model.resultants(pressed.u(), 5).N / (-p * R), 1, 2e-3);
+}
+
+/// Smallest stiffness of a beam under an axial load.
+double smallest_stiffness(double load, const std::array<End, 2>& ends) {
+  const BeamModel model = straight(slender(), 60);
+  const BeamMotion pressed = at_rest(model, cantilever, on_tip(model, 0, -load));  // stays straight
+  const Eigen::SparseMatrix<double> B = free_motions(model.line(), ends);
+  const Eigen::MatrixXd K(B.transpose() * model.stiffness(pressed.u()) * B);
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(K, Eigen::EigenvaluesOnly).eigenvalues()[0];
+}
+
+TEST(BeamModel, ItBucklesUnderEulersLoad) {
+  for (const auto& [ends, critical] : {std::pair{cantilever, pi * pi / 4}, std::pair{hinged, pi * pi}}) {
+    EXPECT_GT(smallest_stiffness(0.998 * critical, ends), 0);
+    EXPECT_LT(smallest_stiffness(1.002 * critical, ends), 0);
+  }
+}
+
+}  // namespace
+}  // namespace fsi::beam

@@ -1,0 +1,117 @@
+/// The outline of a beam.
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "beams.hpp"
+#include "common/grid/shapes/smoothed_polygon.hpp"
+#include "solid_solver/beam/skin.hpp"
+
+namespace fsi::beam {
+namespace {
+
+using namespace testing;
+
+constexpr std::array cantilever{End::clamped, End::free}, loose{End::free, End::free};
+const Section soft{.EA = 3, .GA = 1, .EI = 0.02, .mass = 0.5, .inertia = 0.01};
+
+/// A slab with rounded ends around the line.
+rigid::Outline slab() {
+  const grid::SmoothedPolygon polygon{.corners = {{-0.05, -0.05}, {1.05, -0.05}, {1.05, 0.05}, {-0.05, 0.05}},
+                                      .ends = grid::Curve::closed};
+  return {.x = grid::points_on(grid::smoothed_polygon(polygon), 121)};
+}
+
+/// Bent far, and on its way.
+BeamMotion bent(const std::array<End, 2>& ends) {
+  BeamMotion motion(straight(soft, 12), ends);
+  for (int k = 0; k < 6; ++k) motion.advance(0.2, on_tip(motion.model(), 1, 0.05), nullptr);
+  EXPECT_GT(std::abs(motion.u()[motion.model().freedoms() - 1]), 0.2);
+  return motion;
+}
+
+TEST(BeamSkin, AtRestItIsTheOutlineGiven) {
+  const BeamMotion motion(straight(soft, 12), loose);
+  const Skin skin(motion.model().line(), slab(), loose);
+  const std::vector<double> x = skin.positions(motion);
+  for (std::size_t k = 0; k < x.size(); ++k) EXPECT_NEAR(x[k], skin.outline().x[k], 1e-15);
+}
+
+TEST(BeamSkin, ItsModeVectorsGiveTheNormalVelocityOfItsPoints) {
+  for (const auto& ends : {cantilever, loose}) {
+    const BeamMotion motion = bent(ends);
+    const Skin skin(motion.model().line(), slab(), ends);
+    const std::vector<double> x = skin.positions(motion), v = skin.velocities(motion), n = skin.normals(x);
+    const Eigen::VectorXd v_n = skin.mode_vectors(motion, n).transpose() * motion.q_dot();
+    const std::size_t points = skin.points();
+    for (std::size_t k = 0; k < points; ++k)
+      EXPECT_NEAR(v_n[static_cast<Eigen::Index>(k)], n[k] * v[k] + n[points + k] * v[points + k], 1e-14);
+  }
+}
+
+TEST(BeamSkin, ItsVelocitiesAreThoseOfItsPositions) {
+  BeamMotion motion = bent(loose);
+  const Skin skin(motion.model().line(), slab(), loose);
+  const std::vector<double> v = skin.velocities(motion), before = skin.positions(motion);
+  constexpr double dt = 1e-5;
+  motion.advance(dt, Eigen::VectorXd::Zero(motion.model().freedoms()), nullptr);
+  const std::vector<double> after = skin.positions(motion);
+  for (std::size_t k = 0; k < v.size(); ++k) EXPECT_NEAR((after[k] - before[k]) / dt, v[k], 2e-4);
+}
+
+TEST(BeamSkin, APressureActsWithItsForceAndItsMoment) {
+  const BeamMotion motion = bent(loose);
+  const Skin skin(motion.model().line(), slab(), loose);
+  const std::vector<double> x = skin.positions(motion), n = skin.normals(x);
+  const Eigen::SparseMatrix<double> N = skin.mode_vectors(motion, n);
+  Eigen::VectorXd pull(N.cols());
+  Eigen::Vector3d exact = Eigen::Vector3d::Zero(), found = Eigen::Vector3d::Zero();
+  const std::size_t points = skin.points();
+  for (std::size_t k = 0; k < points; ++k) {
+    const double w = std::sin(0.1 * static_cast<double>(k));
+    pull[static_cast<Eigen::Index>(k)] = w;
+    exact += w * Eigen::Vector3d(n[k], n[points + k], x[k] * n[points + k] - x[points + k] * n[k]);
+  }
+  const Eigen::VectorXd f = motion.free_motions() * (N * pull);
+  for (int node = 0; node < motion.model().nodes(); ++node) {
+    const Vec2 at =
+        motion.model().line().x[static_cast<std::size_t>(node)] + motion.u().segment<2>(freedom_of(node));
+    const Vec2 force = f.segment<2>(freedom_of(node));
+    found += Eigen::Vector3d(force.x(), force.y(), at.x() * force.y() - at.y() * force.x() + f[3 * node + 2]);
+  }
+  EXPECT_LE((found - exact).head<2>().norm(), 1e-13);
+  // Cubics carry the turn of a bent line over to (l kappa)^4 or so.
+  EXPECT_LE(std::abs(found[2] - exact[2]), 1e-4);
+}
+
+TEST(BeamSkin, BetweenTheNodesItHasNoCorners) {
+  // The direction of a bent outline between points closer than the nodes, by fourth-order smoothness of the
+  // cubics.
+  const BeamMotion motion = bent(cantilever);
+  rigid::Outline line{.x = {}, .ends = grid::Curve::open};
+  constexpr std::size_t points = 97;
+  for (const double y : {0.0, 1.0}) {
+    for (std::size_t k = 0; k < points; ++k)
+      line.x.push_back(y > 0 ? 0.05 : static_cast<double>(k) / (points - 1));
+  }
+  const Skin skin(motion.model().line(), line, cantilever);
+  const std::vector<double> n = skin.normals(skin.positions(motion));
+  double largest = 0, total = 0;
+  for (std::size_t k = 1; k + 1 < points; ++k) {
+    const double turn = std::abs(n[k] * n[points + k + 1] - n[points + k] * n[k + 1]);
+    largest = std::max(largest, turn);
+    total += turn;
+  }
+  EXPECT_LE(largest,
+            4 * total / points);  // the clamp bends most; corners at 12 nodes would be 8 times the mean
+  EXPECT_EQ(skin.freedom().front(), 2);  // the clamped end keeps its normal
+  EXPECT_EQ(skin.freedom().back(), 0);
+}
+
+}  // namespace
+}  // namespace fsi::beam
