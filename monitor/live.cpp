@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cctype>
 #include <chrono>
 #include <fstream>
+#include <nlohmann/json.hpp>
+#include <thread>
 #include <utility>
 
 #include "common/bus/peer.hpp"
@@ -16,6 +19,30 @@ namespace {
 
 /// Time between two looks at the processes [s].
 constexpr double look_s = 0.25;
+
+/// The launcher writes its summary within this time after the last program has ended [s].
+constexpr double summary_s = 3;
+
+/// The launcher's record of a run that is over; null while there is none.
+nlohmann::json summary_in(const std::string& folder) {
+  std::ifstream file(folder + "/summary.json");
+  const auto summary = nlohmann::json::parse(file, nullptr, false);
+  return summary.is_object() ? summary : nlohmann::json();
+}
+
+/// What it says of a failure; none of a run that ended well.
+std::optional<wire::Abort> written_abort(const nlohmann::json& summary, const std::string& run) {
+  try {
+    if (summary.is_null() || summary.at("status") != "failed") return std::nullopt;
+    const auto failure = summary.value("failure", nlohmann::json::object());
+    return wire::Abort{.run = run,
+                       .from = failure.value("told_by", "launcher"),
+                       .exit_code = failure.value("exit_code", 0),
+                       .reason = failure.value("what", summary.at("reason").get<std::string>())};
+  } catch (const nlohmann::json::exception&) {  // of another version
+    return std::nullopt;
+  }
+}
 
 }  // namespace
 
@@ -41,6 +68,7 @@ void Live::listen(RunState& state, double seconds) {
   }
   state.count_programs(listener_.programs(), now());
   if (now() - looked_at_ > look_s) look_at_processes(state);
+  if (state.over()) learn_the_end(state);
   if (state.over() && recorder_) {
     recorder_->close();
     recorder_.reset();
@@ -48,8 +76,23 @@ void Live::listen(RunState& state, double seconds) {
 }
 
 bool Live::heard_everybody(const RunState& state) const {
-  const auto heard = static_cast<int>(state.programs().size());
-  return heard > 0 && heard >= listener_.programs();
+  const auto heard = state.programs().size();
+  const auto connected = static_cast<std::size_t>(listener_.programs());
+  return heard > 0 && heard >= std::max(connected, run_.participants.size());
+}
+
+void Live::learn_the_end(RunState& state) {
+  if (state.abort() || run_.dir.empty()) return;
+  const double start = now();
+  nlohmann::json summary = summary_in(run_.dir);
+  while (summary.is_null() && now() - start < summary_s) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    summary = summary_in(run_.dir);
+  }
+  const auto abort = written_abort(summary, run_.run);
+  if (!abort) return;
+  state.hear(*abort);
+  if (recorder_) recorder_->add(*abort, now());
 }
 
 void Live::look_at_processes(RunState& state) {

@@ -24,6 +24,8 @@ class Live : public Source {
 
  private:
   void look_at_processes(RunState& state);
+  /// Why a run is over whose Abort never came: its summary says so.
+  void learn_the_end(RunState& state);
 
   RunEntry run_;
   bus::Listener listener_;

@@ -55,7 +55,8 @@ std::optional<RunEntry> read_entry(const fs::path& path) {
                     .dir = entry.value("dir", ""),
                     .pid = entry.at("pid").get<int>(),
                     .born = entry.value("born", std::uint64_t{0}),
-                    .key = entry.value("key", "")};
+                    .key = entry.value("key", ""),
+                    .participants = entry.value("participants", std::vector<std::string>{})};
   } catch (const nlohmann::json::exception&) {
     return std::nullopt;
   }

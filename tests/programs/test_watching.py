@@ -82,7 +82,7 @@ class Watching(EndToEnd):
 
     def state(self, run):
         """What a script sees of it."""
-        return json.loads(self.outside(run, "monitor", str(run.directory), "--once", "--json"))
+        return json.loads(self.outside(run, "monitor", str(run.directory), "--once", "--json", "--wait", str(WATCHDOG)))
 
     def gas(self, run):
         return self.state(run)["participants"]["fluid"]
@@ -92,6 +92,7 @@ class Watching(EndToEnd):
         run.until_stepping()
         state = self.state(run)
         self.assertIn("elastic_piston", json.dumps(state))
+        self.assertEqual(set(state["participants"]), {"fluid", "solid", "coupler"})
         self.assertTrue(until(lambda: self.state(run)["steps_per_s"]))  # takes two pieces of news
         self.assertTrue(until(lambda: (self.gas(run)["bus"]["messages_per_s"] or 0) > 0))
         gas = self.gas(run)
@@ -202,6 +203,19 @@ class Watching(EndToEnd):
         screen.press("q")
         self.assertEqual(screen.end(), 0)
 
+    def test_end_that_nobody_was_left_to_tell_is_told_by_the_summary(self):
+        run = self.launch(*LONG, "--set", "time.peer_timeout=1800")
+        programs = run.until_stepping()
+        watcher = self.outside(run, "monitor", str(run.directory), "--plain", wait=False)
+        self.assertTrue(until(lambda: "status=running step=" in watcher.stdout.readline()))
+        for signum in (signal.SIGSTOP, signal.SIGKILL):  # none of them sees another one go
+            for pid in programs.values():
+                os.kill(pid, signum)
+        self.assertEqual(run.wait(), 4)
+        last = watcher.communicate(timeout=WATCHDOG)[0].splitlines()[-1]
+        self.assertIn("status=aborted", last)
+        self.assertRegex(last, 'reason=".*lost .* ended by SIGKILL')
+
     def test_recording_shows_the_run_again(self):
         run = self.launch(*LONG)
         run.until_stepping()
@@ -228,7 +242,7 @@ class Watching(EndToEnd):
             self.assertTrue(screen.until(words), words)
         screen.press("q")
         self.assertTrue(screen.until("the monitor has ended; the run goes on"))
-        self.assertTrue(screen.until("steps/s"))
+        self.assertTrue(screen.until("  step "))
         os.kill(screen.pid, signal.SIGTERM)
         self.assertEqual(screen.end(), 143)
         self.assertEqual(json.loads((folder / "summary.json").read_text(encoding="utf-8"))["status"], "failed")
