@@ -49,6 +49,11 @@ def _converge(options):
     return converge.main(options)
 
 
+def _study(options):
+    from fsi_launch import study
+    return study.main(options)
+
+
 def _test(options):
     from fsi_launch import testing
     return testing.main(options)
@@ -72,7 +77,7 @@ def _plot(options):
 def _monitor(options):
     """Becomes the monitor program."""
     words = [f"--{name}" for name in ("once", "json", "plain") if getattr(options, name)]
-    for name in ("record", "replay", "speed", "web", "host"):
+    for name in ("wait", "record", "replay", "speed", "web", "host"):
         if (value := getattr(options, name)) is not None:
             words += [f"--{name}", str(value)]
     return _become("monitor", *words, *([options.run] if options.run else []))
@@ -83,6 +88,21 @@ def _ctl(options):
     if len(run) > 1 or request not in REQUESTS:
         raise UserMistake(f"ctl: write [RUN] and one of {', '.join(REQUESTS)}")
     return _become("monitor", *run, "--send", request)
+
+
+def _docs(options):
+    from fsi_launch import site
+    return site.main(options)
+
+
+def _schema(_):
+    return _become("fsi_case", "schema")
+
+
+def _completion(_):
+    from fsi_launch import completion
+    print(completion.script(_parser()), end="")
+    return DONE
 
 
 def _become(name, *words):
@@ -101,6 +121,12 @@ def _levels(text):
 def _count(text):
     if not text.isdecimal():
         raise argparse.ArgumentTypeError(f"'{text}' is no number of steps")
+    return int(text)
+
+
+def _jobs(text):
+    if not text.isdecimal() or int(text) < 1:
+        raise argparse.ArgumentTypeError(f"'{text}' is no number of runs: 1 or more")
     return int(text)
 
 
@@ -158,6 +184,19 @@ def _parser():
     verb.add_argument("--out", metavar="DIR", help="folder of the runs and tables (default: runs/converge-CASE-TIME)")
     verb.set_defaults(act=_converge)
 
+    verb = verbs.add_parser("study", description="Runs a case with every combination of some of its values; prints a table and "
+                            "writes it as text, markdown, CSV, JSON and a picture. The same command again makes only the runs that "
+                            "are missing.")
+    _add_case(verb)
+    verb.add_argument("--vary", metavar="KEY=V,V,..", action="append", required=True, help="an entry of the case and its values, "
+                      "e.g. --vary parameters.rho_bar=0.01,0.1,1 (repeatable: all combinations)")
+    verb.add_argument("--show", type=_words, metavar="NAME,..", default=[], help="what the table shows: entries of summary.json like "
+                      "interface.max_gap, or TABLE.COLUMN[:last|min|max] like forces_disk.angle:max (default: the errors, or where "
+                      "the bodies are at the end)")
+    verb.add_argument("--jobs", type=_jobs, metavar="N", default=1, help="runs at the same time (default: 1)")
+    verb.add_argument("--out", metavar="DIR", help="folder of the runs and tables (default: runs/study-CASE-TIME)")
+    verb.set_defaults(act=_study)
+
     verb = verbs.add_parser("test", description="Builds everything and runs the tests: unit, programs, convergence, "
                             "regression.")
     verb.add_argument("--quick", action="store_true", help="unit tests only")
@@ -176,6 +215,7 @@ def _parser():
     verb.add_argument("--record", metavar="FILE", help="write everything that is heard to this HDF5 file")
     verb.add_argument("--replay", metavar="FILE", help="show such a recording instead of a run")
     verb.add_argument("--speed", metavar="X", type=float, help="of the replay: 2 is twice as fast")
+    verb.add_argument("--wait", metavar="S", type=float, help="longest wait of --once for the first word of everybody [s]")
     verb.set_defaults(act=_monitor)
 
     verb = verbs.add_parser("ctl", usage="fsi ctl [RUN] pause|resume|checkpoint|stop", description="Asks a run to pause, "
@@ -184,7 +224,7 @@ def _parser():
     verb.add_argument("words", metavar="[RUN] REQUEST", nargs="+", help=", ".join(REQUESTS))
     verb.set_defaults(act=_ctl)
 
-    verb = verbs.add_parser("plot", description="Draws the results of a run, or the table of fsi converge, as PNG "
+    verb = verbs.add_parser("plot", description="Draws the results of a run, or the table of fsi converge, as "
                             "pictures into DIR/plots. Of several runs it draws what can be compared.")
     verb.add_argument("directories", metavar="DIR", nargs="+", help="folder of a run or of fsi converge")
     verb.add_argument("--at", metavar="TIME", type=float, action="append", default=[], help="draw this output time alone; "
@@ -192,6 +232,7 @@ def _parser():
     verb.add_argument("--contours", action="store_true", help="contour lines over the fields")
     verb.add_argument("--movie", action="store_true", help="also an animated file, one frame per output (.mp4, .gif without "
                       "ffmpeg)")
+    verb.add_argument("--format", choices=("png", "pdf", "svg"), default="png", help="of the pictures (default: png)")
     verb.add_argument("--out", metavar="DIR", help="folder of the pictures (default: plots in the first DIR)")
     verb.set_defaults(act=_plot)
 
@@ -209,6 +250,17 @@ def _parser():
     verb.add_argument("--filter", metavar="REGEX", default="", help="only benchmarks whose name matches")
     verb.add_argument("--out", metavar="FILE", default="build/bench.json", help="JSON file (default: build/bench.json)")
     verb.set_defaults(act=_bench)
+
+    verb = verbs.add_parser("docs", description="Makes the pages of docs/ a site in build/site, and opens it.")
+    verb.add_argument("--no-open", dest="open", action="store_false", help="print only where it is")
+    verb.set_defaults(act=_docs)
+
+    verb = verbs.add_parser("schema", description="Prints the JSON Schema of case files, by which editors complete and check them.")
+    verb.set_defaults(act=_schema)
+
+    verb = verbs.add_parser("completion", description="Prints a script for bash that completes verbs, options and cases: "
+                            "source <(./launch/fsi completion)")
+    verb.set_defaults(act=_completion)
     return parser
 
 

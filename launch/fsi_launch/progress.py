@@ -6,6 +6,7 @@ import sys
 import time
 
 BAR = 24            # characters, at most
+SHORTEST_BAR = 8    # with fewer there is none
 LINE_EVERY = 5.0    # [s] between lines when the output is not a terminal
 DRAW_EVERY = 0.1    # [s] between two states of the bar
 WINDOW = 10.0       # [s] over which speed is measured
@@ -33,6 +34,15 @@ def clock(seconds):
     return f"{hours}:{m:02}:{s:02}" if hours else f"{m}:{s:02}"
 
 
+def fitting(words, width):
+    """The words that go into a line: [(rank, text)] in the order of the line; where they do not fit those of the highest rank are
+    left away first."""
+    words = list(words)
+    while len(words) > 1 and sum(len(text) + 2 for _, text in words) - 2 > width:
+        words.remove(max(words, key=lambda word: word[0]))
+    return [text for _, text in words]
+
+
 class Progress:
     """Shows the newest state on `out`; `enabled=False` keeps silent."""
 
@@ -42,7 +52,7 @@ class Progress:
         self._bar = self._out.isatty()
         self._state = None
         self._history = collections.deque()
-        self._drawn = time.monotonic()
+        self._began = self._drawn = time.monotonic()
         self._on_screen = False
 
     def hear(self, text):
@@ -73,27 +83,37 @@ class Progress:
         seconds = last - first
         return ((step1 - step0) / seconds, (t1 - t0) / seconds) if seconds > 0 else (0.0, 0.0)
 
-    def _text(self):
+    def _part(self):
         state = self._state
-        part = min(1.0, max(0.0, state["t"] / state["t_end"])) if state["t_end"] > 0 else 0.0
-        steps, rate = self._speed()
-        words = [f"{100 * part:3.0f} %", f"t {state['t']:.3g} of {state['t_end']:.3g}", f"dt {state['dt']:.1e}"]
-        if state["limit"]:
-            words[-1] += f" ({state['limit']})"
+        return min(1.0, max(0.0, state["t"] / state["t_end"])) if state["t_end"] > 0 else 0.0
+
+    def _words(self):
+        """(rank, text) of all there is to say; rank 0 is said on the narrowest terminal."""
+        state, (steps, rate) = self._state, self._speed()
+        words = [(0, f"{100 * self._part():3.0f} %"), (2, f"t {state['t']:.3g} of {state['t_end']:.3g}"), (3, f"step {state['step']}"),
+                 (5, f"dt {state['dt']:.1e}" + (f" ({state['limit']})" if state["limit"] else ""))]
         if rate > 0:
-            words += [f"{steps:.0f} steps/s", f"{clock((state['t_end'] - state['t']) / rate)} left"]
-        text = "  ".join(words)
-        if not self._bar:
-            return text
-        room = min(BAR, shutil.get_terminal_size().columns - len(text) - 5)  # brackets, spaces, a margin
-        full = round(room * part)
-        return f"[{'=' * full}{' ' * (room - full)}]  {text}" if room >= 4 else text
+            words.append((6, f"{steps:.0f} steps/s"))
+        words.append((4, clock(time.monotonic() - self._began)))
+        if rate > 0:
+            words.append((1, f"{clock((state['t_end'] - state['t']) / rate)} left"))
+        return words
+
+    def text(self, width):
+        """The line for a terminal of so many columns, with a bar; None: all words and no bar."""
+        if width is None:
+            return "  ".join(word for _, word in self._words())
+        text = "  ".join(fitting(self._words(), width - SHORTEST_BAR - 4))  # brackets and spaces
+        room = min(BAR, width - len(text) - 4)
+        if room < SHORTEST_BAR:
+            return text[:width]
+        full = round(room * self._part())
+        return f"[{'=' * full}{' ' * (room - full)}]  {text}"
 
     def _draw(self):
         if self._bar:
-            width = shutil.get_terminal_size().columns - 1
-            self._out.write("\r" + self._text()[:width] + "\033[K")
+            self._out.write("\r" + self.text(shutil.get_terminal_size().columns - 1) + "\033[K")
             self._on_screen = True
         else:
-            self._out.write(self._text() + "\n")
+            self._out.write(self.text(None) + "\n")
         self._out.flush()

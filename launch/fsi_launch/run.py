@@ -180,15 +180,20 @@ def _applicable(case, request, say):
     return [entry for entry in case.expect if not entry["quantity"].startswith("errors.")]
 
 
+def needed(case):
+    """The programs a run of this case takes, besides those of every run."""
+    others = [cases.REFERENCE_PROGRAMS.get(case.reference),
+              "fsi_credentials" if any("/" in program for program in case.programs.values()) else None]
+    return [*case.programs.values(), *filter(None, others)]
+
+
 def _resolved(request, path, former=None):
     """The checked Case, all of whose programs are there, built if need be."""
     case = cases.resolve(path, request.overrides, request.laws, former)
     if request.frames and not any(entry.startswith("output.every") for entry in request.overrides):
         overrides = [*request.overrides, f"output.every={case.end / FRAMES:.17g}"]
         case = cases.resolve(path, overrides, request.laws, former)
-    others = [cases.REFERENCE_PROGRAMS.get(case.reference), "monitor" if request.monitor else None,
-              "fsi_credentials" if any("/" in program for program in case.programs.values()) else None]
-    paths.build([*case.programs.values(), *filter(None, others)])
+    paths.build([*needed(case), *(["monitor"] if request.monitor else [])])
     for program in case.programs.values():
         paths.program(program)
     return case
@@ -226,7 +231,7 @@ def run(request):
 
     start = time.monotonic()
     with _in_memory(case.programs) as reports:
-        entered = registry.Entry(identity, directory.resolve(), case.name, request.protection)
+        entered = registry.Entry(identity, directory.resolve(), case.name, request.protection, case.programs)
         with interrupts.held(), entered as entry, interrupts.heard():
             programs = _programs(case, directory, entry, checkpoint, reports, request.pause_at)
             outcome = _watched(case, directory, programs, identity, request, say)

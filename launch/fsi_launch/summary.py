@@ -149,7 +149,7 @@ def missed_expectations(summary, expect):
 ERRORS_IN_A_ROW = 7     # of a terminal 80 wide
 
 
-def _table(rows):
+def aligned(rows):
     """Rows of text as aligned columns: the first to the left, the others to the right."""
     widths = [max(len(row[k]) for row in rows) for k in range(len(rows[0]))]
     return ["  " + "  ".join(cell.ljust(w) if k == 0 else cell.rjust(w) for k, (cell, w) in enumerate(zip(row, widths)))
@@ -185,24 +185,39 @@ def noise_in_words(summary):
             f"its range, grid \"{noise['grid']}\", point ({point}) at ({place}), t = {noise['t']:.4g}")
 
 
+def _interface_lines(interface):
+    """The jumps beside what they are to be compared with."""
+    def jump(name, scale, of):
+        value, size = interface.get(f"max_{name}_jump"), interface.get(scale)
+        part = f" ({100 * value / size:.2g} % of {of} {size:.3g})" if value is not None and size else ""
+        return f"{name} {_number(value, '{:.2e}')}{part}"
+    lines = []
+    if "max_velocity_jump" in interface:
+        lines.append("  interface: largest jumps before the projection: "
+                     + jump("velocity", "velocity_scale", "the gas's speed,") + ", "
+                     + jump("traction", "traction_scale", "its pressure,"))
+    if "max_gap" in interface:
+        lines.append(f"  interface: largest gap {_number(interface['max_gap'], '{:.2e}')}")
+    return lines
+
+
 def describe(summary, directory):
     """The end of a run as lines of text."""
     dt = summary["dt"]
     head = f"{summary['case']} {summary['status']}: t = {summary['t']:.6g}, {summary['steps']} steps"
     if dt["min"] is not None and summary["steps"]:
         head += f" of {dt['min']:.3g} to {dt['max']:.3g}"
-    lines = [f"{head}, {summary['wall_s']:.2f} s", *_table(_participant_rows(summary))]
+    lines = [f"{head}, {summary['wall_s']:.2f} s", *aligned(_participant_rows(summary))]
     if summary["errors"]:
         lines.append("  errors (maximum norm)")
         names = list(summary["errors"])
         for part in (names[k:k + ERRORS_IN_A_ROW] for k in range(0, len(names), ERRORS_IN_A_ROW)):
-            lines += _table([part, [_number(summary["errors"][name], "{:.2e}") for name in part]])
+            lines += aligned([part, [_number(summary["errors"][name], "{:.2e}") for name in part]])
     if summary.get("errors_missing"):
         lines.append(f"  no errors: {summary['errors_missing']}")
     if interface := summary["interface"]:
-        lines.append("  interface: " + ", ".join(f"{key.replace('_', ' ')} {_number(value, '{:.2e}')}"
-                                                 for key, value in interface.items()))
-    if summary["counters"].get("first_order_fallbacks") or summary["counters"].get("floors"):
+        lines += _interface_lines(interface)
+    if any(summary["counters"].values()):
         lines.append("  counters: " + ", ".join(f"{key.replace('_', ' ')} {value:g}"
                                                 for key, value in summary["counters"].items()))
     if noise := noise_in_words(summary):

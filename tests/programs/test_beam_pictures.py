@@ -53,6 +53,18 @@ class Centrelines(unittest.TestCase):
         bent = np.column_stack([0 * y, y]) + np.column_stack(bend(0 * y, y))
         self.assertLess(np.abs(found.lines[1.0] - bent).max(), 0.3 * 0.0125 ** 2)  # linear between points
 
+    def test_of_a_beam_by_law_is_that_of_its_line_beside_the_middle(self):
+        s = np.linspace(0, 2 + 2 * HALF, 201)  # at the end many points share a place there: no cells to look in
+        x, y = np.clip(s - 1 - HALF, -HALF, HALF), np.minimum(np.minimum(s, s[-1] - s), 1)
+        series = solid([("beam", np.array([x, 0.01 * x]), np.array([y, y]))])
+        for output in series.outputs:
+            output.grids[0].fields["theta"] = np.zeros((2, 201))
+        found = beams.of([series])[0]
+        heights = found.stations
+        self.assertGreater(heights[-1], 0.98)
+        bent = np.column_stack([0 * heights, heights]) + np.column_stack(bend(0 * heights, heights))
+        self.assertLess(np.abs(found.lines[1.0] - bent).max(), 0.3 * 0.0125 ** 2)  # linear between points
+
     def test_does_not_depend_on_where_the_points_of_the_outline_lie(self):
         found = beams.distances(beams.of([beam(201)])[0], beams.of([beam(198)])[0])
         self.assertLess(max(found.values()), 1e-4)

@@ -119,7 +119,7 @@ class Folders(unittest.TestCase):
     def plot(self, folder):
         """Names of the pictures."""
         with contextlib.redirect_stdout(io.StringIO()) as printed:
-            plot.main(types.SimpleNamespace(directories=[folder], out=None, contours=False, movie=False, at=[]))
+            plot.main(types.SimpleNamespace(directories=[folder], out=None, contours=False, movie=False, at=[], format="png"))
         return [Path(line).stem for line in printed.getvalue().split("\n") if line]
 
     def test_tables_are_drawn_before_the_first_output_time(self):

@@ -10,7 +10,7 @@ def _folder(name):
     directory = Path(name)
     if not directory.is_dir():
         raise UserMistake(f"no folder '{directory}'")
-    if not any((directory / name).is_file() for name in ("case.yaml", "converge.json")):
+    if not any((directory / name).is_file() for name in ("case.yaml", "converge.json", "study.json")):
         for above in directory.resolve().parents[:2]:  # of fields/, of checkpoints/00000400/
             if (above / "case.yaml").is_file():
                 raise UserMistake(f"'{directory}' is a part of a run: give the run's own folder, '{above}'")
@@ -19,8 +19,13 @@ def _folder(name):
 
 def _one(directory, out, options):
     """(name, figure) of everything the results of one run hold."""
-    from fsi_launch.plot import beams, convergence, curves, data, disk, fields, grids, scales, schlieren, streamlines
-    series, tables, table = data.all_series(directory), data.all_tables(directory), data.convergence(directory)
+    from fsi_launch.plot import beams, convergence, curves, data, disk, fields, grids, scales, schlieren, streamlines, study
+    if varied := data.study(directory):
+        out.mkdir(parents=True, exist_ok=True)
+        return study.pictures(varied)
+    table = data.convergence(directory)
+    directory = directory if table else data.finest_level(directory)  # of a study that did not come to its end
+    series, tables = data.all_series(directory), data.all_tables(directory)
     last = data.last_state(directory)
     if not (series or last or tables or table):
         raise UserMistake(f"'{directory}' holds no results: no fluid.h5, solid_*.h5, tables or converge.json")
@@ -67,7 +72,7 @@ def main(options):
     style.use()
     pictures = _one(directories[0], out, options) if len(directories) == 1 else _several(directories, out, options)
     for name, figure in pictures:
-        path = out / f"{name}.png"
+        path = out / f"{name}.{options.format}"
         style.save(figure, path)
         print(path, flush=True)
     if options.movie:

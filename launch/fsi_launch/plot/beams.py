@@ -67,6 +67,18 @@ def _displacement(grids, x, y):
     return u
 
 
+def _displacement_of_line(grid, ends, s):
+    """Displacements (len(s), 2) along the centreline of a body that is a beam by law: its second line of points goes up one side of
+    the centreline, just beside it, and down the other; their mean is that of the centreline."""
+    axis = ends[1] - ends[0]
+    places = np.column_stack([grid.fields["x1_bar"][1], grid.fields["x2_bar"][1]])
+    heights = (places - ends[0]) @ axis / (axis @ axis)
+    top = heights.argmax()
+    up, down = np.s_[:top + 1], np.s_[:top - 1 if top else None:-1]
+    return np.column_stack([np.mean([np.interp(s, heights[side], u[side]) for side in (up, down)], axis=0)
+                            for u in (grid.fields["u1"][1], grid.fields["u2"][1])])
+
+
 def _beam(one):
     """The beam a program computed, or None."""
     fitted = [grid for grid in one.outputs[0].grids if not grid.is_cartesian() and not grid.closed]
@@ -75,7 +87,10 @@ def _beam(one):
         return None
     s = np.linspace(0, 1 - 1e-9, STATIONS)[:, None]
     reference = (1 - s) * ends[0] + s * ends[1]
-    lines = {output.t: reference + _displacement(output.grids, *reference.T) for output in one.outputs}
+    if "theta" in fitted[0].fields:
+        lines = {output.t: reference + _displacement_of_line(output.grids[0], ends, s[:, 0]) for output in one.outputs}
+    else:
+        lines = {output.t: reference + _displacement(output.grids, *reference.T) for output in one.outputs}
     known = np.isfinite(np.concatenate(list(lines.values()), axis=1)).all(axis=1)
     stations = s[known, 0] * np.hypot(*(ends[1] - ends[0]))
     return Beam(one.name, stations, {t: position[known] for t, position in lines.items()})

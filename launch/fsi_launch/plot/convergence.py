@@ -1,5 +1,7 @@
 """Errors over the grid spacing, as `fsi converge` left them, beside the slope of second order."""
 
+import itertools
+
 import numpy as np
 from matplotlib import pyplot
 from matplotlib.ticker import FuncFormatter, NullFormatter
@@ -24,9 +26,51 @@ def _spacing(value):
     return f"1/{1 / value:.0f}" if value < 1 else f"{value:g}"
 
 
+def _differences(table):
+    """The figure of the differences from each level to the next finer one, at the last time, or None."""
+    h = np.array([0.1 / level for level in table["levels"][:-1]])
+    last = max((row["t"] for row in table["differences"]), default=0)
+    figure, axes = pyplot.subplots(figsize=(5.8, 4.6))
+    columns = []
+    for row, marker in zip((row for row in table["differences"] if row["t"] == last), itertools.cycle(MARKERS)):
+        column = np.array([np.nan if value is None else value for value in row["differences"]], dtype=float)
+        if np.nanmax(column, initial=0) <= ROUND_OFF:
+            continue
+        order = row["orders"][-1] if row["orders"] else None
+        label = f"{row['quantity']} of {row['solid']}" + ("" if order is None else f": order {order:.2f}")
+        axes.loglog(h, column, marker=marker, markersize=4.5, label=label)
+        columns.append(column)
+    if not columns:
+        pyplot.close(figure)
+        return None
+    _finish(axes, h, columns)
+    axes.set_title(f"differences to the next finer grid, t = {last:g}", loc="left")
+    return figure
+
+
+def _finish(axes, h, columns):
+    """Slope, ticks and legend of errors over the spacing."""
+    if len(h) > 1:
+        least = np.nanmin(columns, axis=0)
+        order = np.argsort(h)
+        _triangle(axes, h, lambda x: np.exp(np.interp(np.log(x), np.log(h[order]), np.log(least[order]))))
+    axes.set_xticks(h)
+    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: _spacing(value)))
+    axes.xaxis.set_minor_formatter(NullFormatter())
+    axes.minorticks_off()
+    axes.grid(axis="y", color="#e4e4e4", linewidth=0.6)
+    axes.set_axisbelow(True)
+    axes.set_xlabel("grid spacing h")
+    axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0))
+
+
 def pictures(table):
     """(name, figure) of the table; curves of errors that are nothing but round-off are left out."""
     if not table:
+        return
+    if "differences" in table:
+        if figure := _differences(table):
+            yield "convergence", figure
         return
     h = np.array(table["h"])
     errors = {name: np.array([np.nan if e is None else e for e in column]) for name, column in table["errors"].items()}
@@ -38,17 +82,6 @@ def pictures(table):
         rate = table["fitted"][name]
         label = NAMES.get(name, name) + ("" if rate is None else f": rate {rate:.2f}")
         axes.loglog(h, column, marker=marker, markersize=4.5, label=label)
-    if len(h) > 1:
-        least = np.nanmin(list(errors.values()), axis=0)
-        order = np.argsort(h)
-        _triangle(axes, h, lambda x: np.exp(np.interp(np.log(x), np.log(h[order]), np.log(least[order]))))
-    axes.set_xticks(h)
-    axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: _spacing(value)))
-    axes.xaxis.set_minor_formatter(NullFormatter())
-    axes.minorticks_off()
-    axes.grid(axis="y", color="#e4e4e4", linewidth=0.6)
-    axes.set_axisbelow(True)
-    axes.set_xlabel("grid spacing h")
+    _finish(axes, h, list(errors.values()))
     axes.set_title(f"{table['case']}: largest errors", loc="left")
-    axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0))
     yield "convergence", figure

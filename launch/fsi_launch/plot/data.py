@@ -28,6 +28,14 @@ class Grid:
     fields: dict
     closed: bool
 
+    def __getitem__(self, name):
+        """A field by its name; "speed", and of a gas "T", are made of the others."""
+        if name == "speed":
+            return self.speed()
+        if name == "T" and "rho" in self.fields:
+            return self.fields["p"] / self.fields["rho"]
+        return self.fields[name]
+
     def speed(self):
         return np.hypot(self.fields["v1"], self.fields["v2"])
 
@@ -104,31 +112,53 @@ def _read_output(group):
     return Output(float(group.attrs["t"]), _read_grids(group))
 
 
+def _opened(path):
+    file = h5py.File(path, "r")
+    if "outputs" not in file.attrs:
+        file.close()
+        raise UserMistake(f"'{path}' is not the series of outputs of a program: give the folder of a run, "
+                        "as fsi run --out named it")
+    return file
+
+
 def _read_series(path, name):
-    with h5py.File(path, "r") as file:
-        if "outputs" not in file.attrs:
-            raise UserMistake(f"'{path}' is not the series of outputs of a program: give the folder of a run, "
-                            "as fsi run --out named it")
-        outputs = [_read_output(file[key]) for key in sorted(file)]
-    return Series(name, outputs)
+    with _opened(path) as file:
+        return Series(name, [_read_output(file[key]) for key in sorted(file)])
 
 
-def _files(directory):
-    """(path, name of the program): the gas first, then the solids by name."""
+def output_times(path):
+    """The times in the file of a program."""
+    with _opened(path) as file:
+        return [float(file[key].attrs["t"]) for key in sorted(file)]
+
+
+def read_output(path, k):
+    """One Output of it."""
+    with _opened(path) as file:
+        return _read_output(file[sorted(file)[k]])
+
+
+def files(directory):
+    """(path of the fields, name of the program): the gas first, then the solids by name."""
     return [*((path, "fluid") for path in directory.glob("fluid.h5")),
             *((path, path.stem.removeprefix("solid_")) for path in sorted(directory.glob("solid_*.h5")))]
 
 
 def all_series(directory):
     """The gas first, then the solids by name."""
-    return [one for one in (_read_series(path, name) for path, name in _files(directory)) if one.outputs]
+    return [one for one in (_read_series(path, name) for path, name in files(directory)) if one.outputs]
+
+
+def same_time(a, b):
+    """True if an output at a is one that was asked for at b."""
+    return abs(a - b) <= SAME_TIME * max(1, abs(b))
 
 
 def _at(one, times):
     """The outputs of a program at these times, in their order; one that is not there is the user's mistake."""
-    chosen = [output for output in one.outputs if any(abs(output.t - t) <= SAME_TIME * max(1, abs(t)) for t in times)]
+    chosen = [output for output in one.outputs if any(same_time(output.t, t) for t in times)]
     for t in times:
-        if not any(abs(output.t - t) <= SAME_TIME * max(1, abs(t)) for output in chosen):
+        if not any(same_time(output.t, t) for output in chosen):
             there = ", ".join(f"{output.t:g}" for output in one.outputs)
             raise UserMistake(f"{one.name} has no output at t = {t:g}: it has {there}; name these, or add the time to output.times")
     return replace(one, outputs=chosen)
@@ -142,13 +172,14 @@ def at_times(series, times):
 def last_state(directory):
     """Series of the one state that each program left where the numbers broke; none of other runs."""
     series = []
-    for path, name in _files(directory / "last_state"):
+    for path, name in files(directory / "last_state"):
         with h5py.File(path, "r") as file:
             series.append(Series(name, [_read_output(file)]))
     return series
 
 
-def _read_table(path):
+def read_table(path):
+    """The Table in a CSV, or None where it has less than two lines of numbers."""
     with open(path, encoding="utf-8", newline="") as file:
         rows = [row for row in csv.reader(file) if row]
     if len(rows) < 3:
@@ -165,15 +196,26 @@ def _read_table(path):
 
 def all_tables(directory):
     """Every CSV of the run that has at least two lines of numbers."""
-    tables = [_read_table(path) for path in sorted(directory.glob("*.csv"))]
+    tables = [read_table(path) for path in sorted(directory.glob("*.csv"))]
     return [table for table in tables if table]
 
 
 def convergence(directory):
-    """The table of errors `fsi converge` left in the folder, or None."""
+    """The table of errors, or of differences between levels, `fsi converge` left in the folder, or None."""
     path = directory / "converge.json"
-    table = json.loads(path.read_text(encoding="utf-8")) if path.is_file() else {}
-    return table if "errors" in table else None
+    return json.loads(path.read_text(encoding="utf-8")) if path.is_file() else None
+
+
+def finest_level(directory):
+    """The run on the finest grid in a folder of `fsi converge`; the folder itself where it is that of a run."""
+    levels = [path for path in directory.glob("level_*") if path.name.removeprefix("level_").isdecimal()]
+    return max(levels, key=lambda path: int(path.name.removeprefix("level_")), default=directory)
+
+
+def study(directory):
+    """What `fsi study` left in the folder, or None."""
+    path = directory / "study.json"
+    return json.loads(path.read_text(encoding="utf-8")) if path.is_file() else None
 
 
 def disk_reference(directory):

@@ -32,7 +32,11 @@ def use():
 
 
 def save(figure, path):
-    """Writes a picture and forgets it. Its layout is made here: savefig would draw all of it twice to find its size."""
+    """Writes a picture and forgets it. Its layout is made here: savefig would draw all of it twice to find its size. What lies within
+    the axes has no say in it: of a mesh every cell would be looked at."""
+    for axes in figure.axes:
+        for artist in (*axes.collections, *axes.lines, *axes.patches):
+            artist.set_in_layout(False)
     figure.get_layout_engine().execute(figure)
     with pyplot.rc_context({"figure.constrained_layout.use": False}):
         figure.set_layout_engine()

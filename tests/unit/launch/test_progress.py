@@ -30,5 +30,37 @@ class Lines(unittest.TestCase):
         self.assertEqual(out.getvalue(), "")
 
 
+class Widths(unittest.TestCase):
+    """The line fits every terminal and leaves away what matters least."""
+
+    def setUp(self):
+        self.shown = progress.Progress(out=io.StringIO())
+        self.shown._began -= 75
+        for step, t in ((1, 0.1), (2, 0.2)):
+            self.shown.hear(f"progress step={step} t={t} dt=0.1 limit=waves_in_the_solid t_end=1")
+        first, *_ = self.shown._history
+        self.shown._history[0] = (first[0] - 10, *first[1:])
+
+    def test_no_line_is_too_long(self):
+        for width in range(5, 140):
+            self.assertLessEqual(len(self.shown.text(width)), width)
+
+    def test_narrow_terminal_keeps_bar_part_and_time_left(self):
+        line = self.shown.text(40)
+        for words in ("[", "20 %", "1:20 left"):
+            self.assertIn(words, line)
+        self.assertNotIn("steps/s", line)
+
+    def test_sixty_columns_say_steps_time_and_limits_of_neither(self):
+        line = self.shown.text(60)
+        for words in ("20 %", "t 0.2 of 1", "step 2", "left"):
+            self.assertIn(words, line)
+
+    def test_wide_terminal_says_everything(self):
+        line = self.shown.text(120)
+        for words in ("dt 1.0e-01 (waves in the solid)", "steps/s", "1:15", "1:20 left"):
+            self.assertIn(words, line)
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -51,6 +51,12 @@ class Summary(InScratch):
         self.assertIn('warning: noise of the grid\'s scale: v1 of solid ripples by 4.1 % of its range, grid "outline", point (3, 40)'
                       ' at (0.25, 1.5), t = 6.5', summary.describe(merged, self.folder))
 
+    def test_jumps_are_said_to_be_before_the_projection_and_have_a_scale(self):
+        self.part("coupler", interface={"max_velocity_jump": 67.3, "max_traction_jump": 7.3e6, "max_gap": 1e-6,
+                                        "velocity_scale": 673.0, "traction_scale": 1e7})
+        words = summary.describe(self.merged(), self.folder)
+        self.assertIn("before the projection: velocity 6.73e+01 (10 % of the gas's speed, 673), traction 7.30e+06 (73 % of", words)
+
     def test_program_that_left_nothing_is_lost(self):
         self.part("coupler", steps=3, t=0.1)
         merged = self.merged("failed")

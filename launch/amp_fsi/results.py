@@ -1,0 +1,116 @@
+"""What a run left behind (docs/output.md), as Python objects."""
+
+import functools
+import json
+from pathlib import Path
+
+from fsi_launch.plot import data
+
+
+class Fields(dict):
+    """The component grids of one program at one output time, {name: Grid}; `t` is the time."""
+
+    def __init__(self, output):
+        super().__init__({grid.name: grid for grid in output.grids})
+        self.t = output.t
+
+
+class Run:
+    """The results of a run, whole or as far as it came. Nothing is read before it is asked for."""
+
+    def __init__(self, directory):
+        self.directory = Path(directory)
+        if not (self.directory / "case.yaml").is_file():
+            raise FileNotFoundError(f"'{self.directory}' holds no run: give the folder that fsi run --out named")
+
+    def __repr__(self):
+        return f"Run('{self.directory}', {self.summary.get('status', 'no summary yet')})"
+
+    @functools.cached_property
+    def summary(self):
+        """summary.json as a dict; empty while the run goes on."""
+        path = self.directory / "summary.json"
+        return json.loads(path.read_text(encoding="utf-8")) if path.is_file() else {}
+
+    @property
+    def case(self):
+        """The case as it ran, YAML."""
+        return (self.directory / "case.yaml").read_text(encoding="utf-8")
+
+    @property
+    def errors(self):
+        """{field: largest error at the end}, where the case has a reference solution."""
+        return self.summary.get("errors", {})
+
+    # --- fields
+
+    @property
+    def programs(self):
+        """Those with fields: "fluid", then the solids by name."""
+        return tuple(name for _, name in data.files(self.directory))
+
+    def _file(self, program):
+        for path, name in data.files(self.directory):
+            if name == program:
+                return path
+        raise KeyError(f"no fields of '{program}' in '{self.directory}'; there are {', '.join(self.programs) or 'none'}")
+
+    def times(self, program="fluid"):
+        """Its output times, a list."""
+        return data.output_times(self._file(program))
+
+    def fields(self, program="fluid", t=None):
+        """Its fields at an output time (the last one by default)."""
+        path, times = self._file(program), self.times(program)
+        if not times:
+            raise ValueError(f"'{program}' has written no output yet")
+        t = times[-1] if t is None else t
+        k = min(range(len(times)), key=lambda index: abs(times[index] - t))
+        if not data.same_time(times[k], t):
+            raise ValueError(f"'{program}' has no output at t = {t:g}; it has {', '.join(f'{one:g}' for one in times)}")
+        return Fields(data.read_output(path, k))
+
+    def dataset(self, program, grid, t=None):
+        """One grid at an output time as an xarray.Dataset with dimensions (j, i) and coordinates x1, x2, t. Takes xarray."""
+        import xarray
+        found = self.fields(program, t)
+        one = found[grid]
+        coordinates = {"x1": (("j", "i"), one.x1), "x2": (("j", "i"), one.x2), "t": found.t}
+        return xarray.Dataset({name: (("j", "i"), values) for name, values in one.fields.items()}, coordinates)
+
+    # --- tables
+
+    def table(self, name):
+        """{column: values} of the run's NAME.csv; columns without their units (`units` has them)."""
+        return {column.split(" [")[0]: values for column, values in self._columns(name).items()}
+
+    def units(self, name):
+        """{column: unit} of the same."""
+        return {column.split(" [")[0]: column.partition(" [")[2].rstrip("]") for column in self._columns(name)}
+
+    def _columns(self, name):
+        path = self.directory / f"{name}.csv"
+        if not path.is_file():
+            there = ", ".join(sorted(one.stem for one in self.directory.glob("*.csv")))
+            raise KeyError(f"no table '{name}' in '{self.directory}'; there are {there or 'none'}")
+        table = data.read_table(path)
+        return table.columns if table else {}
+
+    @functools.cached_property
+    def interface(self):
+        """The table of jumps, gap and power of each interface, a line per step."""
+        return self.table("interface")
+
+    @functools.cached_property
+    def probes(self):
+        """The table of the case's probes, columns PROBE.FIELD."""
+        return self.table("probes")
+
+    def forces(self, solid):
+        """The table of force, moment and power on a solid; its centre, velocity and angle."""
+        return self.table(f"forces_{solid}")
+
+
+def open_run(directory):
+    """The Run in a folder."""
+    return Run(directory)

@@ -1,0 +1,41 @@
+"""`fsi completion`: completion of the command line for bash, from the same parser that reads it."""
+
+import argparse
+
+from fsi_launch import paths
+
+SCRIPT = """# Completion of AMP-FSI's command for bash: source <(./launch/fsi completion)
+_fsi() {{
+  local word=${{COMP_WORDS[COMP_CWORD]}} verb=${{COMP_WORDS[1]}} words files=
+  if ((COMP_CWORD == 1)); then
+    words='{verbs}'
+  else
+    case $verb in
+{cases}
+    esac
+  fi
+  mapfile -t COMPREPLY < <(compgen -W "$words" -- "$word")
+  [[ -z $files || $word == -* ]] || mapfile -t -O ${{#COMPREPLY[@]}} COMPREPLY < <(compgen -f -- "$word")
+}}
+complete -o filenames -F _fsi fsi ./launch/fsi launch/fsi
+"""
+
+
+def _verbs(parser):
+    return next(action for action in parser._actions if isinstance(action, argparse._SubParsersAction)).choices  # noqa: SLF001
+
+
+def _words(verb):
+    """What may follow a verb: its options, and where it takes a case the names in configs/."""
+    actions = verb._actions  # noqa: SLF001  argparse has no other way to ask
+    words = [option for action in actions for option in action.option_strings if option.startswith("--")]
+    if any(action.dest == "case" for action in actions):
+        words += sorted(path.stem for path in (paths.ROOT / "configs").glob("*.yaml"))
+    return words
+
+
+def script(parser):
+    """The text of the script."""
+    verbs = _verbs(parser)
+    cases = "\n".join(f"      {name}) words='{' '.join(_words(verb))}' files=yes ;;" for name, verb in verbs.items())
+    return SCRIPT.format(verbs=" ".join(verbs), cases=cases)

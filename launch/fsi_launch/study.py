@@ -1,0 +1,241 @@
+"""`fsi study`: the same case with every combination of some of its values; what came out as text, markdown, CSV, JSON and a picture.
+
+Runs that are there already and whose case is the same are not made again: a study that was interrupted goes on by the same command.
+"""
+
+import csv
+import itertools
+import json
+import os
+import re
+import subprocess
+import sys
+import time
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from fsi_launch import case as cases, paths
+from fsi_launch.failure import DONE, EXPECTATION_MISSED, UserMistake
+from fsi_launch.run import needed
+from fsi_launch.summary import aligned, value_at
+
+LOOK = 0.05             # [s] between two looks at the runs that are going on
+STATISTICS = {"last": lambda values: values[-1], "min": min, "max": max}
+OF_A_BODY = ("centre1", "centre2", "angle")     # shown where there are no errors
+
+
+@dataclass
+class Trial:
+    """One combination of values, and what became of it."""
+
+    values: dict            # {key of the case: text}
+    directory: Path
+    case: cases.Case = None
+    seconds: float = 0.0
+    code: int = None        # exit code of its run; None: not yet
+    summary: dict = field(default_factory=dict)
+
+    def name(self):
+        return self.directory.name
+
+
+# --- what is asked for
+
+
+def values_of(text):
+    """(key, values) of KEY=VALUE,VALUE,..; a comma within brackets belongs to a value."""
+    key, found, rest = text.partition("=")
+    values, depth = [""], 0
+    for letter in rest:
+        depth += (letter in "[{(") - (letter in "]})")
+        if letter == "," and depth == 0:
+            values.append("")
+        else:
+            values[-1] += letter
+    values = [value.strip() for value in values]
+    if not found or not key.strip() or not all(values):
+        raise UserMistake(f"--vary {text}: write KEY=VALUE,VALUE,.., as --vary parameters.rho_bar=0.1,1,10")
+    return key.strip(), values
+
+
+def _folder_name(values, short):
+    return re.sub(r"[^\w.,=+-]", "_", ",".join(f"{short[key]}={value}" for key, value in values.items()))
+
+
+def trials(vary, directory):
+    """All combinations, the last key varying fastest. `vary`: {key: values}"""
+    last = [key.rpartition(".")[2] for key in vary]
+    short = {key: one if last.count(one) == 1 else key for key, one in zip(vary, last)}
+    found = []
+    for combination in itertools.product(*vary.values()):
+        values = dict(zip(vary, combination))
+        found.append(Trial(values, Path(directory) / _folder_name(values, short)))
+    if len({trial.directory for trial in found}) < len(found):
+        raise UserMistake("--vary names a value twice, or values that differ in letters no folder can have")
+    return found
+
+
+def _overrides(trial, options):
+    return [*options.overrides, *(f"{key}={value}" for key, value in trial.values.items())]
+
+
+def _finished(trial):
+    """True if a former study has made this run, with the same case."""
+    try:
+        summary = json.loads((trial.directory / "summary.json").read_text(encoding="utf-8"))
+        same = (trial.directory / "case.yaml").read_text(encoding="utf-8") == trial.case.text
+    except (OSError, ValueError):
+        return False
+    if same and summary.get("status") == "completed":
+        trial.summary, trial.code = summary, DONE
+    return trial.code is not None
+
+
+# --- the runs
+
+
+def _start(trial, options):
+    command = [str(paths.ROOT / "launch" / "fsi"), "run", options.case, "--no-progress", "--overwrite", "--out", str(trial.directory)]
+    command += [f"--set={override}" for override in _overrides(trial, options)] + [f"--solid={law}" for law in options.laws]
+    return subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
+                            env=os.environ | {"FSI_BIN": str(paths.BIN)})
+
+
+def _end(trial, process, started):
+    trial.code, trial.seconds = process.returncode, time.monotonic() - started
+    said = process.stderr.read().strip().splitlines()
+    process.stderr.close()
+    path = trial.directory / "summary.json"
+    trial.summary = json.loads(path.read_text(encoding="utf-8")) if path.is_file() else {
+        "status": "failed", "reason": said[-1].removeprefix("fsi: ") if said else ""}
+    if trial.code == EXPECTATION_MISSED and trial.summary["status"] == "completed":
+        trial.code = DONE   # what the case expects holds for its own values
+
+
+def _describe(trial, count, total):
+    text = f"{count}/{total}  {trial.name()}: {trial.summary['status']}, {trial.seconds:.1f} s"
+    return text if trial.code == DONE else f"{text}: {trial.summary.get('reason')}"
+
+
+def _make(waiting, options, done, total):
+    """Runs the trials, options.jobs at a time."""
+    waiting, going = list(waiting), []
+    try:
+        while waiting or going:
+            while waiting and len(going) < options.jobs:
+                trial = waiting.pop(0)
+                going.append((trial, _start(trial, options), time.monotonic()))
+            for entry in [entry for entry in going if entry[1].poll() is not None]:
+                going.remove(entry)
+                _end(*entry)
+                done += 1
+                print(_describe(entry[0], done, total), file=sys.stderr, flush=True)
+            time.sleep(LOOK)
+    finally:
+        for _, process, _ in going:
+            process.terminate()
+        for _, process, _ in going:
+            process.communicate()
+
+
+# --- what came out
+
+
+def _of_table(directory, name, column, statistic):
+    with open(directory / f"{name}.csv", encoding="utf-8", newline="") as file:
+        values = [float(row[key]) for row in csv.DictReader(file) for key in row if key.split(" ")[0] == column]
+    return STATISTICS[statistic](values) if values else None
+
+
+def quantity(trial, wanted):
+    """The number behind a path of summary.json like errors.rho, or behind TABLE.COLUMN[:last|min|max] of one of the run's
+    tables like forces_disk.angle:max; None where there is none."""
+    path, _, statistic = wanted.partition(":")
+    value = value_at(trial.summary, path)
+    if isinstance(value, (int, float)):
+        return value
+    table, _, column = path.partition(".")
+    if not (trial.directory / f"{table}.csv").is_file():
+        return None
+    return _of_table(trial.directory, table, column, statistic or "last")
+
+
+def _shown(found, wanted):
+    """The quantities of the table: those asked for, or all errors, or where the bodies are at the end."""
+    if wanted:
+        return wanted
+    errors = list(dict.fromkeys(f"errors.{name}" for trial in found for name in trial.summary.get("errors", {})))
+    tables = sorted({path.stem for trial in found for path in trial.directory.glob("forces_*.csv")})
+    return errors or [f"{table}.{column}" for table in tables for column in OF_A_BODY]
+
+
+def result_of(found, case, vary, wanted):
+    """The content of study.json."""
+    shown = _shown(found, wanted)
+    rows = [{"values": trial.values, "folder": trial.name(), "status": trial.summary["status"], "t": trial.summary.get("t"),
+             "steps": trial.summary.get("steps"), "wall_s": trial.summary.get("wall_s"),
+             "quantities": {name: quantity(trial, name) for name in shown}} for trial in found]
+    return {"case": case, "vary": vary, "quantities": shown, "rows": rows}
+
+
+def _cell(value):
+    return "-" if value is None else value if isinstance(value, str) else f"{value:.4g}"
+
+
+def _rows(result):
+    rows = [[*result["vary"], "status", "t", "steps", "wall [s]", *result["quantities"]]]
+    for row in result["rows"]:
+        rows.append([*row["values"].values(), row["status"], *map(_cell, (row["t"], row["steps"], row["wall_s"])),
+                     *map(_cell, row["quantities"].values())])
+    return rows
+
+
+def as_markdown(result):
+    heading, *body = ["| " + " | ".join(row) + " |" for row in _rows(result)]
+    return "\n".join([heading, "|" + "---|" * (heading.count("|") - 1), *body]) + "\n"
+
+
+def _write_csv(result, path):
+    with open(path, "w", encoding="utf-8", newline="") as file:
+        writer = csv.writer(file)
+        writer.writerow([*result["vary"], "status", "t", "steps", "wall_s", *result["quantities"]])
+        for row in result["rows"]:
+            writer.writerow([*row["values"].values(), row["status"], row["t"], row["steps"], row["wall_s"], *row["quantities"].values()])
+
+
+def _draw(result, directory):
+    from fsi_launch.plot import study, style
+    style.use()
+    for name, figure in study.pictures(result):
+        style.save(figure, directory / f"{name}.png")
+
+
+def main(options):
+    """Runs the study, prints its table and writes study.{txt,md,csv,json,png}."""
+    vary = dict(map(values_of, options.vary))
+    if len(vary) < len(options.vary):
+        raise UserMistake("--vary names a key twice; write all its values behind one")
+    for wanted in options.show:
+        if (statistic := wanted.partition(":")[2]) and statistic not in STATISTICS:
+            raise UserMistake(f"--show {wanted}: write {', '.join(STATISTICS)} behind the colon")
+    name = cases.resolve(options.case, options.overrides, options.laws).name
+    directory = Path(options.out or f"runs/study-{name}-{time.strftime('%Y%m%d-%H%M%S')}")
+    found = trials(vary, directory)
+    for trial in found:     # a mistake in the last one must not show after hours
+        trial.case = cases.resolve(options.case, _overrides(trial, options), options.laws)
+    paths.build([program for trial in found for program in needed(trial.case)])
+    directory.mkdir(parents=True, exist_ok=True)
+    waiting = [trial for trial in found if not _finished(trial)]
+    if done := len(found) - len(waiting):
+        print(f"{done} of {len(found)} runs are there already", file=sys.stderr)
+    _make(waiting, options, done, len(found))
+    result = result_of(found, name, vary, options.show)
+    text = "\n".join(aligned(_rows(result))) + "\n"
+    print(text, end="")
+    (directory / "study.txt").write_text(text, encoding="utf-8")
+    (directory / "study.md").write_text(as_markdown(result), encoding="utf-8")
+    (directory / "study.json").write_text(json.dumps(result, indent=2) + "\n", encoding="utf-8")
+    _write_csv(result, directory / "study.csv")
+    _draw(result, directory)
+    print(f"tables and picture in {directory}", file=sys.stderr)
+    return next((trial.code for trial in found if trial.code != DONE), DONE)

@@ -1,0 +1,33 @@
+#!/usr/bin/python3
+"""Completion for bash offers verbs, options and cases."""
+
+import subprocess
+import unittest
+
+import launcher  # noqa: F401  the path of the modules
+
+from fsi_launch import cli, completion
+
+
+class Completion(unittest.TestCase):
+    def offered(self, *words):
+        ask = f'COMP_WORDS=({" ".join(words)} "$1"); COMP_CWORD={len(words)}; _fsi; printf "%s\\n" "${{COMPREPLY[@]}}"'
+        answer = subprocess.run(["bash", "-c", completion.script(cli._parser()) + ask, "bash", self.begun], capture_output=True,
+                                text=True, check=True)
+        return set(answer.stdout.split())
+
+    def test_verbs(self):
+        self.begun = "m"
+        self.assertEqual(self.offered("fsi"), {"monitor"})
+        self.begun = ""
+        self.assertLessEqual({"run", "check", "study", "plot", "completion"}, self.offered("fsi"))
+
+    def test_options_and_cases(self):
+        self.begun = "--re"
+        self.assertEqual(self.offered("fsi", "run"), {"--restart"})
+        self.begun = "elastic_p"
+        self.assertEqual(self.offered("fsi", "run"), {"elastic_piston"})
+
+
+if __name__ == "__main__":
+    unittest.main()
