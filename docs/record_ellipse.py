@@ -107,7 +107,7 @@ def variants():
         "stabilisation": [("as it is", [], []), *((f"half of {key}", [text], []) for key, text in half.items()),
                           ("half of all", list(half.values()), [])],
         "left boundary": [(f"{kind}, x = {x}", [f"fluid.grid.x=[{x}, 5]", f"fluid.boundary.left.kind={kind}"], [])
-                          for x in (-6, -4) for kind in ("inflow", "far_field")],
+                          for x in (-6, -4) for kind in ("imposed", "far_field")],
         "points of the gas": [(f"{part} times those of the solid",
                                [f"fluid.body_fitted.0.points=round({part} * 2 * pi * 0.875 / h) + 1"], [])
                               for part in ("1", "0.25", "0.5", "2", "4")]}

@@ -21,6 +21,8 @@ CASES = {  # with the number of steps between checkpoints
     "manufactured_piston": (6, "--set", "grid.factor=1"),
     "sod_tube": (10, "--set", "grid.factor=2"),
     "spring_piston": (20, "--set", "grid.factor=2"),
+    "plate": (10, "--set", "time.end=0.5", "--set", "output.times=[0.3, 0.5]", "--set", "parameters.size=0.1",
+              "--set", "solids.plate.beam.ends=[clamped, pinned]"),
     # worst cells in the middle of the run, rectangles at its end
     "free_stream": (4, "--set", "time.end=0.5", "--set", "time.dt=0.02", "--set", "output.times=[0.5]", "--set",
                     "fluid.grid={kind: mapped, points: [11, 11], map: [r + 0.4 * s * sin(2 * pi * t), s]}"),
@@ -109,6 +111,9 @@ class Restart(Restarting):
 
     def test_program_of_somebody_elses(self):
         self.assert_goes_on("spring_piston")
+
+    def test_beam(self):
+        self.assert_goes_on("plate")
 
     def test_worst_cells_of_a_moving_grid_are_those_of_the_whole_run(self):
         whole = self.assert_goes_on("free_stream")

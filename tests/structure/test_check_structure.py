@@ -101,7 +101,7 @@ class Includes(Copy):
 
     def test_common_and_examples_know_no_program(self):
         self.assert_bites("includes", "common/interface/riemann.hpp", '#include "solid_solver/impedance.hpp"')
-        self.assert_bites("includes", "examples/spring_piston/main.cpp", '#include "coupler/modal.hpp"')
+        self.assert_bites("includes", "examples/spring_piston/main.cpp", '#include "coupler/coupler.hpp"')
 
     def test_only_reference_solutions_borrow_the_laws(self):
         self.assert_allows("includes", "common/exact/solution.cpp", '#include "solid_solver/laws/law.hpp"')
@@ -153,25 +153,25 @@ class Kernels(Copy):
 
 class Headers(Copy):
     def test_name_needs_its_header(self):
-        self.assert_bites("headers", "coupler/modal.hpp", "std::mt19937 random;")
+        self.assert_bites("headers", "common/interface/modal.hpp", "std::mt19937 random;")
 
     def test_header_of_the_tree_may_bring_it(self):
-        self.assert_allows("headers", "coupler/modal.cpp", "Eigen::Vector2d a;")  # modal.hpp includes Eigen
+        self.assert_allows("headers", "common/interface/modal.cpp", "Eigen::Vector2d a;")  # modal.hpp includes Eigen
 
     def test_comments_and_longer_names_use_nothing(self):
-        self.assert_allows("headers", "coupler/modal.hpp", "// std::mt19937\nint TEST_CASES = std::mt19937_width;")
+        self.assert_allows("headers", "common/interface/modal.hpp", "// std::mt19937\nint TEST_CASES = std::mt19937_width;")
 
 
 class LengthsAndWords(Copy):
     def test_long_file(self):
-        where = "coupler/modal.cpp"
+        where = "common/interface/modal.cpp"
         lines = len((self.root / where).read_text(encoding="utf-8").splitlines())
         self.assertEqual(self.with_line("lengths", where, "\n" * (399 - lines)), [])
         found = self.with_line("lengths", where, "\n" * (400 - lines))
         self.assertEqual(found, [f"{where}:401: 401 lines, more than 400"])
 
     def test_note_of_unfinished_work(self):
-        self.assert_bites("words", "coupler/modal.cpp", "// TO" + "DO: more")
+        self.assert_bites("words", "common/interface/modal.cpp", "// TO" + "DO: more")
         self.assert_bites("words", "configs/beam.yaml", "# FIX" + "ME")
 
 
