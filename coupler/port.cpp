@@ -49,8 +49,8 @@ CouplerOptions options_of(const Case& problem) {
           .start = 0,
           .multirate = time.multirate,
           .robin_order = time.robin_order,
-          .combination = {.projection = projection_named(problem.interface.projection),
-                          .wave_curve = problem.interface.riemann == "exact"},
+          .combination = {.projection = problem.interface.projection,
+                          .wave_curve = problem.interface.riemann == GasResponse::exact},
           .checkpoint_at_end = problem.output.checkpoint_at_end,
           .path = path_of(problem.interface),
           .periodic = periodic_interfaces(problem)};

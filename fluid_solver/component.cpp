@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <utility>
 
 #include "common/core/failure.hpp"
@@ -39,8 +40,13 @@ std::optional<Spacing> lattice_of(const grid::MovingGrid& grid) {
 }
 
 AnyRiemann riemann_of(const GasOptions& options) {
-  if (options.riemann == Riemann::hllc) return RiemannHllc{options.gamma};
-  return RiemannRoe{options.gamma, options.entropy_fix};
+  switch (options.riemann) {
+    case Riemann::roe:
+      return RiemannRoe{options.gamma, options.entropy_fix};
+    case Riemann::hllc:
+      return RiemannHllc{options.gamma};
+  }
+  std::abort();  // all are there
 }
 
 AnyLimiter limiter_of(Limiter limiter) {
@@ -51,9 +57,10 @@ AnyLimiter limiter_of(Limiter limiter) {
       return LimiterMc{};
     case Limiter::van_leer:
       return LimiterVanLeer{};
-    default:
+    case Limiter::minmod:
       return LimiterMinmod{};
   }
+  std::abort();  // all are there
 }
 
 /// What to change in the case where density or pressure is lost.

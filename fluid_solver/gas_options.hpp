@@ -4,6 +4,8 @@
 #include <functional>
 #include <variant>
 
+#include "common/core/choices.hpp"
+
 namespace fsi::fluid {
 
 /// Primitive state of the gas at a point.
@@ -17,8 +19,8 @@ struct State {
 /// State as a function of position and time: initial data, inflow, exact solutions.
 using StateField = std::function<State(double x, double y, double t)>;
 
-enum class Riemann { roe, hllc };
-enum class Limiter { none, minmod, mc, van_leer };
+using Riemann = RiemannSolver;
+using Limiter = GasLimiter;
 
 struct GasOptions {
   double gamma = 1.4;  ///< ratio of specific heats [-]

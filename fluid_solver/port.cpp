@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <utility>
 
 #include "common/case/composite_from_case.hpp"
@@ -73,20 +72,15 @@ Boundary boundary_of(const BoundarySpec& spec, Side side,
 }
 
 GasOptions options_of(const Case& problem) {
-  static const std::map<std::string, Riemann> riemann{{"roe", Riemann::roe}, {"hllc", Riemann::hllc}};
-  static const std::map<std::string, Limiter> limiter{{"none", Limiter::none},
-                                                      {"minmod", Limiter::minmod},
-                                                      {"mc", Limiter::mc},
-                                                      {"van_leer", Limiter::van_leer}};
   const GasScheme& scheme = problem.fluid->scheme;
   return {.gamma = problem.fluid->gamma,
           .p_e = problem.fluid->p_e,
-          .riemann = riemann.at(scheme.riemann),
-          .limiter = limiter.at(scheme.limiter),
+          .riemann = scheme.riemann,
+          .limiter = scheme.limiter,
           .entropy_fix = scheme.entropy_fix,
           .shock_viscosity = scheme.shock_viscosity,
           .linear_diffusion = scheme.linear_diffusion,
-          .wave_curve = problem.interface.riemann == "exact",
+          .wave_curve = problem.interface.riemann == GasResponse::exact,
           .cfl = problem.time.cfl};
 }
 

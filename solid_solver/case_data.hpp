@@ -81,7 +81,7 @@ class CaseData {
     const SolidScheme& scheme = spec_.scheme;
     const auto beta = [](const fsi::Beta& b) { return Beta{.rate = b.rate, .scaled = b.scaled}; };
     return {.rho = spec_.rho,
-            .limiter = scheme.limiter == "minmod" ? Limiter::minmod : Limiter::none,
+            .limiter = scheme.limiter,
             .tangential_stress = beta(scheme.tangential_stress),
             .displacement = beta(scheme.displacement),
             .relaxation = beta(scheme.relaxation),

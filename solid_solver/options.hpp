@@ -4,6 +4,7 @@
 #include <array>
 #include <functional>
 
+#include "common/core/choices.hpp"
 #include "common/core/types.hpp"
 #include "solid_solver/laws/law.hpp"
 
@@ -38,7 +39,7 @@ struct Beta {
   constexpr bool active() const { return rate != 0 || scaled != 0; }
 };
 
-enum class Limiter { none, minmod };
+using Limiter = SolidLimiter;
 
 /// Scheme of the solid. All dissipation is off unless asked for.
 struct SolidOptions {

@@ -142,7 +142,7 @@ class SolidParticipant final : public Participant {
   std::string remedy() const override {
     const SolidScheme& scheme = spec_.scheme;
     const std::string path = "solids." + spec_.name + ".scheme";
-    if (scheme.limiter == "none") return path + ".limiter: minmod, for jumps";
+    if (scheme.limiter == SolidLimiter::none) return path + ".limiter: minmod, for jumps";
     for (const auto& [key, beta] :
          {std::pair{"tangential_stress", &scheme.tangential_stress},
           std::pair{"displacement", &scheme.displacement}, std::pair{"relaxation", &scheme.relaxation}}) {

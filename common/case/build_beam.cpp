@@ -61,7 +61,7 @@ std::optional<BeamSpec> build_beam(const Reader& reader, const Node& solid, std:
   if (const Node* ends = node->find("ends")) {
     if (ends->items.size() != 2) fail(ends->place, where + ".ends", "must be two words, [clamped, free]");
     if (beam.closed) fail(ends->place, where + ".ends", "a ring has none; leave them out");
-    for (std::size_t k = 0; k < 2; ++k) beam.ends[k] = ends->items[k].text;
+    for (std::size_t k = 0; k < 2; ++k) beam.ends[k] = named<BeamEnd>(ends->items[k].text).value();
   }
   return beam;
 }

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "common/core/choices.hpp"
 #include "common/core/expression.hpp"
 #include "common/core/types.hpp"
 
@@ -98,11 +99,11 @@ struct BodyFittedSpec {
 };
 
 struct GasScheme {
-  std::string riemann = "roe";     ///< roe, hllc
-  std::string limiter = "minmod";  ///< none, minmod, mc, van_leer
-  double entropy_fix = 0.1;        ///< width of the sonic-point fix, part of a [-]
-  double shock_viscosity = 0;      ///< coefficient of max(0, -div v) on undivided differences [-]
-  double linear_diffusion = 0;     ///< of undivided second differences [1/time]
+  RiemannSolver riemann = RiemannSolver::roe;
+  GasLimiter limiter = GasLimiter::minmod;
+  double entropy_fix = 0.1;     ///< width of the sonic-point fix, part of a [-]
+  double shock_viscosity = 0;   ///< coefficient of max(0, -div v) on undivided differences [-]
+  double linear_diffusion = 0;  ///< of undivided second differences [1/time]
 };
 
 struct FluidSpec {
@@ -123,11 +124,11 @@ struct Beta {
 };
 
 struct SolidScheme {
-  std::string limiter = "minmod";  ///< none, minmod
-  Beta tangential_stress;          ///< beta^P of (39)
-  Beta displacement;               ///< beta^u of (40)
-  Beta relaxation;                 ///< beta^r of (41)
-  double bulk_diffusion = 0;       ///< undivided second differences of v and P [1/time]
+  SolidLimiter limiter = SolidLimiter::minmod;
+  Beta tangential_stress;     ///< beta^P of (39)
+  Beta displacement;          ///< beta^u of (40)
+  Beta relaxation;            ///< beta^r of (41)
+  double bulk_diffusion = 0;  ///< undivided second differences of v and P [1/time]
 };
 
 /// The centre line of a solid that is a beam, and what holds its ends.
@@ -135,8 +136,8 @@ struct BeamSpec {
   std::vector<Vec2> line;  ///< a straight line through two points, a spline through more
   bool closed = false;     ///< a ring
   int elements = 0;
-  Expression thickness;                             ///< of the reference position
-  std::array<std::string, 2> ends{"free", "free"};  ///< free, pinned, clamped, guided
+  Expression thickness;  ///< of the reference position
+  std::array<BeamEnd, 2> ends{BeamEnd::free, BeamEnd::free};
 };
 
 struct SolidSpec {
@@ -169,8 +170,8 @@ struct TimeSpec {
 };
 
 struct InterfaceSpec {
-  std::string projection = "simplified";    ///< full, simplified, traditional
-  std::string riemann = "exact";            ///< exact, linear
+  Projection projection = Projection::simplified;
+  GasResponse riemann = GasResponse::exact;
   std::optional<VectorExpressions> motion;  ///< position at t of the point that is at (x, y) at t = 0
 };
 

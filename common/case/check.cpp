@@ -296,7 +296,7 @@ void check_motion(const Case& problem, const Node& root) {
 
 /// The scheme without added mass is not there where the gas's answer is part of the solid's motion.
 void check_projection(const Case& problem, const Node& root) {
-  if (problem.interface.projection != "traditional" || !problem.fluid) return;
+  if (problem.interface.projection != Projection::traditional || !problem.fluid) return;
   for (const SolidSpec& solid : problem.solids) {
     if (is_continuum(solid.law) || solid.law == external_law) continue;
     fail(at(root, {"interface", "projection"}).place, "interface.projection",

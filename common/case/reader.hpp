@@ -31,6 +31,11 @@ class Reader {
     if (const config::Node* node = section.find(key)) target = node->text == "true";
   }
 
+  template <Choice E>
+  static void assign(const config::Node& section, const char* key, E& target) {
+    if (const config::Node* node = section.find(key)) target = named<E>(node->text).value();
+  }
+
   Expression expression(const config::Node& node) const {
     return {node.text, scope_.constants, scope_.definitions};
   }

@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "common/case/case.hpp"
+
 namespace fsi::schema {
 
 namespace {
@@ -191,23 +193,21 @@ constexpr array time_keys{
 };
 constexpr Section time_section{.title = "Time", .keys = time_keys};
 
-constexpr array<string_view, 3> projection_words{"full", "simplified", "traditional"};
-constexpr array<string_view, 2> interface_riemann_words{"exact", "linear"};
 constexpr array interface_keys{
     Key{.name = "projection",
         .type = Type::word,
         .meaning =
             "AMP projection (28), its simplified form (29), or none; rigid bodies have one of their own, "
             "and so have substeps; `traditional` goes with neither",
-        .fallback = "simplified",
-        .words = projection_words},
+        .fallback = name_of(InterfaceSpec{}.projection),
+        .words = words_of<Projection>},
     Key{.name = "riemann",
         .type = Type::word,
         .meaning =
             "the gas's side of the projection: its whole wave curve (shock or rarefaction of any "
             "strength), or the tangent of that curve as in (28); they differ by the square of the jump",
-        .fallback = "exact",
-        .words = interface_riemann_words},
+        .fallback = name_of(InterfaceSpec{}.riemann),
+        .words = words_of<GasResponse>},
     Key{.name = "motion",
         .type = Type::vector,
         .meaning = "chosen solutions of gas and solid: where the interface point at (x, y) at t = 0 is at t",

@@ -1,5 +1,6 @@
 #include <array>
 
+#include "common/case/case.hpp"
 #include "common/case/schema.hpp"
 
 namespace fsi::schema {
@@ -137,19 +138,17 @@ constexpr array gas_sides{
 };
 constexpr Section gas_boundaries{.title = "Boundaries of the gas", .keys = gas_sides};
 
-constexpr array<string_view, 2> riemann_words{"roe", "hllc"};
-constexpr array<string_view, 4> gas_limiter_words{"none", "minmod", "mc", "van_leer"};
 constexpr array gas_scheme_keys{
     Key{.name = "riemann",
         .type = Type::word,
         .meaning = "Riemann solver",
-        .fallback = "roe",
-        .words = riemann_words},
+        .fallback = name_of(GasScheme{}.riemann),
+        .words = words_of<RiemannSolver>},
     Key{.name = "limiter",
         .type = Type::word,
         .meaning = "limiter of the slopes; none for smooth flow",
-        .fallback = "minmod",
-        .words = gas_limiter_words},
+        .fallback = name_of(GasScheme{}.limiter),
+        .words = words_of<GasLimiter>},
     Key{.name = "entropy_fix",
         .meaning = "width of the sonic-point fix, part of the sound speed",
         .fallback = "0.1",

@@ -1,5 +1,6 @@
 #include <array>
 
+#include "common/case/case.hpp"
 #include "common/case/laws.hpp"
 #include "common/case/schema.hpp"
 
@@ -102,13 +103,12 @@ constexpr array beta_keys{
 };
 constexpr Section beta_section{.title = "A coefficient beta = rate dt + scaled", .keys = beta_keys};
 
-constexpr array<string_view, 2> solid_limiter_words{"none", "minmod"};
 constexpr array solid_scheme_keys{
     Key{.name = "limiter",
         .type = Type::word,
         .meaning = "limiter of the slopes; none for smooth motion",
-        .fallback = "minmod",
-        .words = solid_limiter_words},
+        .fallback = name_of(SolidScheme{}.limiter),
+        .words = words_of<SolidLimiter>},
     Key{.name = "tangential_stress",
         .type = Type::section,
         .meaning = "beta^P of (39)",
@@ -149,9 +149,8 @@ constexpr Section solid_initial{.title = "Initial state of a solid", .keys = sol
 constexpr Key data_element{.name = "number", .type = Type::number, .meaning = "a number for the program"};
 
 constexpr array<string_view, 2> motion_words{"free", "fixed"};
-constexpr array<string_view, 4> end_words{"free", "pinned", "clamped", "guided"};
 constexpr Key end_element{
-    .name = "end", .type = Type::word, .meaning = "what holds an end", .words = end_words};
+    .name = "end", .type = Type::word, .meaning = "what holds an end", .words = words_of<BeamEnd>};
 constexpr Key line_point{
     .name = "point", .type = Type::pair, .meaning = "a point of the centre line", .unit = "length"};
 constexpr array beam_keys{

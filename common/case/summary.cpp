@@ -125,7 +125,7 @@ std::string summary_as_json(const Case& problem) {
       {"parameters", problem.parameters},
       {"grid_factor", problem.grid_factor},
       {"time", time_json(problem.time)},
-      {"projection", problem.interface.projection},
+      {"projection", name_of(problem.interface.projection)},
       {"output_times", problem.output.times},
       {"reference", {{"kind", problem.reference.kind}, {"numbers", problem.reference.numbers}}},
       {"expect", expect_json(problem.expect)},

@@ -1,33 +1,25 @@
 #pragma once
 /// The fluid-solid Riemann problem at one interface point, in two and three dimensions.
 ///
-///            t |  / C-  (gas)           Each side sends one family of waves to the interface. The gas brings
-///            one
-///    C_p  C_s  | /                      relation between normal traction and normal velocity, the solid n_d
-///    relations
-///       \   \  |/                       between the vectors w and v. With equal normal velocities and a
-///       traction
-///    ----\---\-+------ x_1              (p_e - p) n on both sides they fix the state in between.
+///            t |  / C-  (gas)
+///    C_p  C_s  | /
+///       \   \  |/
+///    ----\---\-+------ x_1
 ///     solid    |  gas
+///
+/// Each side sends one family of waves to the interface. The gas brings one relation between normal traction
+/// and normal velocity, the solid n_d relations between the vectors w and v. With equal normal velocities and
+/// a traction (p_e - p) n on both sides they fix the state in between.
 ///
 /// In Cartesian components all solid relations are one vector equation, w - Z v = w_0 - Z v_0, with the
 /// impedance matrix Z the solid publishes: no rotation, no eigenvectors, no constitutive law here.
 
 #include <Eigen/Core>
 #include <Eigen/LU>
-#include <string>
+
+#include "common/core/choices.hpp"
 
 namespace fsi {
-
-/// How the states of the two sides are combined.
-enum class Projection {
-  full,        ///< with the solid's impedance matrix and its tangential traction, paper eq. (28)
-  simplified,  ///< with the scalar impedance z_p of the solid at rest, paper eq. (29)
-  traditional  ///< the solid gives the velocity, the gas the traction; unstable for light solids
-};
-
-/// @throws UserMistake for an unknown name
-Projection projection_named(const std::string& name);
 
 template <int D>
 using Vector = Eigen::Matrix<double, D, 1>;

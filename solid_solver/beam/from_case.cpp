@@ -59,12 +59,6 @@ std::vector<Section> sections_of(const SolidSpec& spec, const Line& line) {
   return sections;
 }
 
-End end_of(const std::string& word) {
-  if (word == "pinned") return End::pinned;
-  if (word == "clamped") return End::clamped;
-  return word == "guided" ? End::guided : End::free;
-}
-
 bool is_interface(const BoundarySpec& boundary) {
   return boundary.kind == BoundaryKind::interface;
 }
@@ -115,7 +109,7 @@ Eigen::VectorXd initial_velocities(const Line& line, const VectorExpressions& v)
 BeamFromCase beam_from_case(const SolidSpec& spec) {
   if (!spec.beam) refuse(spec, "its section `beam` is missing");
   if (spec.initial_from_reference || spec.initial_u) refuse(spec, "initial may give `v`, and nothing else");
-  const std::array ends{end_of(spec.beam->ends[0]), end_of(spec.beam->ends[1])};
+  const std::array<End, 2>& ends = spec.beam->ends;
   Line line = line_of(*spec.beam);
   std::vector<Section> sections = sections_of(spec, line);
   Surface surface = surface_of(spec);

@@ -28,17 +28,13 @@
 
 #include "common/core/archive.hpp"
 #include "common/core/backward_difference.hpp"
+#include "common/core/choices.hpp"
 #include "common/interface/modal.hpp"
 #include "solid_solver/beam/model.hpp"
 
 namespace fsi::beam {
 
-enum class End {
-  free,
-  pinned,   ///< its place is held
-  clamped,  ///< its place and its direction are held
-  guided,   ///< its direction is held, and it moves across the line only
-};
+using End = BeamEnd;
 
 /// Unit vectors of the motions that the supports of a line leave, in columns.
 Eigen::SparseMatrix<double> free_motions(const Line& line, const std::array<End, 2>& ends);

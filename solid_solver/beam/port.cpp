@@ -51,8 +51,7 @@ std::vector<double> point_lengths(const std::vector<double>& x) {
 
 /// Whether nothing but the gas acts on the beam.
 bool is_surrounded(const SolidSpec& spec) {
-  const bool free =
-      std::ranges::all_of(spec.beam->ends, [](const std::string& end) { return end == "free"; });
+  const bool free = std::ranges::all_of(spec.beam->ends, [](BeamEnd end) { return end == BeamEnd::free; });
   return free && !spec.body_force && !spec.body_fitted.empty() && spec.body_fitted.front().curve.closed();
 }
 

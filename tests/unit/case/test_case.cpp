@@ -81,7 +81,7 @@ TEST(ElasticPiston, HasTheDataOfItsParameters) {
   EXPECT_EQ(side_of(problem.fluid->boundary, Side::left).solid, "solid");
   EXPECT_TRUE(side_of(problem.fluid->boundary, Side::right).from_reference);
   EXPECT_EQ(side_of(solid.boundary, Side::right).kind, BoundaryKind::interface);
-  EXPECT_EQ(solid.scheme.limiter, "none");
+  EXPECT_EQ(solid.scheme.limiter, SolidLimiter::none);
   EXPECT_DOUBLE_EQ(solid.scheme.relaxation.rate, 0.5);
   EXPECT_EQ(problem.reference.kind, "elastic_piston");
   EXPECT_DOUBLE_EQ(problem.reference.numbers.at("density_ratio"), 0.01);

@@ -31,7 +31,7 @@ TEST(Override, ReplacesAnyKeyOfTheFile) {
   EXPECT_DOUBLE_EQ(problem.solids.front().rho, 0.1);
   EXPECT_EQ(problem.solids.front().law, "neo_hookean");
   EXPECT_DOUBLE_EQ(problem.grid_factor, 4);
-  EXPECT_EQ(problem.interface.projection, "full");
+  EXPECT_EQ(problem.interface.projection, Projection::full);
   EXPECT_TRUE(problem.time.multirate);
   EXPECT_DOUBLE_EQ(problem.fluid->gamma, 5.0 / 3);
   EXPECT_EQ(problem.output.times.size(), 2U);

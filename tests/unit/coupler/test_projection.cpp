@@ -6,7 +6,6 @@
 #include <random>
 #include <vector>
 
-#include "common/core/failure.hpp"
 #include "common/interface/riemann.hpp"
 
 namespace fsi::coupler {
@@ -316,13 +315,6 @@ TEST_F(InAngles, Eq21Eq22Eq23RelationsOfTheReferenceFrameHoldAfterTheTurnToTheDe
     EXPECT_NEAR(tangential(0), tangential(1),
                 rounding * (1 + 1 / std::abs(y.col(0).dot(along) * y.col(1).dot(along))));
   }
-}
-
-TEST(ProjectionNames, AreThoseOfTheCaseFile) {
-  EXPECT_EQ(projection_named("full"), Projection::full);
-  EXPECT_EQ(projection_named("simplified"), Projection::simplified);
-  EXPECT_EQ(projection_named("traditional"), Projection::traditional);
-  EXPECT_THROW(projection_named("half"), UserMistake);
 }
 
 }  // namespace

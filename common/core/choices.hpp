@@ -1,0 +1,114 @@
+#pragma once
+/// What a case chooses from: enumerations, each with the one table of its names that the schema, its
+/// documentation, the reader, the programs and their messages share. A new value is one line in its
+/// enumeration and one in its table; a `switch` that does not know it yet does not compile (-Wswitch).
+
+#include <array>
+#include <optional>
+#include <string_view>
+
+namespace fsi {
+
+/// The Riemann solver of the gas.
+enum class RiemannSolver { roe, hllc };
+/// Limiter of the slopes in the gas; none: centred slopes.
+enum class GasLimiter { none, minmod, mc, van_leer };
+/// Limiter of the slopes in a solid.
+enum class SolidLimiter { none, minmod };
+
+/// How the states of the two sides of an interface are combined.
+enum class Projection {
+  full,        ///< with the solid's impedance matrix and its tangential traction, paper eq. (28)
+  simplified,  ///< with the scalar impedance z_p of the solid at rest, paper eq. (29)
+  traditional  ///< the solid gives the velocity, the gas the traction; unstable for light solids
+};
+
+/// The gas's side of that.
+enum class GasResponse {
+  exact,  ///< its whole wave curve, shock or rarefaction
+  linear  ///< the tangent of that curve, as in (28)
+};
+
+/// What holds an end of a beam.
+enum class BeamEnd {
+  free,
+  pinned,   ///< its place is held
+  clamped,  ///< its place and its direction are held
+  guided,   ///< its direction is held, and it moves across the line only
+};
+
+/// A value and how it is written.
+template <class E>
+struct Named {
+  E value;
+  std::string_view name;
+};
+
+/// The table of an enumeration.
+template <class E>
+inline constexpr std::array<Named<E>, 0> names_of{};
+
+template <>
+inline constexpr std::array names_of<RiemannSolver>{
+    Named{RiemannSolver::roe, "roe"},
+    Named{RiemannSolver::hllc, "hllc"},
+};
+template <>
+inline constexpr std::array names_of<GasLimiter>{
+    Named{GasLimiter::none, "none"},
+    Named{GasLimiter::minmod, "minmod"},
+    Named{GasLimiter::mc, "mc"},
+    Named{GasLimiter::van_leer, "van_leer"},
+};
+template <>
+inline constexpr std::array names_of<SolidLimiter>{
+    Named{SolidLimiter::none, "none"},
+    Named{SolidLimiter::minmod, "minmod"},
+};
+template <>
+inline constexpr std::array names_of<Projection>{
+    Named{Projection::full, "full"},
+    Named{Projection::simplified, "simplified"},
+    Named{Projection::traditional, "traditional"},
+};
+template <>
+inline constexpr std::array names_of<GasResponse>{
+    Named{GasResponse::exact, "exact"},
+    Named{GasResponse::linear, "linear"},
+};
+template <>
+inline constexpr std::array names_of<BeamEnd>{
+    Named{BeamEnd::free, "free"},
+    Named{BeamEnd::pinned, "pinned"},
+    Named{BeamEnd::clamped, "clamped"},
+    Named{BeamEnd::guided, "guided"},
+};
+
+/// An enumeration with such a table.
+template <class E>
+concept Choice = !names_of<E>.empty();
+
+/// All names, for a schema.
+template <Choice E>
+inline constexpr auto words_of = [] {
+  std::array<std::string_view, names_of<E>.size()> words;
+  for (std::size_t k = 0; k < words.size(); ++k) words[k] = names_of<E>[k].name;
+  return words;
+}();
+
+template <Choice E>
+constexpr std::string_view name_of(E value) {
+  for (const Named<E>& named : names_of<E>)
+    if (named.value == value) return named.name;
+  return {};
+}
+
+/// The value of a name; none where there is no such name.
+template <Choice E>
+constexpr std::optional<E> named(std::string_view name) {
+  for (const Named<E>& one : names_of<E>)
+    if (one.name == name) return one.value;
+  return std::nullopt;
+}
+
+}  // namespace fsi
