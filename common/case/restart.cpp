@@ -19,7 +19,7 @@ using config::Node;
 constexpr std::array free_of_time{"end", "join_timeout", "peer_timeout", "step_timeout"};
 constexpr std::array free_of_output{
     "times", "every", "checkpoint_every", "checkpoint_seconds", "checkpoint_at_end", "on_failure"};
-constexpr std::array free_sections{"name", "title", "expect"};
+constexpr std::array free_sections{"name", "title", "units", "expect"};
 
 void remove(Node& map, const auto& keys) {
   std::erase_if(map.entries,

@@ -286,12 +286,18 @@ constexpr Key expectation_element{.name = "expectation",
                                   .meaning = "limits of a quantity; a bare word is `equals`",
                                   .section = &expectation_section};
 
+constexpr array<string_view, 2> unit_systems{"none", "SI"};
 constexpr array case_keys{
     Key{.name = "name",
         .type = Type::text,
         .meaning = "name of the case, part of the names of files: letters, digits, _ . -",
         .fallback = "name of the file"},
     Key{.name = "title", .type = Type::text, .meaning = "one line about it", .fallback = "none"},
+    Key{.name = "units",
+        .type = Type::word,
+        .meaning = "labels of pictures: `SI` where all numbers are in m, s, kg; the numbers stay what they are",
+        .fallback = "none",
+        .words = unit_systems},
     Key{.name = "parameters",
         .type = Type::named,
         .meaning = "named numbers, for every expression and `--set parameters.NAME=..`",

@@ -39,9 +39,13 @@ def _run(options):
 
 
 def _check(options):
-    from fsi_launch import case
-    print(case.check(options.case, options.overrides, options.laws))
-    return DONE
+    from fsi_launch import check
+    return check.main(options)
+
+
+def _new(options):
+    from fsi_launch import new
+    return new.main(options)
 
 
 def _converge(options):
@@ -140,6 +144,32 @@ def _words(text):
     return [word for word in text.split(",") if word]
 
 
+def _add_new(verbs):
+    from fsi_launch.new.questions import FLOWS, LAWS
+    verb = verbs.add_parser("new", description="Writes NAME.yaml, a commented case of one body in a gas in SI units, and checks it. On a "
+                            "terminal it asks for what the options leave open.")
+    verb.add_argument("name", metavar="NAME", help="of the case; NAME.yaml is written, in this folder or where NAME says")
+    verb.add_argument("--outline", metavar="FILE", help="points of the body's outline in their order, x, y on each line (default: a circle)")
+    verb.add_argument("--straight", action="store_true", help="straight edges between the points, corners a little rounded, in place of a "
+                      "smooth curve")
+    verb.add_argument("--size", metavar="L", type=float, help="length of the body [m], to which an outline is scaled (default: the file's "
+                      "numbers; a circle: 0.1)")
+    verb.add_argument("--flow", choices=FLOWS, help="a shock that runs against the body (default), or a stream around it")
+    verb.add_argument("--mach", metavar="M", type=float, help="Mach number of the shock (default: 1.3) or of the stream (0.5)")
+    verb.add_argument("--density", metavar="RHO", type=float, help="of the gas [kg/m^3] (default: air, 1.225)")
+    verb.add_argument("--pressure", metavar="P", type=float, help="of the gas [Pa] (default: 101325)")
+    verb.add_argument("--gamma", metavar="G", type=float, help="ratio of its specific heats (default: 1.4)")
+    verb.add_argument("--material", metavar="NAME", help="of the body: steel, aluminium, polycarbonate, rubber, .., or RHO,E,NU [kg/m^3, "
+                      "Pa, -] (default: aluminium)")
+    verb.add_argument("--law", choices=LAWS, help="constitutive law of the body (default: neo_hookean)")
+    verb.add_argument("--fixed", action="store_true", help="a rigid body stays where it is")
+    verb.add_argument("--end", metavar="T", type=float, help="end of the run [s] (default: when the shock has passed)")
+    verb.add_argument("--cells", metavar="N", type=int, help="cells along the body (default: 20)")
+    verb.add_argument("--defaults", action="store_true", help="ask nothing")
+    verb.add_argument("--overwrite", action="store_true", help="replace a case of that name")
+    verb.set_defaults(act=_new)
+
+
 def _parser():
     parser = _Parser(prog="fsi", add_help=False)
     verbs = parser.add_subparsers(dest="verb", required=True, parser_class=_Parser)
@@ -168,8 +198,12 @@ def _parser():
                             "can read and falsify them")
     verb.set_defaults(act=_run)
 
+    _add_new(verbs)
+
     verb = verbs.add_parser("check", description="Checks a case file and starts nothing.")
     _add_case(verb)
+    verb.add_argument("--plot", metavar="FILE", nargs="?", const="", help="draw all its grids at t = 0, unused points left out, "
+                      "as .png, .pdf or .svg (default: CASE_grids.png in this folder)")
     verb.set_defaults(act=_check)
 
     verb = verbs.add_parser("converge", description="Runs a case on several grids and prints its errors with their "

@@ -46,7 +46,8 @@ def _several(directories, out, options):
     return compare.pictures(directories, out, options.at)
 
 
-def _style():
+def style_or_mistake():
+    """The module of the look of pictures, where what it needs is installed."""
     try:
         from fsi_launch.plot import style
     except ModuleNotFoundError as error:
@@ -56,7 +57,7 @@ def _style():
 
 def draw_movie(directory, out=None):
     """Makes the animated file of a run and prints its path."""
-    _style().use()
+    style_or_mistake().use()
     from fsi_launch.plot import data, movie
     series = data.all_series(Path(directory))
     if not series:
@@ -66,7 +67,7 @@ def draw_movie(directory, out=None):
 
 def main(options):
     """Draws everything the results hold and prints the paths of the pictures."""
-    style = _style()
+    style = style_or_mistake()
     directories = [_folder(name) for name in options.directories]
     out = Path(options.out) if options.out else directories[0] / "plots"
     style.use()

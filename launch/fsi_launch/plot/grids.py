@@ -142,3 +142,134 @@ def pictures(series):
         return  # the grids are so coarse that the whole shows all there is
     for place in _places(series, index):
         yield f"grid_{place[0]}", _place_picture(series, index, box, place)
+
+
+# --- of a case, before anything is started
+
+CLOSE_UPS = 3       # beside the whole, at most
+WIDEST = 11.0       # picture [inch]
+WALLS = ("slip_wall", "symmetry")
+SIDES = {"left": np.s_[:, 0], "right": np.s_[:, -1], "bottom": np.s_[0, :], "top": np.s_[-1, :]}
+SIDE_LOOKS = {  # of the gas: (label, line)
+    "wall": {"color": "black", "linewidth": 1.8},
+    "open": {"color": "black", "linewidth": 1.1, "linestyle": (0, (5, 4))},
+    "surface of a body": {"color": style.SOLID_EDGE, "linewidth": 1.8},
+}
+
+
+def _side_kind(word):
+    """What a side of the gas is to the eye; periodic sides and those without a word are open."""
+    if word == "interface":
+        return "surface of a body"
+    return "wall" if word in WALLS else "open"
+
+
+def _used_runs(grid, side):
+    """The parts of a side of a grid between used points, as lines."""
+    return [np.column_stack([grid.x1[side][run], grid.x2[side][run]]) for run in mesh.runs(grid.used()[side])]
+
+
+def _kinds_of_sides(case):
+    """{side of the background: what it is}. `case`: the entries of the resolved case."""
+    return {name: _side_kind(case.get(f"fluid.boundary.{name}.kind", case.get(f"fluid.boundary.{name}", ""))) for name in SIDES}
+
+
+def _side_below(line, background, kinds):
+    """What the side of the background is on which the end of a fitted grid lies."""
+    def distance(name):
+        rim = np.column_stack([background.x1[SIDES[name]], background.x2[SIDES[name]]])
+        return max(np.hypot(*(rim - point).T).min() for point in line)
+    return kinds[min(SIDES, key=distance)]
+
+
+def _fitted_sides(grid, background, kinds, bodies):
+    """[(kind, line)] of a fitted grid: its curve, a wall unless a body has it, and its ends on sides of the background."""
+    curve = max((SIDES["bottom"], SIDES["top"]), key=lambda side: (grid.kind[side] == DISCRETISED).sum())
+    sides = []
+    for line in _used_runs(grid, curve):
+        middle = line[len(line) // 2]
+        of_body = any(np.hypot(*(body - middle).T).min() < INTERFACE * grid.spacing() for body in bodies)
+        sides.append(("surface of a body" if of_body else "wall", line))
+    if not grid.closed:
+        sides += [(_side_below(line, background, kinds), line)
+                  for name in ("left", "right") for line in _used_runs(grid, SIDES[name])]
+    return sides
+
+
+def _gas_sides(series, case):
+    """[(kind, line)] of the rim of the gas. `case`: the entries of the resolved case."""
+    gas = next((one for one in series if one.is_gas()), None)
+    if gas is None:
+        return []
+    background, *fitted = gas.outputs[0].grids
+    kinds = _kinds_of_sides(case)
+    sides = [(kinds[name], line) for name, side in SIDES.items() for line in _used_runs(background, side)]
+    bodies = [line for _, line in _bodies(series)]
+    for grid in fitted:
+        sides += _fitted_sides(grid, background, kinds, bodies)
+    return sides
+
+
+def _bodies(series):
+    """Lines around the solids."""
+    return [("surface of a body", line) for one in series if not one.is_gas()
+            for grid in one.outputs[0].grids for line in mesh.outer_lines(grid)]
+
+
+def _draw_sides(axes, sides):
+    """Returns handles for the legend."""
+    for kind, line in sides:
+        axes.plot(*line.T, zorder=4, **SIDE_LOOKS[kind])
+    shown = {kind for kind, _ in sides}
+    return [Line2D([], [], label=kind, **look) for kind, look in SIDE_LOOKS.items() if kind in shown]
+
+
+def _frames(series, box):
+    """[(title, window)] of the close-ups: around each body and fitted grid."""
+    h = _spacing(series, 0)
+    frames = []
+    for name, points, _ in _places(series, 0)[:CLOSE_UPS]:
+        low, high = points.min(axis=0), points.max(axis=0)
+        half = np.full(2, 0.5 * np.ptp(points, axis=0).max() + CLOSE_UP * h)
+        middle = 0.5 * (low + high)
+        window = (max(middle[0] - half[0], box[0]), min(middle[0] + half[0], box[1]),
+                  max(middle[1] - half[1], box[2]), min(middle[1] + half[1], box[3]))
+        if (window[1] - window[0]) * (window[3] - window[2]) < 0.5 * (box[1] - box[0]) * (box[3] - box[2]):
+            frames.append((f"around {name}", window))
+    return frames
+
+
+def _layout(box, frames):
+    """(figure, axes of the whole, axes of the close-ups below it)."""
+    whole = min(7.0, max(2.0, (WIDEST - 3) * (box[3] - box[2]) / (box[1] - box[0])))
+    heights = [whole] + ([4.6] if frames else [])
+    figure = pyplot.figure(figsize=(WIDEST, sum(heights) + 0.8))
+    rows = figure.add_gridspec(len(heights), 1, height_ratios=heights)
+    top = figure.add_subplot(rows[0])
+    below = rows[1].subgridspec(1, len(frames)) if frames else []
+    return figure, top, [figure.add_subplot(below[k]) for k in range(len(frames))]
+
+
+def case_picture(series, case, title):
+    """All grids of a case at t = 0: unused points left out, the rim of the gas by what it is, a close-up of each body. `series`: from
+    fsi_grids; `case`: the entries of the resolved case."""
+    box = fields.box_around([grid for one in series for grid in one.outputs[0].grids])
+    frames = _frames(series, box)
+    figure, top, below = _layout(box, frames)
+    sides = _gas_sides(series, case) + _bodies(series)
+    lines = max(max(grid.x1.shape) for one in series for grid in one.outputs[0].grids)
+    step = -(-lines // MOST_LINES)
+    handles = _draw(top, series, 0, step, 0.35)
+    handles += _draw_sides(top, sides)
+    _legend(top, handles)
+    for axes, (name, window) in zip([top, *below], [(title, box), *frames]):
+        axes.set_aspect("equal")
+        axes.set_xlim(window[0], window[1])
+        axes.set_ylim(window[2], window[3])
+        axes.set_title(name if axes is not top or step == 1 else f"{name} (one line in {step})", loc="left")
+        axes.set_xlabel("x", labelpad=1)
+        axes.set_ylabel("y", labelpad=3)
+    for axes in below:
+        _draw(axes, series, 0, 1, 0.45)
+        _draw_sides(axes, sides)
+    return figure

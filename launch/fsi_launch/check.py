@@ -1,0 +1,52 @@
+"""`fsi check`: is a case right, what will it cost, and what do its grids look like?"""
+
+import subprocess
+import tempfile
+from pathlib import Path
+
+from fsi_launch import case as cases
+from fsi_launch import paths
+from fsi_launch.failure import DONE, Failure, INTERNAL_ERROR, UserMistake
+
+FORMATS = (".png", ".pdf", ".svg")
+
+
+def _picture_path(name, case):
+    """Where the picture goes: what the user says, else in this folder by the name of the case."""
+    path = Path(name or f"{case.name}_grids.png")
+    if path.suffix not in FORMATS:
+        raise UserMistake(f"--plot {path}: pictures are {', '.join(FORMATS)}; end the name with one of them")
+    if not path.absolute().parent.is_dir():
+        raise UserMistake(f"--plot {path}: there is no folder '{path.parent}'; make it, or name another")
+    return path
+
+
+def _write_grids(options, folder):
+    command = [paths.program("fsi_grids"), options.case, folder, *(f"--set={one}" for one in options.overrides),
+               *(f"--solid={one}" for one in options.laws)]
+    answer = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
+    if answer.returncode != 0:
+        raise Failure(INTERNAL_ERROR, answer.stderr.strip() or f"fsi_grids failed ({answer.returncode})")
+
+
+def draw(options):
+    """Draws the grids of a case that is right; returns the path of the picture."""
+    from fsi_launch import plot
+    style = plot.style_or_mistake()
+    case = cases.resolve(options.case, options.overrides, options.laws)
+    path = _picture_path(options.plot, case)
+    paths.build(["fsi_grids"])
+    style.use()
+    from fsi_launch.plot import data, grids, several
+    with tempfile.TemporaryDirectory(prefix="fsi-grids-") as folder:
+        _write_grids(options, folder)
+        style.save(grids.case_picture(data.all_series(Path(folder)), several.entries(case.text), f"grids of {case.name} at t = 0"), path)
+    return path
+
+
+def main(options):
+    """Prints what `fsi_case check` says, and draws where that is asked for."""
+    print(cases.check(options.case, options.overrides, options.laws), flush=True)
+    if options.plot is not None:
+        print(f"  grids drawn in {draw(options)}")
+    return DONE

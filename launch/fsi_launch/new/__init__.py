@@ -1,0 +1,76 @@
+"""`fsi new`: a commented case out of options and, on a terminal, a few questions."""
+
+import os
+import re
+import sys
+from pathlib import Path
+
+from fsi_launch import case as cases
+from fsi_launch.failure import DONE, UserMistake
+from fsi_launch.new import materials, outline, text
+from fsi_launch.new.problem import Problem
+from fsi_launch.new.questions import ask_for_missing
+
+SIZE = 0.1      # of a circle [m]
+
+
+def _paths(options):
+    """(path of the case, path of the outline a new one is written to)"""
+    path = Path(options.name)
+    path = path if path.suffix == ".yaml" else path.with_name(path.name + ".yaml")
+    if not re.fullmatch(r"[A-Za-z0-9_.-]+", path.stem):
+        raise UserMistake(f"new: '{path.stem}' is no name of a case: letters, digits, _ . -")
+    if not path.absolute().parent.is_dir():
+        raise UserMistake(f"new: there is no folder '{path.parent}'; make it, or name another")
+    return path, path.with_name(f"{path.stem}_outline.csv")
+
+
+def _outline(options):
+    if options.outline is None:
+        if options.straight:
+            raise UserMistake("--straight is about the points of an outline; add --outline FILE")
+        return outline.Outline(radius=0.5 * (options.size or SIZE))
+    found = outline.read(options.outline)
+    return outline.scaled(found, options.size) if options.size else found
+
+
+def problem_of(options):
+    """The Problem the options describe. Throws UserMistake."""
+    if options.size is not None and options.size <= 0:
+        raise UserMistake(f"--size {options.size:g}: must be above 0")
+    chosen = {key: getattr(options, key) for key in ("flow", "mach", "law", "end", "cells", "gamma") if getattr(options, key) is not None}
+    if options.density is not None:
+        chosen["rho"] = options.density
+    if options.pressure is not None:
+        chosen["p"] = options.pressure
+    if chosen.get("flow") == "stream":
+        chosen.setdefault("mach", 0.5)
+    problem = Problem(name=Path(options.name).stem, outline=_outline(options), straight=options.straight, fixed=options.fixed,
+                      material=materials.material_of(options.material or "aluminium"), **chosen)
+    problem.check()
+    return problem
+
+
+def _write(path, content):
+    path.write_text(content, encoding="utf-8")
+    print(f"wrote {path}")
+
+
+def main(options):
+    """Writes NAME.yaml, and its outline where that had to be scaled; checks what it wrote."""
+    path, points = _paths(options)
+    if not options.defaults and sys.stdin.isatty() and sys.stdout.isatty():
+        ask_for_missing(options)
+    problem = problem_of(options)
+    own_points = problem.outline.points and problem.outline.path is None and not problem.straight
+    for taken in (path, *([points] if own_points else [])):
+        if taken.exists() and not options.overwrite:
+            raise UserMistake(f"{taken} is there already; write another name, or add --overwrite")
+    if own_points:
+        lines = "".join(f"{x:.9g}, {y:.9g}\n" for x, y in problem.outline.points)
+        _write(points, f"# points x, y [m] of the outline in {Path(options.outline).name}, its longer side {options.size:g} m\n{lines}")
+    file = points.name if own_points else problem.outline.path and os.path.relpath(problem.outline.path, path.parent)
+    _write(path, text.write(problem, str(path), file))
+    print(cases.check(str(path), [], []))
+    print(f"next: ./launch/fsi check {path} --plot, ./launch/fsi run {path}")
+    return DONE

@@ -1,0 +1,73 @@
+"""The outline of the body in a new case: a circle, or points from a file."""
+
+import re
+from dataclasses import dataclass
+from pathlib import Path
+
+from fsi_launch.failure import UserMistake
+
+FEWEST = 3      # corners
+
+
+@dataclass(frozen=True)
+class Outline:
+    """Points (x, y) of a closed outline in their order, or a circle about the origin where there are none."""
+
+    path: Path = None
+    points: tuple = ()
+    radius: float = 0.0
+
+    def box(self):
+        """(x low, x high, y low, y high)"""
+        if not self.points:
+            return -self.radius, self.radius, -self.radius, self.radius
+        x, y = zip(*self.points)
+        return min(x), max(x), min(y), max(y)
+
+    def size(self):
+        """The longer side of the box [m]."""
+        x_low, x_high, y_low, y_high = self.box()
+        return max(x_high - x_low, y_high - y_low)
+
+
+def _numbers(line):
+    return tuple(float(word) for word in re.split(r"[,;\s]+", line.strip()) if word)
+
+
+def read(path):
+    """The Outline in a file with x, y on each line; comments begin with #, and the first line may name the columns. Throws UserMistake
+    with file:line."""
+    path = Path(path)
+    try:
+        lines = path.read_text(encoding="utf-8").splitlines()
+    except (OSError, UnicodeDecodeError) as error:
+        raise UserMistake(f"--outline {path}: cannot be read ({getattr(error, 'strerror', None) or 'it is no UTF-8 text'})") from None
+    points = []
+    for number, line in enumerate(lines, 1):
+        text = line.split("#")[0].strip()
+        if not text or (not points and re.match(r"[A-Za-z\"]", text)):
+            continue
+        try:
+            x, y = _numbers(text)
+        except ValueError:
+            raise UserMistake(f"{path}:{number}: '{text[:30]}' is no point: write two numbers, x, y") from None
+        points.append((x, y))
+    if len(points) > 1 and points[0] == points[-1]:
+        points.pop()
+    if len(points) < FEWEST:
+        raise UserMistake(f"{path}: an outline needs {FEWEST} points or more, x, y on each line; there are {len(points)}")
+    outline = Outline(path, tuple(points))
+    if outline.size() <= 0:
+        raise UserMistake(f"{path}: all points are the same")
+    return outline
+
+
+def scaled(outline, size):
+    """The outline with its longer side `size` long, about the origin of its coordinates."""
+    factor = size / outline.size()
+    return Outline(None, tuple((factor * x, factor * y) for x, y in outline.points), factor * outline.radius)
+
+
+def shortest_edge(outline):
+    following = outline.points[1:] + outline.points[:1]
+    return min(((a[0] - b[0]) ** 2 + (a[1] - b[1]) ** 2) ** 0.5 for a, b in zip(outline.points, following))

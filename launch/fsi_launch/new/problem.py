@@ -1,0 +1,79 @@
+"""What a new case is about, in numbers, and what follows from them."""
+
+import math
+from dataclasses import dataclass
+
+from fsi_launch.failure import UserMistake
+from fsi_launch.new.materials import Material
+from fsi_launch.new.outline import Outline
+
+BEFORE, BEHIND, BESIDE = 1.5, 2.5, 1.5      # gas around the body, in lengths of it
+SHOCK_AT = 0.5      # before the body, in lengths of it
+SHOCK_PASSES, STREAM_PASSES = 2.5, 2.0      # lengths of the body until the end
+OUTPUTS = 10
+
+
+@dataclass(frozen=True)
+class Problem:
+    """A body in a gas; SI units throughout."""
+
+    name: str
+    outline: Outline
+    material: Material
+    straight: bool = False      # edges between the points of the outline
+    flow: str = "shock"         # or stream
+    mach: float = 1.3
+    rho: float = 1.225          # dry air at 15 degrees Celsius and one atmosphere (the ISO 2533 standard atmosphere at sea level)
+    p: float = 101325.0
+    gamma: float = 1.4
+    law: str = "neo_hookean"
+    fixed: bool = False
+    end: float = None           # of the run; None: chosen
+    cells: int = 20             # along the body
+
+    def check(self):
+        """Throws UserMistake."""
+        if self.flow == "shock" and self.mach <= 1:
+            raise UserMistake(f"--mach {self.mach:g}: a shock is faster than sound, above 1; --flow stream takes any")
+        for option, value in (("mach", self.mach), ("density", self.rho), ("pressure", self.p), ("end", self.end or 1.0)):
+            if not (value > 0 and math.isfinite(value)):
+                raise UserMistake(f"--{option} {value:g}: must be above 0")
+        if not 1 < self.gamma <= 10:
+            raise UserMistake(f"--gamma {self.gamma:g}: must be above 1 and at most 10")
+        if not 5 <= self.cells <= 1000:
+            raise UserMistake(f"--cells {self.cells}: must be 5 to 1000")
+        if self.fixed and self.law != "rigid":
+            raise UserMistake("--fixed holds a rigid body; add --law rigid")
+
+    def sound(self):
+        """Speed of sound of the gas at rest [m/s]."""
+        return math.sqrt(self.gamma * self.p / self.rho)
+
+    def spacing(self):
+        """A round number near the length of the body over the cells [m]."""
+        return _round_down(self.outline.size() / self.cells)
+
+    def domain(self):
+        """(x low, x high, y low, y high) of the gas, whole spacings around the body [m]."""
+        x_low, x_high, y_low, y_high = self.outline.box()
+        length, step = self.outline.size(), 5 * self.spacing()
+        def down(value):
+            return step * math.floor(value / step + 1e-9)
+        return (down(x_low - BEFORE * length), -down(-x_high - BEHIND * length), down(y_low - BESIDE * length),
+                -down(-y_high - BESIDE * length))
+
+    def shock(self):
+        """Where it is at t = 0 [m]."""
+        step = self.spacing()
+        return step * round((self.outline.box()[0] - SHOCK_AT * self.outline.size()) / step)
+
+    def duration(self):
+        """Until the shock has passed the body, or the stream twice its length [s]."""
+        lengths = SHOCK_PASSES if self.flow == "shock" else STREAM_PASSES
+        return self.end or float(f"{lengths * self.outline.size() / (self.mach * self.sound()):.2g}")
+
+
+def _round_down(value):
+    """1, 2, 2.5 or 5 times a power of ten."""
+    power = 10.0 ** math.floor(math.log10(value) + 1e-9)
+    return max(unit for unit in (1, 2, 2.5, 5) if unit * power <= value * (1 + 1e-9)) * power

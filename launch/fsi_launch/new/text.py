@@ -1,0 +1,114 @@
+"""The text of a new case: commented, with nothing in it that the programs choose well by themselves."""
+
+from fsi_launch.new.problem import OUTPUTS
+
+HEAD = """# {title}. Written by fsi new; every number may be changed, here or by --set KEY=VALUE (docs/case_file.md).
+# ./launch/fsi check {file} --plot    is it right, what does it cost, how do its grids look?
+# ./launch/fsi run {file}             run it; --set grid.factor={fine:g} with half the spacing
+title: {title}
+units: SI                 # labels of pictures: all numbers here are in m, s, kg
+
+parameters:
+  gamma: {gamma:<17g}# ratio of specific heats of the gas
+  rho_0: {rho:<17g}# its density [kg/m^3]
+  p_0: {p:<19g}# its pressure [Pa]
+  a_0: sqrt(gamma * p_0 / rho_0)    # its speed of sound [m/s]: {sound:.4g}
+"""
+
+SHOCK = """  mach: {mach:<18g}# of the shock
+  x_shock: {shock:<15.6g}# where the shock is at t = 0 [m]; it runs to the right
+  p_1: p_0 * (1 + 2 * gamma / (gamma + 1) * (mach^2 - 1))                         # behind it, by Rankine and Hugoniot
+  rho_1: rho_0 * (gamma + 1) * mach^2 / ((gamma - 1) * mach^2 + 2)
+  v_1: 2 * a_0 / (gamma + 1) * (mach - 1 / mach)
+"""
+
+STREAM = """  mach: {mach:<18g}# of the stream
+  v_1: mach * a_0         # its velocity [m/s], to the right; the body is put into it at t = 0, at rest
+"""
+
+SOLID_NUMBERS = """  rho_bar: {material.rho:<15g}# density of the body [kg/m^3]: {material.name}{note}
+  E: {material.E:<21g}# Young's modulus [Pa]
+  nu: {material.nu:<20g}# Poisson's ratio
+"""
+
+RESOLUTION = """
+grid: {{factor: {factor:g}}}{space}# h = 1 / (10 factor) = {h:g} m: {cells} cells along the body
+
+time: {{end: {end:g}, multirate: true}}    # [s]; multirate: a stiff solid takes substeps
+
+fluid:
+  gamma: gamma
+  p_e: p_0                # pressure at which the body is free of stress
+  grid: {{name: background, x: [{x_low:.6g}, {x_high:.6g}], y: [{y_low:.6g}, {y_high:.6g}], spacing: h}}
+"""
+
+SHOCK_SIDES = """  boundary:
+    left: {kind: far_field, state: {rho: rho_1, v: [v_1, 0], p: p_1}}    # the gas behind the shock; waves from inside leave
+    right: {kind: far_field, state: {rho: rho_0, v: [0, 0], p: p_0}}
+    bottom: outflow       # or slip_wall: a duct
+    top: outflow
+  initial:
+    rho: "x < x_shock ? rho_1 : rho_0"
+    v: ["x < x_shock ? v_1 : 0", 0]
+    p: "x < x_shock ? p_1 : p_0"
+"""
+
+STREAM_SIDES = """  boundary:               # the stream outside, through which waves leave
+    left: {kind: far_field, state: {rho: rho_0, v: [v_1, 0], p: p_0}}
+    right: {kind: far_field, state: {rho: rho_0, v: [v_1, 0], p: p_0}}
+    bottom: {kind: far_field, state: {rho: rho_0, v: [v_1, 0], p: p_0}}    # or slip_wall: a wind tunnel
+    top: {kind: far_field, state: {rho: rho_0, v: [v_1, 0], p: p_0}}
+  initial: {rho: rho_0, v: [v_1, 0], p: p_0}
+"""
+
+BODY = """
+solids:
+  body:                   # its grids, and those of the gas around it, are chosen; check says how
+    law: {law}{space}# or neo_hookean, saint_venant_kirchhoff, linear_elastic, rigid: --solid body=LAW
+    rho: rho_bar
+    lambda: E * nu / ((1 + nu) * (1 - 2 * nu))
+    mu: E / (2 * (1 + nu))
+{motion}    shape: {shape}
+
+output:
+  every: {every:.3g}{every_space}# fields [s]
+  # probes: [{{name: above, in: fluid, x: {x_probe:.4g}, y: {y_probe:.4g}}}]    values at a point, every step
+
+expect:
+  status: completed
+"""
+
+
+def _shape(problem, path):
+    """The entry of the outline; `path`: of its file from where the case is."""
+    outline = problem.outline
+    if not outline.points:
+        return f"{{kind: circle, radius: {outline.radius:g}}}"
+    if not problem.straight:
+        return f"{{kind: spline, file: {path}}}    # a smooth curve through the points"
+    from fsi_launch.new.outline import shortest_edge
+    corners = ", ".join(f"[{x:.9g}, {y:.9g}]" for x, y in outline.points)
+    radius = min(2 * problem.spacing(), 0.25 * shortest_edge(outline))
+    return f"\n      kind: polygon\n      corners: [{corners}]\n      radius: {radius:.3g}       # of the rounded corners [m]"
+
+
+def write(problem, file, path):
+    """The text. `file`: what to call the case on the command line; `path`: of the outline's file."""
+    h = problem.spacing()
+    x_low, x_high, y_low, y_high = problem.domain()
+    shock = problem.flow == "shock"
+    material, end = problem.material, problem.duration()
+    kind = f"shock of Mach {problem.mach:g}" if shock else f"stream of Mach {problem.mach:g}"
+    factor = f"{0.1 / h:g}"
+    every = f"{end / OUTPUTS:.3g}"
+    numbers = {
+        "title": f"A body of {material.name} in a {kind}", "file": file, "fine": 0.2 / h, "gamma": problem.gamma, "rho": problem.rho,
+        "p": problem.p, "sound": problem.sound(), "mach": problem.mach, "shock": problem.shock(), "material": material,
+        "note": f" ({material.note})" if material.note else "", "factor": 0.1 / h, "h": h, "space": " " * max(1, 9 - len(factor)),
+        "cells": round(problem.outline.size() / h), "end": end, "x_low": x_low, "x_high": x_high, "y_low": y_low, "y_high": y_high}
+    body = BODY.format(
+        law=problem.law, space=" " * max(1, 15 - len(problem.law)), shape=_shape(problem, path), every=end / OUTPUTS,
+        every_space=" " * max(1, 15 - len(every)), motion="    motion: fixed         # free: the gas moves it\n" if problem.fixed else "",
+        x_probe=0.5 * sum(problem.outline.box()[:2]), y_probe=0.5 * (problem.outline.box()[3] + y_high))
+    return (HEAD.format(**numbers) + (SHOCK if shock else STREAM).format(**numbers) + SOLID_NUMBERS.format(**numbers)
+            + RESOLUTION.format(**numbers) + (SHOCK_SIDES if shock else STREAM_SIDES) + body)
