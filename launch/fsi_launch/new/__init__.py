@@ -30,7 +30,7 @@ def _outline(options):
         if options.straight:
             raise UserMistake("--straight is about the points of an outline; add --outline FILE")
         return outline.Outline(radius=0.5 * (options.size or SIZE))
-    found = outline.read(options.outline)
+    found = outline.read(options.outline, options.straight)
     return outline.scaled(found, options.size) if options.size else found
 
 

@@ -6,7 +6,8 @@ from pathlib import Path
 
 from fsi_launch.failure import UserMistake
 
-FEWEST = 3      # corners
+FEWEST = 4              # points of a smooth curve
+FEWEST_CORNERS = 3      # of straight edges
 
 
 @dataclass(frozen=True)
@@ -34,9 +35,9 @@ def _numbers(line):
     return tuple(float(word) for word in re.split(r"[,;\s]+", line.strip()) if word)
 
 
-def read(path):
-    """The Outline in a file with x, y on each line; comments begin with #, and the first line may name the columns. Throws UserMistake
-    with file:line."""
+def read(path, straight=False):
+    """The Outline in a file with x, y on each line; comments begin with #, and the first line may name the columns. `straight`: with
+    edges between the points. Throws UserMistake with file:line."""
     path = Path(path)
     try:
         lines = path.read_text(encoding="utf-8").splitlines()
@@ -54,8 +55,10 @@ def read(path):
         points.append((x, y))
     if len(points) > 1 and points[0] == points[-1]:
         points.pop()
-    if len(points) < FEWEST:
-        raise UserMistake(f"{path}: an outline needs {FEWEST} points or more, x, y on each line; there are {len(points)}")
+    fewest = FEWEST_CORNERS if straight else FEWEST
+    if len(points) < fewest:
+        raise UserMistake(f"{path}: an outline needs {fewest} points or more, x, y on each line; there are {len(points)}"
+                          + ("" if straight else f" (--straight: {FEWEST_CORNERS} or more, as corners)"))
     outline = Outline(path, tuple(points))
     if outline.size() <= 0:
         raise UserMistake(f"{path}: all points are the same")

@@ -37,7 +37,7 @@ def _one_of(choices):
 
 
 def _existing(text):
-    outline.read(Path(text))
+    outline.read(Path(text), straight=True)  # that there are enough for a curve is seen in the end
     return text
 
 
