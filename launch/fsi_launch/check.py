@@ -37,10 +37,12 @@ def draw(options):
     path = _picture_path(options.plot, case)
     paths.build(["fsi_grids"])
     style.use()
-    from fsi_launch.plot import data, grids, several
+    from fsi_launch.plot import data, grids, several, units
+    entries = several.entries(case.text)
+    units.use_those_of([entries])
     with tempfile.TemporaryDirectory(prefix="fsi-grids-") as folder:
         _write_grids(options, folder)
-        style.save(grids.case_picture(data.all_series(Path(folder)), several.entries(case.text), f"grids of {case.name} at t = 0"), path)
+        style.save(grids.case_picture(data.all_series(Path(folder)), entries, f"grids of {case.name} at t = 0"), path)
     return path
 
 

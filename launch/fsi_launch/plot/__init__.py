@@ -46,6 +46,13 @@ def _several(directories, out, options):
     return compare.pictures(directories, out, options.at)
 
 
+def _take_units(directories):
+    """Labels as the cases of these runs want them; of a convergence study its finest level counts."""
+    from fsi_launch.plot import data, several, units
+    paths = [data.finest_level(directory) / "case.yaml" for directory in directories]
+    units.use_those_of([several.entries(path.read_text(encoding="utf-8")) for path in paths if path.is_file()])
+
+
 def style_or_mistake():
     """The module of the look of pictures, where what it needs is installed."""
     try:
@@ -59,6 +66,7 @@ def draw_movie(directory, out=None):
     """Makes the animated file of a run and prints its path."""
     style_or_mistake().use()
     from fsi_launch.plot import data, movie
+    _take_units([Path(directory)])
     series = data.all_series(Path(directory))
     if not series:
         raise UserMistake(f"'{directory}' holds no fields: no fluid.h5, solid_*.h5")
@@ -71,6 +79,7 @@ def main(options):
     directories = [_folder(name) for name in options.directories]
     out = Path(options.out) if options.out else directories[0] / "plots"
     style.use()
+    _take_units(directories)
     pictures = _one(directories[0], out, options) if len(directories) == 1 else _several(directories, out, options)
     for name, figure in pictures:
         path = out / f"{name}.{options.format}"

@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib import pyplot
 from matplotlib.tri import LinearTriInterpolator
 
-from fsi_launch.plot import mesh, several, style
+from fsi_launch.plot import mesh, several, style, units
 
 HEADING = ("beam", "coarse", "fine", "t", "largest distance")
 SLENDER = 3         # a beam is so many times longer than it is thick
@@ -172,11 +172,11 @@ def _panel(axes, group, title):
         for beam in run.beams:
             _draw(axes, beam, line, _colours(len(beam.lines)))
     handles = [handle for handle in axes.get_lines()[:len(group[0].beams[0].lines)]]
-    axes.legend(handles=handles, title="t", loc="center left", bbox_to_anchor=(1.0, 0.5), handlelength=1.2)
+    axes.legend(handles=handles, title=units.label("t", "time"), loc="center left", bbox_to_anchor=(1.0, 0.5), handlelength=1.2)
     axes.set_aspect("equal")
     axes.set_title(title, loc="left")
     lines = [f"j = {run.factor:g} {name}" for run, name in zip(group, ("full", "dashed", "dotted", "dash-dot"))]
-    axes.set_xlabel("x" + (f"      ({', '.join(lines)})" if len(group) > 1 else ""))
+    axes.set_xlabel(units.label("x", "length") + (f"      ({', '.join(lines)})" if len(group) > 1 else ""))
 
 
 def picture(runs):
@@ -193,7 +193,7 @@ def picture(runs):
     for axes in list(panels.flat)[len(groups):]:
         axes.set_visible(False)
     for axes in panels[:, 0]:
-        axes.set_ylabel("y")
+        axes.set_ylabel(units.label("y", "length"))
     return figure
 
 

@@ -3,7 +3,7 @@
 import numpy as np
 from matplotlib import pyplot
 
-from fsi_launch.plot import several, style
+from fsi_launch.plot import several, style, units
 
 GAS_LINES = (("rho", "density $\\rho$"), ("v", "velocity $v$"), ("p", "pressure $p$"))
 SOLID_LINES = (("u", "displacement $\\bar u$"), ("v", "velocity $\\bar v$"), ("P11", "stress $\\bar P_{11}$"))
@@ -64,13 +64,13 @@ def _lines_picture(series, scales, reference):
                 output = one.outputs[index]
                 s, values = _along(output.grids[0], key, _direction(output.grids[0]))
                 values = np.where(np.abs(values) > scales.floor(_unit(key)), values, 0)
-                axes.plot(s, values, color=colour, label=f"t = {output.t:.3g}")
+                axes.plot(s, values, color=colour, label=units.moment(output.t, 3))
                 if table := several.at(reference, output.t):
                     _reference_line(axes, one, key, table)
             _steady(axes, np.concatenate([line.get_ydata() for line in axes.lines]))
-            axes.set_title(label, loc="left")
-        panels[0][column].set_title(f"{one.name}: {lines[0][1]}", loc="left")
-        panels[-1][column].set_xlabel("position along the line")
+            axes.set_title(units.label(label, _unit(key)), loc="left")
+        panels[0][column].set_title(f"{one.name}: {units.label(lines[0][1], _unit(lines[0][0]))}", loc="left")
+        panels[-1][column].set_xlabel(units.label("position along the line", "length"))
     if reference:
         panels[0][0].plot([], [], label="reference", **REFERENCE)
     panels[0][0].legend()
@@ -103,7 +103,13 @@ def _unit(heading):
     if "[" in heading:
         return heading.split("[")[1].rstrip("]")
     field = heading.rsplit(".", 1)[-1]
-    return {"v": "length/time", "u": "length", "p": "force/area", "P": "force/area"}.get(field[:1], "unknown")
+    return {"v": "length/time", "u": "length", "p": "force/area", "P": "force/area", "r": "mass/volume"}.get(field[:1], "unknown")
+
+
+def _title(heading):
+    """A heading for people, with its unit in symbols where the case says which."""
+    named = heading if "[" in heading else units.label(heading, _unit(heading))
+    return units.heading(named).replace("_", " ")
 
 
 def _steady(axes, values):
@@ -146,7 +152,7 @@ def _table_picture(table, scales):
         if _bare(name) == "dt":  # the start has none
             table.columns[name][table.columns[name] == 0] = np.nan
         floor, largest = scales.floor(_unit(name)), np.nanmax(np.abs(table.columns[name]), initial=0)
-        axes.set_title(name.replace("_", " "), loc="left")
+        axes.set_title(_title(name), loc="left")
         if largest <= floor:
             _zero(axes, table.columns[time], largest)
             continue
@@ -158,7 +164,7 @@ def _table_picture(table, scales):
     for axes in panels.flat[len(names):]:
         axes.set_visible(False)
     for axes in panels.flat[max(0, len(names) - columns):len(names)]:  # the lowest of each column
-        axes.set_xlabel("t")
+        axes.set_xlabel(units.label("t", "time"))
         axes.tick_params(labelbottom=True)
     return figure
 

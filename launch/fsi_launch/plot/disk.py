@@ -9,7 +9,7 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 from matplotlib.tri import LinearTriInterpolator
 
-from fsi_launch.plot import mesh, style
+from fsi_launch.plot import mesh, style, units
 
 SAME_TIME = 1e-9
 AXIS_POINTS = 1601  # along y = 0
@@ -143,7 +143,7 @@ def _picture(gas, solid, t):
                Line2D([], [], color=style.GAS_LINE, marker=".", linestyle="", label="gas"),
                Line2D([], [], color="black", linewidth=0.8, label="one-dimensional reference")]
     axes[0][0].legend(handles=handles)
-    figure.suptitle(f"all grid points, t = {t:.4g}", x=0.01, ha="left", fontsize=10)
+    figure.suptitle(f"all grid points, {units.moment(t)}", x=0.01, ha="left", fontsize=10)
     return figure
 
 
@@ -193,7 +193,7 @@ def _axis_picture(gas, solid, reference, t, p_e):
         panel.set_xlim(-reach, reach)
     axes[0].legend(handles=[Line2D([], [], color=style.SOLID_LINE, label="solid"), Line2D([], [], color=style.GAS_LINE, label="gas"),
                             Line2D([], [], color="black", linewidth=0.8, linestyle=(0, (4, 4)), label="reference")])
-    figure.suptitle(f"along $x_2$ = 0, t = {t:.4g}", x=0.01, ha="left", fontsize=10)
+    figure.suptitle(f"along $x_2$ = 0, {units.moment(t)}", x=0.01, ha="left", fontsize=10)
     return figure
 
 

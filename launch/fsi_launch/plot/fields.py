@@ -7,7 +7,7 @@ import numpy as np
 from matplotlib import pyplot
 from matplotlib.collections import LineCollection, PolyCollection, TriMesh
 
-from fsi_launch.plot import mesh, style
+from fsi_launch.plot import mesh, style, units
 from fsi_launch.plot.scales import Scales
 
 MOST_TIMES = 12        # pictures of fields; of a longer series, times evenly spread
@@ -34,7 +34,7 @@ class Quantity:
 V1 = Quantity("length/time", lambda grid: grid.fields["v1"])
 SPEED = Quantity("length/time", lambda grid: grid.speed())
 PRESSURE = Quantity("force/area", lambda grid: grid.fields["p"])
-DENSITY = Quantity("", lambda grid: grid.fields["rho"])
+DENSITY = Quantity("mass/volume", lambda grid: grid.fields["rho"])
 DISPLACEMENT = Quantity("length", lambda grid: np.hypot(grid.fields["u1"], grid.fields["u2"]))
 STRESS = Quantity("force/area", lambda grid: np.sqrt(sum(grid.fields[f"P{c}"] ** 2 for c in ("11", "12", "21", "22"))))
 
@@ -159,7 +159,7 @@ def _draw(figure, axes, gas, solids, panel, look):
         if not of_solid:
             _fill(axes, solid.grids)
         outline(axes, solid.grids)
-    axes.set_title(title, loc="left")
+    axes.set_title(units.label(title, (of_gas or of_solid).unit), loc="left")
 
 
 def _panels_of(gas, solids, floor):
@@ -180,7 +180,7 @@ def _field_picture(series, index, box, look):
     figure, axes = panels(len(chosen), box, 0.8 * (bool(gas) + bool(solids)))
     for one, panel in zip(axes, chosen):
         _draw(figure, one, gas, solids, panel, look)
-    figure.suptitle(f"t = {series[0].outputs[index].t:.4g}", x=0.01, ha="left", fontsize=10)
+    figure.suptitle(units.moment(series[0].outputs[index].t), x=0.01, ha="left", fontsize=10)
     return figure
 
 
@@ -199,6 +199,6 @@ def last_picture(series, look):
     if not series:
         return
     figure = _field_picture(series, 0, box_around([grid for one in series for grid in one.outputs[0].grids]), look)
-    times = ", ".join(f"{one.name} at t = {one.outputs[0].t:.4g}" for one in series)
+    times = ", ".join(f"{one.name} at {units.moment(one.outputs[0].t)}" for one in series)
     figure.suptitle(f"the last state before the numbers broke: {times}", x=0.01, ha="left", fontsize=10)
     yield "fields_last", figure

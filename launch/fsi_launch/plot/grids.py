@@ -6,7 +6,7 @@ from matplotlib.collections import LineCollection
 from matplotlib.lines import Line2D
 from matplotlib.patches import Rectangle
 
-from fsi_launch.plot import fields, mesh, style
+from fsi_launch.plot import fields, mesh, style, units
 from fsi_launch.plot.data import DISCRETISED, INTERPOLATED
 
 MOST_LINES = 170     # of a background grid in the picture of the whole; of finer grids every n-th line is drawn
@@ -109,7 +109,7 @@ def _place_picture(series, index, box, place):
     handles = _draw(left, series, index, 1, 0.3)
     _frame(left, middle, whole, box)
     left.add_patch(Rectangle(at - half, 2 * half, 2 * half, fill=False, edgecolor="black", linewidth=0.9, zorder=3))
-    left.set_title(f"grids around {name}, t = {series[0].outputs[index].t:.4g}", loc="left")
+    left.set_title(f"grids around {name}, {units.moment(series[0].outputs[index].t)}", loc="left")
     _draw(right, series, index, 1, 0.7)
     handles += _mark_interpolated(right, series, index)
     _frame(right, at, half, box)
@@ -124,7 +124,7 @@ def _whole_picture(series, index, box):
     lines = max(max(grid.x1.shape) for grid in [g for g in grids if g.is_cartesian()] or grids)
     figure, (axes,) = fields.panels(1, box, 1.4 if len(grids) > 1 else 0)
     handles = _draw(axes, series, index, -(-lines // MOST_LINES), 0.35)
-    axes.set_title(f"grids at t = {series[0].outputs[index].t:.4g}", loc="left")
+    axes.set_title(f"grids at {units.moment(series[0].outputs[index].t)}", loc="left")
     if len(grids) > 1:
         _legend(axes, handles)
     return figure
@@ -267,8 +267,8 @@ def case_picture(series, case, title):
         axes.set_xlim(window[0], window[1])
         axes.set_ylim(window[2], window[3])
         axes.set_title(name if axes is not top or step == 1 else f"{name} (one line in {step})", loc="left")
-        axes.set_xlabel("x", labelpad=1)
-        axes.set_ylabel("y", labelpad=3)
+        axes.set_xlabel(units.label("x", "length"), labelpad=1)
+        axes.set_ylabel(units.label("y", "length"), labelpad=3)
     for axes in below:
         _draw(axes, series, 0, 1, 0.45)
         _draw_sides(axes, sides)

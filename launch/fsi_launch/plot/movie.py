@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 from matplotlib import pyplot
 
-from fsi_launch.plot import fields, mesh, schlieren, style
+from fsi_launch.plot import fields, mesh, schlieren, style, units
 
 FRAMES_PER_SECOND = 12
 HEIGHT = 5.0        # inch
@@ -43,7 +43,7 @@ def _frames(series):
             schlieren.draw(axes, gas.outputs[k], [one.outputs[k] for one in solids], size)
         else:
             _speed_frame(axes, gas.outputs[k] if gas else None, [one.outputs[k] for one in solids], largest)
-            axes.set_title(f"speed, t = {series[0].outputs[k].t:.4g}", loc="left")
+            axes.set_title(f"{units.label('speed', 'length/time')}, {units.moment(series[0].outputs[k].t)}", loc="left")
         yield figure
 
 

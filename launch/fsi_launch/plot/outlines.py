@@ -7,7 +7,7 @@ import numpy as np
 from matplotlib import pyplot
 from matplotlib.lines import Line2D
 
-from fsi_launch.plot import several, style
+from fsi_launch.plot import several, style, units
 
 HEADING = ("solid", "run", "other run", "t [time]", "largest distance [length]")
 COLOURS = ("#2b5ea8", "#1d8a3d", "#b5281e", "#8a5a00", "#7a3fa0", "#3b3b3b")
@@ -73,7 +73,7 @@ def _name_times(axes, curves):
     scale = min(AXES[0] / (right - left), AXES[1] / (top - bottom))  # at least as large as the axes will be drawn
     down = levels([scale * at for at in lowest])
     for t, at, level in zip(curves, lowest, down):
-        axes.annotate(f"t = {t:g}", at, xytext=(0, -9 - level * LABEL[1]), textcoords="offset points", ha="center", va="top",
+        axes.annotate(units.moment(t), at, xytext=(0, -9 - level * LABEL[1]), textcoords="offset points", ha="center", va="top",
                       fontsize=8, arrowprops={"arrowstyle": "-", "linewidth": 0.4, "color": "#888888"} if level else None)
     axes.set_ylim(bottom - max(down) * LABEL[1] / scale, top)
 

@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib import pyplot
 from matplotlib.collections import LineCollection, TriMesh
 
-from fsi_launch.plot import mesh, style
+from fsi_launch.plot import mesh, style, units
 
 STRENGTH = 12.0
 TYPICAL = 99.9     # percentile of |grad rho| that is drawn as exp(-STRENGTH)
@@ -105,7 +105,7 @@ def draw(axes, gas, solids, size):
     axes.set_xlim(background.x1.min(), background.x1.max())
     axes.set_ylim(background.x2.min(), background.x2.max())
     axes.set_aspect("equal")
-    axes.set_title(f"t = {gas.t:.4g}", loc="left")
+    axes.set_title(units.moment(gas.t), loc="left")
     return drawn
 
 
@@ -141,7 +141,7 @@ def pictures(series, natural):
     if drawn is not None:
         bar = figure.colorbar(drawn, ax=list(axes.flat), shrink=0.7, aspect=28, pad=0.01, ticks=[0] if rests else None)
         bar.outline.set_visible(False)
-        bar.ax.set_title("$|\\bar v|$", fontsize=9)
+        bar.ax.set_title(units.label("$|\\bar v|$", "length/time"), fontsize=9)
     figure.suptitle("numerical schlieren of the gas" + (", speed of the solid" if solids else ""), x=0.01, ha="left",
                     fontsize=10)
     yield "schlieren", figure

@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib import pyplot
 from matplotlib.colors import LogNorm
 
-from fsi_launch.plot import outlines, schlieren, several, style
+from fsi_launch.plot import outlines, schlieren, several, style, units
 
 PANEL = 4.6        # width [inch]
 LEAST = 1e-4       # differences are drawn from this part of the largest density up
@@ -69,7 +69,7 @@ def _row(figure, axes, moment, size):
     if drawn is not None:
         bar = figure.colorbar(drawn, ax=axes[len(moment) - 1], shrink=0.7, aspect=24, pad=0.01)
         bar.outline.set_visible(False)
-        bar.ax.set_title("$|\\bar v|$", fontsize=9)
+        bar.ax.set_title(units.label("$|\\bar v|$", "length/time"), fontsize=9)
     if len(axes) > len(moment):
         gases, bodies = zip(*moment)
         _difference(figure, axes[-1], gases, bodies)

@@ -6,7 +6,7 @@ from matplotlib.collections import TriMesh
 from matplotlib.path import Path
 from matplotlib.tri import LinearTriInterpolator
 
-from fsi_launch.plot import fields, mesh, style
+from fsi_launch.plot import fields, mesh, style, units
 
 MOST_TIMES = 8
 PANEL = 4.4         # width [inch]
@@ -101,7 +101,7 @@ def _panel(figure, axes, moment, box, floor):
         style.bar(figure, axes, stream.lines, "gas")
     drawn, rests = _solid_speed(axes, solids, floor)
     style.bar(figure, axes, drawn, "solid", 0.0 if rests else None)
-    axes.set_title(f"t = {gas.t:.4g}", loc="left")
+    axes.set_title(units.moment(gas.t), loc="left")
 
 
 def _panels(count, box):

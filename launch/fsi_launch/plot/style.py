@@ -9,6 +9,8 @@ matplotlib.use("Agg")
 from matplotlib import pyplot  # noqa: E402
 from matplotlib.ticker import MaxNLocator  # noqa: E402
 
+from fsi_launch.plot import units  # noqa: E402
+
 GAS_MAP = "viridis"
 SOLID_MAP = "magma"
 SIGNED_MAP = "RdBu_r"
@@ -50,9 +52,9 @@ def name_axes(panels):
     for column in panels.T:
         lowest = [one for one in column if one.get_visible()][-1:]
         for one in lowest:
-            one.set_xlabel("x", labelpad=1)
+            one.set_xlabel(units.label("x", "length"), labelpad=1)
     for one in panels[:, 0]:
-        one.set_ylabel("y", labelpad=3)
+        one.set_ylabel(units.label("y", "length"), labelpad=3)
 
 
 def short_numbers(low, high):
