@@ -85,6 +85,27 @@ class New(InFolder):
         self.assertEqual((facts["parameters"]["mach"], facts["solids"][0]["law"], facts["parameters"]["rho_bar"]), (0.7, "rigid", 7850))
 
 
+class FirstCase(InFolder):
+    """docs/first_case.md: its outline is saved, its commands are typed; pictures of fields are seen to elsewhere."""
+
+    def test_commands_of_the_page_work_as_they_stand_there(self):
+        page = (ROOT / "docs" / "first_case.md").read_text(encoding="utf-8")
+        blocks = [block.strip() for block in page.split("```")[1::2]]
+        (self.folder / "bean.csv").write_text(next(block for block in blocks if block.startswith("#")))
+        typed = [line for block in blocks for line in block.splitlines() if line.startswith("./launch/fsi")]
+        for line in typed:
+            words = line.split()[1:]
+            if words[0] in ("new", "check"):
+                self.fsi(*words)
+            elif words[0] == "run" and "--set" not in words:
+                self.fsi(*words, "--no-progress")
+        self.assertTrue((self.folder / "bean_grids.png").is_file())
+        times = [float(word) for line in typed for flag, word in zip(line.split(), line.split()[1:]) if flag == "--at"]
+        with h5py.File(self.folder / "runs" / "bean" / "fluid.h5") as file:
+            written = [group.attrs["t"] for group in file.values()]
+        self.assertTrue(times and all(min(abs(t - there) for there in written) < 1e-9 * t for t in times), (times, written))
+
+
 class Grids(InFolder):
     def test_pictures_in_all_formats(self):
         for name, begin in (("a.png", b"\x89PNG"), ("b.pdf", b"%PDF"), ("c.svg", b"<?xml")):
