@@ -48,6 +48,11 @@ def _new(options):
     return new.main(options)
 
 
+def _gallery(options):
+    from fsi_launch import gallery
+    return gallery.main(options)
+
+
 def _converge(options):
     from fsi_launch import converge
     return converge.main(options)
@@ -170,6 +175,17 @@ def _add_new(verbs):
     verb.set_defaults(act=_new)
 
 
+def _add_gallery(verbs):
+    verb = verbs.add_parser("gallery", description="Validated problems: without NAME lists them; with it runs the case, compares it with exact, "
+                            "published or measured numbers, and writes a table and a picture. Exit 1 where a comparison fails.")
+    verb.add_argument("name", metavar="NAME", nargs="?", help="a folder of gallery/")
+    verb.add_argument("--out", metavar="DIR", help="folder of the run, the table and the picture (default: runs/gallery-NAME-TIME)")
+    verb.add_argument("--compare", action="store_true", help="compare the run that is there in DIR/run, and make none")
+    verb.add_argument("--overwrite", action="store_true", help="replace the run in DIR")
+    verb.add_argument("--no-progress", dest="progress", action="store_false", help="no progress bar")
+    verb.set_defaults(act=_gallery)
+
+
 def _parser():
     parser = _Parser(prog="fsi", add_help=False)
     verbs = parser.add_subparsers(dest="verb", required=True, parser_class=_Parser)
@@ -230,6 +246,8 @@ def _parser():
     verb.add_argument("--jobs", type=_jobs, metavar="N", default=1, help="runs at the same time (default: 1)")
     verb.add_argument("--out", metavar="DIR", help="folder of the runs and tables (default: runs/study-CASE-TIME)")
     verb.set_defaults(act=_study)
+
+    _add_gallery(verbs)
 
     verb = verbs.add_parser("test", description="Builds everything and runs the tests: unit, programs, convergence, "
                             "regression.")

@@ -1,0 +1,108 @@
+"""`fsi gallery`: validated problems, each with its data, repeated by one command."""
+
+import csv
+import json
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+from fsi_launch.failure import DONE, EXPECTATION_MISSED, UserMistake
+from fsi_launch.gallery import problems
+from fsi_launch.summary import aligned
+
+HEADING = ("quantity", "computed", "known", "allowed", "verdict")
+
+
+@dataclass
+class Row:
+    """One comparison. `allowed` is a distance from `known`; where that is None, `allowed` is the largest value."""
+
+    what: str
+    computed: float
+    known: float
+    allowed: float
+
+    def passes(self):
+        if self.computed is None:
+            return False
+        return abs(self.computed - self.known) <= self.allowed if self.known is not None else self.computed <= self.allowed
+
+    def texts(self):
+        known = "" if self.known is None else f"{self.known:.5g}"
+        allowed = f"at most {self.allowed:.3g}" if self.known is None else f"+- {self.allowed:.2g}"
+        computed = "none" if self.computed is None else f"{self.computed:.5g}"
+        return [self.what, computed, known, allowed, "pass" if self.passes() else "FAIL"]
+
+
+def compare(problem, run):
+    """(rows, curves) of a run in its folder; curves: [(entry, computed, known)]."""
+    from fsi_launch.gallery import measures
+    rows, curves = [], []
+    for entry in problem.numbers:
+        value = measures.number(run, entry["computed"])
+        known = entry.get("known")
+        rows.append(Row(entry["what"], value, known, entry["at_most"] if known is None else entry["within"]))
+    for entry in problem.curves:
+        table = measures.reference(problem.data())
+        computed = measures.curve(run, entry["computed"])
+        known = tuple(table[name] for name in entry["data"])
+        rows.append(Row(f"{entry['what']}: mean distance", measures.distance(computed, known), None, entry["at_most"]))
+        curves.append((entry, computed, known))
+    return rows, curves
+
+
+def _write_tables(directory, problem, rows):
+    texts = [row.texts() for row in rows]
+    with open(directory / "comparison.csv", "w", encoding="utf-8", newline="") as file:
+        csv.writer(file, lineterminator="\n").writerows([HEADING, *texts])
+    lines = [f"# {problem.title}", "", problem.source, "", f"`{problem.command()}`", "", f"| {' | '.join(HEADING)} |",
+             "|" + "---|" * len(HEADING), *(f"| {' | '.join(text)} |" for text in texts)]
+    (directory / "comparison.md").write_text("\n".join(lines) + "\n", encoding="utf-8")
+    (directory / "comparison.json").write_text(json.dumps(
+        {"problem": problem.name, "command": problem.command(), "passes": all(row.passes() for row in rows),
+         "rows": [{"quantity": row.what, "computed": row.computed, "known": row.known, "allowed": row.allowed, "passes": row.passes()}
+                  for row in rows]}, indent=2) + "\n", encoding="utf-8")
+
+
+def judge(problem, run, directory):
+    """Compares a run, writes tables and a picture into the folder and prints the table; True if all passes."""
+    from fsi_launch.plot import style
+    from fsi_launch.gallery import picture
+    rows, curves = compare(problem, run)
+    _write_tables(directory, problem, rows)
+    if curves:
+        style.use()
+        style.save(picture.draw(problem, curves), directory / "comparison.png")
+    print("\n".join(aligned([list(HEADING), *(row.texts() for row in rows)])))
+    return all(row.passes() for row in rows)
+
+
+def _list():
+    shown = [problems.problem(name) for name in problems.names()]
+    width = max(len(problem.name) for problem in shown)
+    for problem in shown:
+        print(f"{problem.name:{width}}  {problem.title}")
+    return DONE
+
+
+def main(options):
+    """Lists the problems, or repeats one."""
+    if options.name is None:
+        return _list()
+    problem = problems.problem(options.name)
+    from fsi_launch import plot
+    plot.style_or_mistake()
+    directory = Path(options.out or f"runs/gallery-{problem.name}-{time.strftime('%Y%m%d-%H%M%S')}")
+    run = directory / "run"
+    if not options.compare:
+        from fsi_launch.run import Request, run as start
+        result = start(Request(case=problem.case, overrides=list(problem.set), laws=list(problem.solid), out=str(run),
+                               overwrite=options.overwrite, progress=options.progress, judge=False))
+        if result.code != DONE:
+            return result.code
+    elif not (run / "summary.json").is_file():
+        raise UserMistake(f"--compare {directory}: there is no run in '{run}'; leave --compare away to make it")
+    print(f"{problem.title}. {problem.source}")
+    passed = judge(problem, run, directory)
+    print(f"{'passes' if passed else 'FAILS'}; table and picture in {directory}")
+    return DONE if passed else EXPECTATION_MISSED

@@ -1,0 +1,29 @@
+"""The picture of a comparison: each curve of a run over the known one."""
+
+from matplotlib import pyplot
+
+COLUMNS = 3
+KNOWN = {"color": "black", "linewidth": 2.6, "alpha": 0.3}
+COMPUTED = {"color": "#b5281e", "linewidth": 1.0}
+POINTS = {"color": "#b5281e", "marker": ".", "markersize": 5, "linestyle": "", "alpha": 0.6, "markeredgewidth": 0}
+OVER_POINTS = {"color": "black", "linewidth": 0.8, "zorder": 3}
+MARKS = {"color": "black", "marker": "o", "markerfacecolor": "none", "markersize": 5, "linestyle": ""}
+FEW = 12    # known points that are drawn as such and not as a line
+
+
+def draw(problem, curves):
+    """`curves`: [(entry of problem.json, computed, known)]"""
+    columns = min(COLUMNS, len(curves))
+    rows = -(-len(curves) // columns)
+    figure, panels = pyplot.subplots(rows, columns, figsize=(4.4 * columns, 3.2 * rows), squeeze=False)
+    for axes, (entry, computed, known) in zip(panels.flat, curves):
+        points = "program" in entry["computed"]
+        axes.plot(*known, label="known", **(MARKS if len(known[0]) <= FEW else OVER_POINTS if points else KNOWN))
+        axes.plot(*computed, label="computed", **(POINTS if points else COMPUTED))
+        axes.set_title(entry["what"], loc="left")
+        axes.set_xlabel(entry["x"])
+    for axes in list(panels.flat)[len(curves):]:
+        axes.set_visible(False)
+    panels.flat[0].legend()
+    figure.suptitle(problem.title, x=0.01, ha="left", fontsize=10)
+    return figure
