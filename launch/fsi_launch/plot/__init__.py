@@ -18,7 +18,7 @@ def _folder(name):
 
 
 def _one(directory, out, options):
-    """(name, figure) of everything the results of one run hold."""
+    """(name, figure or a function that makes it) of everything the results of one run hold."""
     from fsi_launch.plot import beams, convergence, curves, data, disk, fields, grids, scales, schlieren, streamlines, study
     if varied := data.study(directory):
         out.mkdir(parents=True, exist_ok=True)
@@ -81,10 +81,8 @@ def main(options):
     style.use()
     _take_units(directories)
     pictures = _one(directories[0], out, options) if len(directories) == 1 else _several(directories, out, options)
-    for name, figure in pictures:
-        path = out / f"{name}.{options.format}"
-        style.save(figure, path)
-        print(path, flush=True)
+    from fsi_launch.plot import drawing
+    drawing.draw([(out / f"{name}.{options.format}", figure) for name, figure in pictures], lambda path: print(path, flush=True))
     if options.movie:
         draw_movie(directories[0], out)
     return DONE

@@ -1,5 +1,7 @@
 """Curves: fields along a line where they depend on one coordinate only, and the tables over time."""
 
+from functools import partial
+
 import numpy as np
 from matplotlib import pyplot
 
@@ -170,10 +172,10 @@ def _table_picture(table, scales):
 
 
 def pictures(series, tables, scales, reference):
-    """(name, figure) of the curves a run has; `reference`: its one-dimensional solution {t: tables}, or nothing."""
+    """(name, figure or a function that makes it) of the curves a run has; `reference`: its one-dimensional solution {t: tables}, or nothing."""
     plain = [one for one in series if len(one.outputs[-1].grids) == 1]
     if plain and all(_depends_on_one_coordinate(one.outputs[-1].grids[0]) for one in plain):
-        yield "lines", _lines_picture(plain, scales, reference)
+        yield "lines", partial(_lines_picture, plain, scales, reference)
     for table in tables:
         if figure := _table_picture(table, scales):
             yield table.name, figure

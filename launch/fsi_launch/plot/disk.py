@@ -2,6 +2,7 @@
 velocity and stress along y = 0 (the paper's figure 11)."""
 
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from matplotlib import pyplot
@@ -198,7 +199,7 @@ def _axis_picture(gas, solid, reference, t, p_e):
 
 
 def pictures(series, reference):
-    """(name, figure) of each output time that the reference holds, but the start, where all is known."""
+    """(name, function that draws it) of each output time that the reference holds, but the start, where all is known."""
     gas = next((one for one in series if one.is_gas()), None)
     solid = next((one for one in series if not one.is_gas()), None)
     if not (reference and gas and solid):
@@ -209,6 +210,6 @@ def pictures(series, reference):
         if table is None or of_gas.t == 0:
             continue
         exact = _gas_reference(table["gas"], p_e), _solid_reference(table["solid"])
-        yield f"radius_{index:04}", _picture((_joined([_gas_points(grid, p_e) for grid in of_gas.grids]), exact[0]),
-                                             (_joined([_solid_points(grid) for grid in of_solid.grids]), exact[1]), of_gas.t)
-        yield f"axis_{index:04}", _axis_picture(of_gas.grids, of_solid.grids, exact, of_gas.t, p_e)
+        points = [_joined([_gas_points(grid, p_e) for grid in of_gas.grids]), _joined([_solid_points(grid) for grid in of_solid.grids])]
+        yield f"radius_{index:04}", partial(_picture, (points[0], exact[0]), (points[1], exact[1]), of_gas.t)
+        yield f"axis_{index:04}", partial(_axis_picture, of_gas.grids, of_solid.grids, exact, of_gas.t, p_e)

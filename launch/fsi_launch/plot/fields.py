@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from matplotlib import pyplot
@@ -185,13 +186,13 @@ def _field_picture(series, index, box, look):
 
 
 def pictures(series, look):
-    """(name, figure) of the fields at the output times."""
+    """(name, function that draws it) of the fields at the output times."""
     if not series:
         return
     box = box_around([grid for one in series for output in one.outputs for grid in output.grids])
     count = min(len(one.outputs) for one in series)  # a killed run may lack the last output of one program
     for index in times_shown(count):
-        yield f"fields_{index:04}", _field_picture(series, index, box, look)
+        yield f"fields_{index:04}", partial(_field_picture, series, index, box, look)
 
 
 def last_picture(series, look):

@@ -1,5 +1,7 @@
 """Pictures of the component grids (the paper's figure 9), unused points left out; close-ups of interfaces."""
 
+from functools import partial
+
 import numpy as np
 from matplotlib import pyplot
 from matplotlib.collections import LineCollection
@@ -131,17 +133,17 @@ def _whole_picture(series, index, box):
 
 
 def pictures(series):
-    """(name, figure) of all grids at the last output, and of each interface."""
+    """(name, function that draws it) of all grids at the last output, and of each interface."""
     if not series:
         return
     index = min(len(one.outputs) for one in series) - 1
     box = fields.box_around([grid for one in series for grid in one.outputs[index].grids])
-    yield "grid", _whole_picture(series, index, box)
+    yield "grid", partial(_whole_picture, series, index, box)
     composite = any(len(one.outputs[index].grids) > 1 for one in series)
     if not composite and 4 * CLOSE_UP * _spacing(series, index) > max(box[1] - box[0], box[3] - box[2]):
         return  # the grids are so coarse that the whole shows all there is
     for place in _places(series, index):
-        yield f"grid_{place[0]}", _place_picture(series, index, box, place)
+        yield f"grid_{place[0]}", partial(_place_picture, series, index, box, place)
 
 
 # --- of a case, before anything is started

@@ -1,6 +1,7 @@
 """Numerical schlieren of the gas with the speed of the solids (the paper's figure 16): grey is exp(-STRENGTH |grad rho| / scale)."""
 
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 from matplotlib import pyplot
@@ -118,13 +119,18 @@ def _chosen(gas):
 
 
 def pictures(series, natural):
-    """(name, figure) of a run whose gas has shocks; `natural`: the run's scales."""
+    """(name, function that draws it) of a run whose gas has shocks; `natural`: the run's scales."""
     gas = next((one for one in series if one.is_gas()), None)
     solids = [one for one in series if not one.is_gas()]
     count = min((len(one.outputs) for one in series), default=0)
     chosen = [k for k in _chosen(gas) if k < count] if gas else []
     if not chosen or not any(has_shocks(gas.outputs[k]) for k in chosen):
         return
+    yield "schlieren", partial(_picture, gas, solids, chosen, natural)
+
+
+def _picture(gas, solids, chosen, natural):
+    """The gas at the outputs `chosen`; `natural`: the run's scales."""
     size = scales([gas.outputs[k] for k in chosen], [[one.outputs[k] for k in chosen] for one in solids])
     rests = size.speed <= natural.floor("length/time")
     size = replace(size, speed=0.0) if rests else size
@@ -144,4 +150,4 @@ def pictures(series, natural):
         bar.ax.set_title(units.label("$|\\bar v|$", "length/time"), fontsize=9)
     figure.suptitle("numerical schlieren of the gas" + (", speed of the solid" if solids else ""), x=0.01, ha="left",
                     fontsize=10)
-    yield "schlieren", figure
+    return figure

@@ -1,5 +1,7 @@
 """Streamlines of the gas and the speed of the solids at output times (the paper's figure 21)."""
 
+from functools import partial
+
 import numpy as np
 from matplotlib import pyplot
 from matplotlib.collections import TriMesh
@@ -122,7 +124,7 @@ def _panels(count, box):
 
 
 def pictures(series, size):
-    """(name, figure) of streamlines at up to MOST_TIMES output times after the start; `size`: the run's scales."""
+    """(name, function that draws it) of streamlines at up to MOST_TIMES output times after the start; `size`: the run's scales."""
     gas = next((one for one in series if one.is_gas()), None)
     solids = [one for one in series if not one.is_gas()]
     if not gas or not solids or len(gas.outputs[0].grids) < 2:
@@ -133,9 +135,14 @@ def pictures(series, size):
         moments = sorted({moments[round(k)] for k in np.linspace(0, len(moments) - 1, MOST_TIMES)})
     if not moments:
         return
+    yield "streamlines", partial(_picture, series, gas, solids, moments, size)
+
+
+def _picture(series, gas, solids, moments, size):
+    """Streamlines at the outputs `moments`."""
     box = fields.box_around([grid for one in series for output in one.outputs for grid in output.grids])
     figure, axes = _panels(len(moments), box)
     for one, index in zip(axes, moments):
         _panel(figure, one, (gas.outputs[index], [solid.outputs[index] for solid in solids]), box, size.floor(fields.SPEED.unit))
     figure.suptitle("streamlines of the gas, speed of the solid", x=0.01, ha="left", fontsize=10)
-    yield "streamlines", figure
+    return figure

@@ -27,7 +27,7 @@ MARGIN = 0.06       # around a picture [inch]
 def use():
     """Sets the style; call once."""
     pyplot.rcParams.update({
-        "figure.dpi": 130, "figure.constrained_layout.use": True, "font.size": 9, "axes.titlesize": 9,
+        "figure.dpi": 130, "figure.max_open_warning": 0, "figure.constrained_layout.use": True, "font.size": 9, "axes.titlesize": 9,
         "axes.grid": False, "axes.spines.top": False, "axes.spines.right": False, "lines.linewidth": 1.2,
         "legend.frameon": False, "legend.fontsize": 8, "image.cmap": GAS_MAP, "axes.formatter.limits": (-3, 4),
         "axes.formatter.use_mathtext": True})

@@ -1,0 +1,99 @@
+#!/usr/bin/python3
+"""Pictures drawn by several processes are those of one, failures come out, and labels have the units of the case."""
+
+import errno
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+from matplotlib import pyplot
+
+from running import ROOT
+
+sys.path.insert(0, str(ROOT / "launch"))
+from fsi_launch.plot import curves, drawing, style, units  # noqa: E402
+
+
+def picture(k):
+    figure, axes = pyplot.subplots()
+    axes.plot([0, k], [k, 1])
+    return figure
+
+
+def broken():
+    raise ValueError("nothing to draw here")
+
+
+class Drawing(unittest.TestCase):
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory(prefix="fsi-drawing-")
+        self.addCleanup(scratch.cleanup)
+        self.folder = Path(scratch.name)
+        style.use()
+
+    def draw(self, name, jobs, count=3):
+        (self.folder / name).mkdir()
+        said = []
+        drawing.draw([(self.folder / name / f"{k}.png", lambda k=k: picture(k)) for k in range(count)], said.append, jobs)
+        return [path.read_bytes() for path in said]
+
+    def test_pictures_do_not_depend_on_how_many_are_drawn_at_once_and_are_told_in_their_order(self):
+        alone = self.draw("alone", 1)
+        self.assertEqual(self.draw("together", 3), alone)
+        self.assertEqual(len(set(alone)), 3)
+
+    def test_a_figure_that_is_there_is_drawn_as_well(self):
+        drawing.draw([(self.folder / "a.png", picture(1)), (self.folder / "b.png", picture(2))], lambda path: None, 2)
+        self.assertTrue((self.folder / "a.png").is_file() and (self.folder / "b.png").is_file())
+
+    def test_failures_come_out_whoever_draws(self):
+        for jobs in (1, 2):
+            with self.subTest(jobs), self.assertRaises(OSError) as caught:
+                drawing.draw([(self.folder / "nowhere" / f"{k}.png", picture(k)) for k in (1, 2)], lambda path: None, jobs)
+            self.assertEqual(caught.exception.errno, errno.ENOENT)
+            with self.subTest(jobs), self.assertRaisesRegex(RuntimeError, "nothing to draw here"):
+                drawing.draw([(self.folder / "a.png", broken), (self.folder / "b.png", picture(1))], lambda path: None, jobs)
+
+
+class Units(unittest.TestCase):
+    def tearDown(self):
+        units.use("none")
+
+    def test_bare_names_where_the_case_says_nothing(self):
+        units.use_those_of([{"name": "a"}])
+        self.assertEqual((units.label("x", "length"), units.moment(0.5)), ("x", "t = 0.5"))
+        self.assertEqual(units.heading("power [power/depth]"), "power [power/depth]")
+
+    def test_symbols_of_si(self):
+        units.use_those_of([{"units": "SI"}, {"units": "SI"}])
+        self.assertEqual((units.label("x", "length"), units.moment(0.5)), ("x [m]", "t = 0.5 s"))
+        for heading, shown in (("power [power/depth]", "power [W/m]"), ("v [length/time]", "v [m/s]"), ("jump [force/area]", "jump [Pa]"),
+                               ("moment [force*length/depth]", "moment [N]"), ("momentum [force*time/depth]", "momentum [N s/m]")):
+            self.assertEqual(units.heading(heading), shown)
+
+    def test_what_is_unknown_stays(self):
+        units.use("SI")
+        self.assertEqual((units.label("a", "furlong"), units.heading("a [furlong]"), units.heading("step")), ("a", "a [furlong]", "step"))
+
+    def test_runs_of_different_systems_have_bare_names(self):
+        units.use_those_of([{"units": "SI"}, {}])
+        self.assertEqual(units.symbol("time"), "")
+
+    def test_columns_of_probes_have_the_units_of_their_fields(self):
+        units.use("SI")
+        self.assertEqual([curves._title(name) for name in ("tip.u1", "a.rho", "a.p", "a.T")],
+                         ["tip.u1 [m]", "a.rho [kg/m$^3$]", "a.p [Pa]", "a.T"])
+
+    def test_every_column_a_program_writes_has_a_symbol(self):
+        found = subprocess.run(["grep", "-rhoE", r'"[a-z0-9_ ]+ \[[a-z*/]+\]"', "--include=port.?pp", "--include=coupler*.cpp",
+                                *(ROOT / folder for folder in ("fluid_solver", "solid_solver", "coupler"))], capture_output=True, text=True, check=True)
+        headings = {line.strip('"') for line in found.stdout.splitlines()}
+        self.assertGreater(len(headings), 10)
+        units.use("SI")
+        self.assertEqual([heading for heading in sorted(headings) if units.heading(heading) == heading and "[rad]" not in heading], [])
+
+
+if __name__ == "__main__":
+    unittest.main()
