@@ -267,7 +267,7 @@ def run(request):
 def _report(result, directory, missed, quiet, restarts):
     """Prints the summary, and each offence on a line of its own. `restarts`: digest of the case whose checkpoints would help."""
     if not quiet:
-        print(summary.describe(result, directory), flush=True)
+        print(summary.describe(result, directory, shutil.get_terminal_size().columns if sys.stdout.isatty() else None), flush=True)
     for line in missed + ([result["reason"]] if result["status"] == "failed" else []):
         print(f"fsi: {line}", file=sys.stderr)
     if result["status"] != "completed" and restarts and (found := restart.latest(directory, digest=restarts)):

@@ -4,6 +4,7 @@ import contextlib
 import json
 import math
 import os
+import textwrap
 from pathlib import Path
 
 from fsi_launch import version
@@ -146,7 +147,9 @@ def missed_expectations(summary, expect):
 
 # --- for people
 
-ERRORS_IN_A_ROW = 7     # of a terminal 80 wide
+WIDE = 80               # of what is no terminal
+ERROR_WIDTH = 11        # of a column of errors
+LEAST_WANTED = ("updates", "waiting", "computing", "points")    # columns that narrow terminals do without, in this order
 
 
 def aligned(rows):
@@ -165,7 +168,7 @@ def _rate(value):
 
 
 def _participant_rows(summary):
-    rows = [["participant", "points", "steps", "computing", "waiting", "updates", "memory"]]
+    rows = [["participant", "points", "own steps", "computing", "waiting", "updates", "memory"]]
     for name, part in summary["participants"].items():
         program = part["program"].removeprefix("solid_solver_")
         label = name if program in (name, f"{name}_solver") else f"{name} ({program})"
@@ -173,6 +176,23 @@ def _participant_rows(summary):
                      _number(part.get("compute_s"), "{:.2f} s"), _number(part.get("wait_s"), "{:.2f} s"),
                      _rate(part.get("point_updates_per_s")), _number(part.get("peak_memory_mib"), "{:.0f} MiB")])
     return rows
+
+
+def _table(rows, width):
+    """Aligned columns, as many as go into `width`: the first row names them."""
+    rows = [list(row) for row in rows]
+    for unwanted in LEAST_WANTED:
+        if max(map(len, aligned(rows))) <= width:
+            break
+        k = rows[0].index(unwanted)
+        rows = [row[:k] + row[k + 1:] for row in rows]
+    return aligned(rows)
+
+
+def _folded(lines, width):
+    """The lines with those that are too long for `width` gone on in the next one."""
+    return [part for line in lines for part in
+            (textwrap.wrap(line, width, subsequent_indent="    ", break_long_words=False, break_on_hyphens=False) if len(line) > width else [line])]
 
 
 def noise_in_words(summary):
@@ -193,26 +213,32 @@ def _interface_lines(interface):
         return f"{name} {_number(value, '{:.2e}')}{part}"
     lines = []
     if "max_velocity_jump" in interface:
-        lines.append("  interface: largest jumps before the projection: "
-                     + jump("velocity", "velocity_scale", "the gas's speed,") + ", "
-                     + jump("traction", "traction_scale", "its pressure,"))
+        jumps = [jump("velocity", "velocity_scale", "the gas's speed,")]
+        if interface.get("max_traction_jump") != 0:     # a body that has no stress of its own takes that of the gas
+            jumps.append(jump("traction", "traction_scale", "the gas's pressure,"))
+        lines.append(f"  interface: largest jumps before the projection: {', '.join(jumps)}")
     if "max_gap" in interface:
         lines.append(f"  interface: largest gap {_number(interface['max_gap'], '{:.2e}')}")
     return lines
 
 
-def describe(summary, directory):
-    """The end of a run as lines of text."""
+def _error_lines(errors, width):
+    names, count = list(errors), max(1, (width - 1) // ERROR_WIDTH)
+    lines = ["  errors (maximum norm)"]
+    for part in (names[k:k + count] for k in range(0, len(names), count)):
+        lines += aligned([part, [_number(errors[name], "{:.2e}") for name in part]])
+    return lines
+
+
+def describe(summary, directory, width=None):
+    """The end of a run as lines of text, for a terminal of `width` columns or for none."""
     dt = summary["dt"]
     head = f"{summary['case']} {summary['status']}: t = {summary['t']:.6g}, {summary['steps']} steps"
     if dt["min"] is not None and summary["steps"]:
         head += f" of {dt['min']:.3g} to {dt['max']:.3g}"
-    lines = [f"{head}, {summary['wall_s']:.2f} s", *aligned(_participant_rows(summary))]
+    lines = [f"{head}, {summary['wall_s']:.2f} s", *_table(_participant_rows(summary), width or math.inf)]
     if summary["errors"]:
-        lines.append("  errors (maximum norm)")
-        names = list(summary["errors"])
-        for part in (names[k:k + ERRORS_IN_A_ROW] for k in range(0, len(names), ERRORS_IN_A_ROW)):
-            lines += aligned([part, [_number(summary["errors"][name], "{:.2e}") for name in part]])
+        lines += _error_lines(summary["errors"], width or WIDE)
     if summary.get("errors_missing"):
         lines.append(f"  no errors: {summary['errors_missing']}")
     if interface := summary["interface"]:
@@ -225,4 +251,4 @@ def describe(summary, directory):
     if summary.get("expectations"):
         met = sum(entry["met"] for entry in summary["expectations"])
         lines.append(f"  expectations: {met} of {len(summary['expectations'])} met")
-    return "\n".join(lines + [f"  results in {directory}"])
+    return "\n".join([*(_folded(lines, width) if width else lines), f"  results in {directory}"])

@@ -130,6 +130,42 @@ class Probes(InScratch):
         self.assertEqual(list(self.folder.iterdir()), [])
 
 
+class ForPeople(unittest.TestCase):
+    """What is printed at the end of a run fits the terminal and says what matters most."""
+
+    def setUp(self):
+        part = {"points": 12345678, "substeps": 123456, "compute_s": 1234.5, "wait_s": 1234.5, "point_updates_per_s": 1.2e8, "peak_memory_mib": 1234}
+        self.summary = {
+            "case": "a_case_of_ones_own", "status": "completed", "t": 0.123456, "steps": 123456, "dt": {"min": 1.23e-7, "max": 2.34e-5}, "wall_s": 2469.12,
+            "participants": {"fluid": {"program": "fluid_solver"} | part, "body": {"program": "solid_solver_saint_venant_kirchhoff"} | part,
+                             "coupler": {"program": "coupler"} | part},
+            "errors": {name: 1.23e-5 for name in summary.ERROR_ORDER},
+            "interface": {"max_velocity_jump": 1.0, "max_traction_jump": 2.0, "velocity_scale": 10.0, "traction_scale": 10.0, "max_gap": 1e-9},
+            "counters": {"floors": 3}, "expectations": [{"met": True}]}
+
+    def lines(self, width):
+        return summary.describe(self.summary, "runs/somewhere", width).splitlines()
+
+    def test_no_line_is_longer_than_the_terminal(self):
+        for width in range(50, 140, 3):
+            self.assertLessEqual(max(map(len, self.lines(width)[:-1])), width)
+
+    def test_sixty_columns_keep_steps_time_memory_and_all_errors(self):
+        text = "\n".join(self.lines(60))
+        for words in ("123456", "2469.12 s", "1234 MiB", "own steps", *summary.ERROR_ORDER):
+            self.assertIn(words, text)
+
+    def test_nothing_is_left_away_where_there_is_no_terminal(self):
+        text = "\n".join(self.lines(None))
+        for words in ("updates", "waiting", "computing", "points", "memory", "20 % of the gas's pressure"):
+            self.assertIn(words, text)
+
+    def test_a_body_without_stress_has_no_jump_of_it(self):
+        self.summary["interface"]["max_traction_jump"] = 0.0
+        self.assertNotIn("traction", "\n".join(self.lines(None)))
+        self.assertIn("velocity 1.00e+00", "\n".join(self.lines(None)))
+
+
 class Expectations(unittest.TestCase):
     def missed(self, entry, **content):
         return summary.missed_expectations(content, [entry])
