@@ -295,7 +295,8 @@ constexpr array case_keys{
     Key{.name = "title", .type = Type::text, .meaning = "one line about it", .fallback = "none"},
     Key{.name = "units",
         .type = Type::word,
-        .meaning = "labels of pictures: `SI` where all numbers are in m, s, kg; the numbers stay what they are",
+        .meaning =
+            "labels of pictures: `SI` where all numbers are in m, s, kg; the numbers stay what they are",
         .fallback = "none",
         .words = unit_systems},
     Key{.name = "parameters",

@@ -5,12 +5,16 @@ import json
 import os
 import pty
 import subprocess
+import sys
 import unittest
 
 import h5py
 import numpy as np
 
 from running import BIN, FSI, ROOT, WATCHDOG, EndToEnd
+
+sys.path.insert(0, str(ROOT / "launch"))
+from fsi_launch.plot import data, grids  # noqa: E402
 
 CORNERS = "# corners\n0, 0\n2, -0.6\n2.4, 0.4\n1.2, 0.9\n"
 
@@ -113,6 +117,28 @@ class Grids(InFolder):
             self.assertEqual((self.folder / name).read_bytes()[:len(begin)], begin)
         self.fsi("check", "plate", "--plot")
         self.assertTrue((self.folder / "plate_grids.png").is_file())
+
+    def sides(self, case, *words):
+        """[(kind, line)] of the rim of the gas, as they are drawn."""
+        folder = self.folder / "grids"
+        subprocess.run([BIN / "fsi_grids", case, folder, *words], check=True, cwd=ROOT)
+        entries = {f"fluid.boundary.{side}": "outflow" for side in ("left", "right", "top")} | {"fluid.boundary.bottom": "slip_wall"}
+        return grids._gas_sides(data.all_series(folder), entries)
+
+    def test_sides_of_the_gas_are_drawn_as_what_they_are(self):
+        sides = self.sides("elastic_ramp")
+        along = {kind: np.concatenate([line for other, line in sides if other == kind]) for kind, _ in sides}
+        self.assertTrue((along["wall"][:, 1] == 0).all() and along["wall"][:, 0].max() < 0.1)    # the floor before the ramp
+        ramp = along["surface of a body"]
+        np.testing.assert_allclose(ramp[:, 1], np.tan(np.radians(12)) * ramp[:, 0], atol=1e-12)
+        on_rim = np.isin(along["open"], (-1.0, 1.0, 2.0)).any(axis=1)
+        self.assertTrue(on_rim.all())
+
+    def test_a_curve_without_a_body_is_a_wall(self):
+        sides = self.sides("rotating_disk_walled", "--set", "grid.factor=2")
+        radii = {kind: np.concatenate([np.hypot(*line.T) for other, line in sides if other == kind]) for kind, _ in sides}
+        np.testing.assert_allclose(radii["wall"], 2)
+        np.testing.assert_allclose(radii["surface of a body"], 1)
 
     def test_mistakes(self):
         self.assertIn(".svg", self.fsi("check", "plate", "--plot", "a.jpg", code=2).stderr)
