@@ -90,6 +90,8 @@ std::int32_t Coupler::substeps_of(const std::string& participant) const {
 }
 
 void Coupler::answer() {
+  shown_ = show_ || (show_end_ && finished_);
+  show_ = show_end_ = false;
   for (std::size_t k = 0; k < interfaces_.size(); ++k) {
     const InterfaceExchange& interface = interfaces_[k];
     wire::ProjectedInterface& to_fluid = answers_[2 * k];
@@ -102,6 +104,7 @@ void Coupler::answer() {
     to_fluid.t_next = next_.plan.t_next;
     to_fluid.write_output = output_ || finished_;
     to_fluid.write_checkpoint = checkpoint_asked_;
+    to_fluid.show = shown_;
     to_fluid.stop = finished_;
     to_fluid.stop_reason = stop_reason_;
 

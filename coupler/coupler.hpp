@@ -44,6 +44,13 @@ class Coupler {
   void request_stop(const std::string& reason) { stop_reason_ = reason; }
   /// Everybody writes a checkpoint of the step that follows the next exchange.
   void request_checkpoint() { checkpoint_ = true; }
+  /// Everybody sends pictures of the next exchange; with `now` false only if the run ends with it.
+  void request_show(bool now) {
+    show_ = now;
+    show_end_ = true;
+  }
+  /// The last exchange asked for pictures.
+  bool shown() const { return shown_; }
   /// The last exchange asked for one: to be written now. Never at the end of the run.
   bool checkpoint_asked() const { return checkpoint_asked_; }
   /// Everything the next exchanges depend on.
@@ -82,6 +89,7 @@ class Coupler {
   AgreedStep next_;
   bool begun_ = false, finished_ = false, output_ = false, at_end_ = false;
   bool checkpoint_ = false, checkpoint_asked_ = false;
+  bool show_ = false, show_end_ = false, shown_ = false;
   std::string stop_reason_;
 };
 

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "common/core/log.hpp"
+#include "common/program/picture.hpp"
 
 namespace fsi::coupler {
 
@@ -123,10 +124,12 @@ void CoupledRun::exchange() {
   if (checkpoint_ == at_.step) complete_checkpoint();
   clock_.lap(io::Work::output);
   if (part_.status != "stopped") obey_requests();
+  if (session_.watched()) coupler_.request_show(session_.picture_due());
   const std::span<const wire::ProjectedInterface> answers = coupler_.step(predicted);
   clock_.lap(io::Work::advance);
   session_.scatter(answers);
   clock_.lap(io::Work::messages);
+  if (coupler_.shown()) session_.show(outline());
   write_results(setup_, part_, [&] { record(); });
   at_ = {.step = at_.step + 1, .t = coupler_.next().plan.t_next, .dt = coupler_.next().plan.dt};
   if (coupler_.checkpoint_asked()) {
@@ -202,6 +205,27 @@ void CoupledRun::record() {
   table_.row(row);
 }
 
+/// The interfaces where they are, with the pressure on them.
+wire::Picture CoupledRun::outline() const {
+  wire::Picture picture;
+  picture.from = part_.participant;
+  picture.quantity = "outline";
+  picture.role = part_.role;
+  picture.step = coupler_.step_number();
+  picture.t = coupler_.t();
+  std::vector<std::vector<double>> values;
+  for (const wire::Telemetry::Interface& side : coupler_.profiles()) {
+    wire::Picture::Grid& curve = picture.grids.emplace_back();
+    curve.name = side.name;
+    curve.n1 = static_cast<std::uint32_t>(side.s.size());
+    curve.n2 = 1;
+    for (const double x : side.x) curve.x.push_back(static_cast<float>(x));
+    values.push_back(side.p_projected);
+  }
+  set_levels(picture, values);
+  return picture;
+}
+
 void CoupledRun::show() {
   const AgreedStep& next = coupler_.next();
   progress_.show(coupler_.step_number(), coupler_.t(), next.plan.dt, next.limited_by);
@@ -213,6 +237,8 @@ void CoupledRun::show() {
   telemetry.t_end = setup_.problem.time.end;
   telemetry.dt = coupler_.finished() ? coupler_.dt() : next.plan.dt;
   if (!coupler_.finished()) telemetry.dt_reason = fmt::format("{}: {}", next.limited_by, next.reason);
+  telemetry.dt_bid = telemetry.dt;
+  telemetry.limited_by = next.limited_by;
   telemetry.compute_s = part_.compute_s;
   telemetry.wait_s = part_.wait_s;
   telemetry.interfaces = coupler_.profiles();

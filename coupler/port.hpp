@@ -31,6 +31,7 @@ class CoupledRun {
   void complete_checkpoint();
   void record();
   void show();
+  wire::Picture outline() const;
   void archive(Archive& archive);
 
   const Setup& setup_;

@@ -249,12 +249,12 @@ void FluidParticipant::advance(double t, double dt, int /*substeps*/, ProjectedS
   solver_.advance_fluid(t_next, dt);
 }
 
-std::vector<io::GridOutput> FluidParticipant::last_fields() const {
+std::vector<io::GridOutput> FluidParticipant::fields(bool last) const {
   std::vector<io::GridOutput> grids;
   for (int k = 0; k < solver_.grids(); ++k) {
-    const ConstFieldView q = solver_.last_state(k);
+    const ConstFieldView q = last ? solver_.last_state(k) : solver_.state(k);
     grids.push_back({.grid = solver_.grid(k).name(),
-                     .x = solver_.last_x(k),
+                     .x = last ? solver_.last_x(k) : solver_.grid(k).x(),
                      .u = {},
                      .fields = {{"rho", q, 0}, {"v1", q, 1}, {"v2", q, 2}, {"p", q, 3}},
                      .kinds = kinds_of(solver_.composite(), k)});
@@ -263,14 +263,14 @@ std::vector<io::GridOutput> FluidParticipant::last_fields() const {
 }
 
 void FluidParticipant::write_fields(double t, std::uint64_t step) {
-  fields_.write(t, step, last_fields());
+  fields_.write(t, step, fields(true));
   if (!budget_) return;
   const Totals defect = budget_->defect(solver_);
   budget_table_->row({t, defect.mass, defect.momentum1, defect.momentum2, defect.energy});
 }
 
 void FluidParticipant::write_last_state(double t, std::uint64_t step) {
-  fields_.write_apart("last_state", t, step, last_fields());
+  fields_.write_apart("last_state", t, step, fields(true));
 }
 
 void FluidParticipant::archive(Archive& archive) {

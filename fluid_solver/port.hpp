@@ -25,6 +25,7 @@ class FluidParticipant final : public Participant {
   void fill(std::size_t k, wire::PredictedInterface& predicted) const override;
   void apply_bcs(double t, ProjectedStates projected) override;
   void advance(double t, double dt, int substeps, ProjectedStates projected) override;
+  std::vector<io::GridOutput> fields_now() override { return fields(false); }
   void write_fields(double t, std::uint64_t step) override;
   void write_tables(double t, double dt, ProjectedStates projected) override;
   void write_last_state(double t, std::uint64_t step) override;
@@ -46,7 +47,8 @@ class FluidParticipant final : public Participant {
   struct ChosenValues {
     std::vector<double> v, p;
   };
-  std::vector<io::GridOutput> last_fields() const;
+  /// Of the last complete step, or of the state as it is.
+  std::vector<io::GridOutput> fields(bool last) const;
   ChosenValues chosen_at(const InterfaceSide& interface) const;
 
   const Setup& setup_;

@@ -104,6 +104,7 @@ class SolidParticipant final : public Participant {
     }
   }
 
+  std::vector<io::GridOutput> fields_now() override { return fields(); }
   void write_fields(double t, std::uint64_t step) override { fields_.write(t, step, fields()); }
 
   /// The state as it is: all grids of the solid at the time before the sweep that broke, or what was

@@ -2,35 +2,16 @@
 
 #include <cstring>
 
+#include "common/bus/convert_parts.hpp"
+
 namespace fsi::bus {
 
 namespace {
 
-/// DDS never writes through a borrowed pointer, but its C types know no const.
-template <class Sequence, class Element>
-Sequence borrowed(const std::vector<Element>& values) {
-  Sequence sequence{};
-  sequence._length = sequence._maximum = static_cast<std::uint32_t>(values.size());
-  sequence._buffer = const_cast<Element*>(values.data());  // NOLINT(cppcoreguidelines-pro-type-const-cast)
-  sequence._release = false;
-  return sequence;
-}
-
-amp_fsi_Numbers borrow(const std::vector<double>& values) {
-  return borrowed<amp_fsi_Numbers>(values);
-}
+using bus::borrow, bus::copy;
 
 amp_fsi_Flags borrow(const std::vector<std::uint8_t>& values) {
   return borrowed<amp_fsi_Flags>(values);
-}
-
-amp_fsi_Health borrow(const wire::Health& health) {
-  return {.min_rho = health.min_rho,
-          .min_p = health.min_p,
-          .min_det_F = health.min_det_F,
-          .min_cell_quality = health.min_cell_quality,
-          .first_order_fallbacks = health.first_order_fallbacks,
-          .floors = health.floors};
 }
 
 amp_fsi_Indices borrow(const std::vector<std::int32_t>& values) {
@@ -49,10 +30,6 @@ amp_fsi_ModalResponse borrow(const wire::ModalResponse& modal) {
           .q_dot = borrow(modal.q_dot)};
 }
 
-void copy(const amp_fsi_Numbers& from, std::vector<double>& to) {
-  to.assign(from._buffer, from._buffer + from._length);
-}
-
 void copy(const amp_fsi_Flags& from, std::vector<std::uint8_t>& to) {
   to.assign(from._buffer, from._buffer + from._length);
 }
@@ -65,19 +42,6 @@ void copy(const amp_fsi_SparseMatrix& from, wire::SparseMatrix& to) {
   copy(from.row, to.row);
   copy(from.column, to.column);
   copy(from.value, to.value);
-}
-
-void copy(const char* from, std::string& to) {
-  to = from == nullptr ? "" : from;
-}
-
-void copy(const amp_fsi_Health& from, wire::Health& to) {
-  to.min_rho = from.min_rho;
-  to.min_p = from.min_p;
-  to.min_det_F = from.min_det_F;
-  to.min_cell_quality = from.min_cell_quality;
-  to.first_order_fallbacks = from.first_order_fallbacks;
-  to.floors = from.floors;
 }
 
 void copy(const amp_fsi_ModalResponse& from, wire::ModalResponse& to) {
@@ -94,10 +58,6 @@ std::size_t bytes_of(const Vectors&... vectors) {
 }
 
 }  // namespace
-
-char* borrow(const std::string& text) {
-  return const_cast<char*>(text.c_str());  // NOLINT(cppcoreguidelines-pro-type-const-cast)
-}
 
 bool same(const char* incoming, const std::string& text) {
   return incoming != nullptr && text == incoming;
@@ -119,52 +79,6 @@ Borrowed<amp_fsi_Hello, amp_fsi_InterfaceInfo> borrow(const wire::Hello& hello) 
                    .pid = hello.pid,
                    .points = hello.points,
                    .interfaces = borrowed<dds_sequence_amp_fsi_InterfaceInfo>(result.parts)};
-  return result;
-}
-
-Borrowed<amp_fsi_Telemetry, amp_fsi_InterfaceTelemetry> borrow(const wire::Telemetry& telemetry) {
-  Borrowed<amp_fsi_Telemetry, amp_fsi_InterfaceTelemetry> result;
-  for (const wire::Telemetry::Interface& side : telemetry.interfaces) {
-    result.parts.push_back({.name = borrow(side.name),
-                            .velocity_jump = side.velocity_jump,
-                            .traction_jump = side.traction_jump,
-                            .gap = side.gap,
-                            .power = side.power,
-                            .p_min = side.p_min,
-                            .p_max = side.p_max,
-                            .v_min = side.v_min,
-                            .v_max = side.v_max,
-                            .closed = side.closed,
-                            .s = borrow(side.s),
-                            .x = borrow(side.x),
-                            .p_predicted = borrow(side.p_predicted),
-                            .p_predicted_solid = borrow(side.p_predicted_solid),
-                            .p_projected = borrow(side.p_projected),
-                            .v_predicted = borrow(side.v_predicted),
-                            .v_predicted_gas = borrow(side.v_predicted_gas),
-                            .v_projected = borrow(side.v_projected)});
-  }
-  result.sample = {.run = borrow(telemetry.run),
-                   .from = borrow(telemetry.from),
-                   .role = borrow(telemetry.role),
-                   .state = borrow(telemetry.state),
-                   .host = borrow(telemetry.host),
-                   .pid = telemetry.pid,
-                   .step = telemetry.step,
-                   .t = telemetry.t,
-                   .t_end = telemetry.t_end,
-                   .dt = telemetry.dt,
-                   .dt_reason = borrow(telemetry.dt_reason),
-                   .compute_s = telemetry.compute_s,
-                   .wait_s = telemetry.wait_s,
-                   .point_updates_per_s = telemetry.point_updates_per_s,
-                   .health = borrow(telemetry.health),
-                   .noise = borrow(telemetry.noise),
-                   .messages = telemetry.messages,
-                   .bytes = telemetry.bytes,
-                   .round_trip_p50_us = telemetry.round_trip_p50_us,
-                   .round_trip_p99_us = telemetry.round_trip_p99_us,
-                   .interfaces = borrowed<dds_sequence_amp_fsi_InterfaceTelemetry>(result.parts)};
   return result;
 }
 
@@ -214,6 +128,7 @@ amp_fsi_ProjectedInterface borrow(const wire::ProjectedInterface& projected) {
           .x_next = borrow(projected.x_next),
           .write_output = projected.write_output,
           .write_checkpoint = projected.write_checkpoint,
+          .show = projected.show,
           .stop = projected.stop,
           .stop_reason = borrow(projected.stop_reason)};
 }
@@ -254,52 +169,6 @@ void copy(const amp_fsi_Hello& from, wire::Hello& to) {
     to.interfaces[k].dimension = info.dimension;
     copy(info.x, to.interfaces[k].x);
     copy(info.n, to.interfaces[k].n);
-  }
-}
-
-void copy(const amp_fsi_Telemetry& from, wire::Telemetry& to) {
-  copy(from.run, to.run);
-  copy(from.from, to.from);
-  copy(from.role, to.role);
-  copy(from.state, to.state);
-  copy(from.host, to.host);
-  to.pid = from.pid;
-  to.step = from.step;
-  to.t = from.t;
-  to.t_end = from.t_end;
-  to.dt = from.dt;
-  copy(from.dt_reason, to.dt_reason);
-  to.compute_s = from.compute_s;
-  to.wait_s = from.wait_s;
-  to.point_updates_per_s = from.point_updates_per_s;
-  copy(from.health, to.health);
-  copy(from.noise, to.noise);
-  to.messages = from.messages;
-  to.bytes = from.bytes;
-  to.round_trip_p50_us = from.round_trip_p50_us;
-  to.round_trip_p99_us = from.round_trip_p99_us;
-  to.interfaces.resize(from.interfaces._length);
-  for (std::uint32_t k = 0; k < from.interfaces._length; ++k) {
-    const amp_fsi_InterfaceTelemetry& in = from.interfaces._buffer[k];
-    wire::Telemetry::Interface& out = to.interfaces[k];
-    copy(in.name, out.name);
-    out.velocity_jump = in.velocity_jump;
-    out.traction_jump = in.traction_jump;
-    out.gap = in.gap;
-    out.power = in.power;
-    out.p_min = in.p_min;
-    out.p_max = in.p_max;
-    out.v_min = in.v_min;
-    out.v_max = in.v_max;
-    out.closed = in.closed;
-    copy(in.s, out.s);
-    copy(in.x, out.x);
-    copy(in.p_predicted, out.p_predicted);
-    copy(in.p_predicted_solid, out.p_predicted_solid);
-    copy(in.p_projected, out.p_projected);
-    copy(in.v_predicted, out.v_predicted);
-    copy(in.v_predicted_gas, out.v_predicted_gas);
-    copy(in.v_projected, out.v_projected);
   }
 }
 
@@ -349,6 +218,7 @@ void copy(const amp_fsi_ProjectedInterface& from, wire::ProjectedInterface& to) 
   copy(from.x_next, to.x_next);
   to.write_output = from.write_output;
   to.write_checkpoint = from.write_checkpoint;
+  to.show = from.show;
   to.stop = from.stop;
   copy(from.stop_reason, to.stop_reason);
 }

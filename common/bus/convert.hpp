@@ -21,15 +21,23 @@ struct Borrowed {
   std::vector<Part> parts;
 };
 
+struct BorrowedTelemetry : Borrowed<amp_fsi_Telemetry, amp_fsi_InterfaceTelemetry> {
+  std::vector<amp_fsi_Traffic> traffic;
+};
+
 Borrowed<amp_fsi_Hello, amp_fsi_InterfaceInfo> borrow(const wire::Hello& hello);
-Borrowed<amp_fsi_Telemetry, amp_fsi_InterfaceTelemetry> borrow(const wire::Telemetry& telemetry);
+BorrowedTelemetry borrow(const wire::Telemetry& telemetry);
 amp_fsi_PredictedInterface borrow(const wire::PredictedInterface& predicted);
 amp_fsi_ProjectedInterface borrow(const wire::ProjectedInterface& projected);
 amp_fsi_Abort borrow(const wire::Abort& abort);
 amp_fsi_Control borrow(const wire::Control& control);
 amp_fsi_Waiting borrow(const wire::Waiting& waiting);
+Borrowed<amp_fsi_Watch, char*> borrow(const wire::Watch& watch);
+Borrowed<amp_fsi_Picture, amp_fsi_PictureGrid> borrow(const wire::Picture& picture);
 /// A string for an outgoing sample.
-char* borrow(const std::string& text);
+inline char* borrow(const std::string& text) {
+  return const_cast<char*>(text.c_str());  // NOLINT(cppcoreguidelines-pro-type-const-cast)
+}
 
 void copy(const amp_fsi_Hello& from, wire::Hello& to);
 void copy(const amp_fsi_Telemetry& from, wire::Telemetry& to);
@@ -38,6 +46,8 @@ void copy(const amp_fsi_ProjectedInterface& from, wire::ProjectedInterface& to);
 void copy(const amp_fsi_Abort& from, wire::Abort& to);
 void copy(const amp_fsi_Control& from, wire::Control& to);
 void copy(const amp_fsi_Waiting& from, wire::Waiting& to);
+void copy(const amp_fsi_Watch& from, wire::Watch& to);
+void copy(const amp_fsi_Picture& from, wire::Picture& to);
 
 /// True when an incoming string is `text`.
 bool same(const char* incoming, const std::string& text);

@@ -13,6 +13,28 @@ std::string label_of(const std::string& role, const std::string& name) {
   return role == name ? name : fmt::format("{} '{}'", role, name);
 }
 
+void Channel::hear(const wire::Waiting& word, std::uint64_t step, double repetition_s) {
+  if (word.from != owner || word.topic != projected_topic) return;
+  if (word.step == step) not_arrived.add(repetition_s);
+  if (word.step < step) behind.add(repetition_s);
+}
+
+void Channel::judge(std::uint64_t step, double timeout_s, double waited_s) const {
+  if (not_arrived.convincing(timeout_s))
+    end_by(predicted_of(step), waited_s, "its sender waits for the answer");
+  if (sent && behind.convincing(timeout_s))
+    end_by(projected_of(sent->step), waited_s, "its receiver still asks for it");
+}
+
+std::vector<wire::Traffic> traffic_of(const std::deque<Member>& members) {
+  std::vector<wire::Traffic> all;
+  for (const Member& member : members) {
+    for (const Channel& channel : member.channels)
+      all.push_back(channel.heard.report(channel.interface, channel.owner));
+  }
+  return all;
+}
+
 void check_fits(const std::string& label, const wire::Hello& hello, const std::string& digest) {
   if (hello.protocol != wire::protocol_version) {
     throw PeerLost(fmt::format("{} speaks protocol {}, the coupler speaks {}: build them from one version",

@@ -41,10 +41,15 @@ struct Channel {
         .kind = "ProjectedInterface", .from = "coupler", .to = owner, .topic = projected_topic, .step = step};
   }
 
+  /// The owner waits: for the answer to a state that is not here, or to the one before.
+  void hear(const wire::Waiting& word, std::uint64_t step, double repetition_s);
+  /// @throws PeerLost a message of this channel is lost
+  void judge(std::uint64_t step, double timeout_s, double waited_s) const;
+
   bool matched() const {
     const bool hears = reader.matched() > 0,
-               heard = writer.matched() > 0;  // ask both: asking resets the wake-up
-    return heard && hears;
+               is_heard = writer.matched() > 0;  // ask both: asking resets the wake-up
+    return is_heard && hears;
   }
 
   std::string owner, interface;
@@ -55,6 +60,7 @@ struct Channel {
   std::optional<wire::ProjectedInterface> sent;  ///< the last one, to be sent again
   Complaints not_arrived;  ///< the solver waits for the answer to a state that is not here
   Complaints behind;       ///< the solver lacks what was sent
+  Heard heard;             ///< from the solver
 };
 
 /// One solver of the run.
@@ -66,6 +72,9 @@ struct Member {
   std::deque<Channel> channels = {};
   std::size_t first_slot = 0;  ///< place of the first interface among all predicted states
 };
+
+/// What came in from everybody.
+std::vector<wire::Traffic> traffic_of(const std::deque<Member>& members);
 
 /// @throws PeerLost the program speaks another protocol or has read another case
 void check_fits(const std::string& label, const wire::Hello& hello, const std::string& digest);

@@ -132,8 +132,12 @@ struct CouplerSession::Implementation {
     if (predicted.empty()) return;
     for (Member& member : members) {
       for (std::size_t k = 0; k < member.channels.size(); ++k) {
-        member.channels[k].reader.take([&](const amp_fsi_PredictedInterface& sample) {
-          accept(member.channels[k], member.first_slot + k, sample);
+        Channel& channel = member.channels[k];
+        channel.reader.take([&](const amp_fsi_PredictedInterface& sample, dds_time_t sent) {
+          if (accept(channel, member.first_slot + k, sample))
+            link.count(channel.heard, payload(predicted[member.first_slot + k]), sent);
+          else
+            link.count_dropped(channel.heard);
         });
       }
     }
@@ -165,13 +169,11 @@ struct CouplerSession::Implementation {
     member.hello = std::move(hello);
   }
 
-  void accept(const Channel& channel, std::size_t slot, const amp_fsi_PredictedInterface& sample) {
+  /// False: it is not the one that is awaited, or came before.
+  bool accept(const Channel& channel, std::size_t slot, const amp_fsi_PredictedInterface& sample) {
     const bool ours = same(sample.run, link.options().run) && same(sample.from, channel.owner) &&
                       same(sample.interface_name, channel.interface);
-    if (!ours || sample.step < awaited) {
-      ++link.counters().stale;
-      return;
-    }
+    if (!ours || sample.step < awaited) return false;
     if (fresh[slot] && sample.step == predicted[slot].step) {  // sent again before it was taken
       if (!same_state(sample, predicted[slot])) {
         throw PeerLost(
@@ -179,14 +181,11 @@ struct CouplerSession::Implementation {
                         "name? A protected run (README.md) cannot be falsified that way",
                         sample.step, channel.owner));
       }
-      ++link.counters().stale;
-      return;
+      return false;
     }
     copy(sample, predicted[slot]);
     check_lengths(predicted[slot], channel.size);
-    fresh[slot] = true;
-    ++link.counters().messages;
-    link.counters().bytes += payload(predicted[slot]);
+    return fresh[slot] = true;
   }
 
   std::span<const wire::PredictedInterface> gather(std::uint64_t step) {
@@ -239,18 +238,11 @@ struct CouplerSession::Implementation {
         Channel& channel = member.channels[k];
         check_peer(member, channel);
         member.peer->check_step(step, link.options().step_timeout_s);
-        for (const wire::Waiting& word : words) hear(word, channel, step);
+        for (const wire::Waiting& word : words) channel.hear(word, step, link.repetition_s());
         if (time_to_repeat) repeat(channel, step);
-        judge(channel, step);
+        channel.judge(step, link.options().peer_timeout_s, link.waited_s());
       }
     }
-  }
-
-  /// The owner of the channel waits: for the answer to a state that is not here, or to the one before.
-  void hear(const wire::Waiting& word, Channel& channel, std::uint64_t step) const {
-    if (word.from != channel.owner || word.topic != channel.projected_topic) return;
-    if (word.step == step) channel.not_arrived.add(link.repetition_s());
-    if (word.step < step) channel.behind.add(link.repetition_s());
   }
 
   /// Says what is missing, and what its sender heard last.
@@ -261,15 +253,8 @@ struct CouplerSession::Implementation {
     } else {
       welcome(true);
     }
+    ++channel.heard.missing;
     ++link.counters().repeated;
-  }
-
-  void judge(const Channel& channel, std::uint64_t step) const {
-    const double timeout = link.options().peer_timeout_s;
-    if (channel.not_arrived.convincing(timeout))
-      end_by(channel.predicted_of(step), link.waited_s(), "its sender waits for the answer");
-    if (channel.sent && channel.behind.convincing(timeout))
-      end_by(channel.projected_of(channel.sent->step), link.waited_s(), "its receiver still asks for it");
   }
 
   void check_peer(Member& member, const Channel& channel) const {
@@ -375,8 +360,22 @@ bool CouplerSession::telemetry_due() const {
   return implementation_->link.telemetry_due();
 }
 
-void CouplerSession::publish(const wire::Telemetry& telemetry) {
-  implementation_->link.publish(telemetry);
+void CouplerSession::publish(wire::Telemetry telemetry) {
+  telemetry.traffic = traffic_of(implementation_->members);
+  implementation_->link.publish(std::move(telemetry));
+}
+
+bool CouplerSession::picture_due() const {
+  return implementation_->link.watchers().due();
+}
+
+bool CouplerSession::watched() const {
+  return implementation_->link.watchers().any();
+}
+
+void CouplerSession::show(wire::Picture picture) {
+  implementation_->link.watchers().begin_pause();
+  implementation_->link.watchers().publish(std::move(picture));
 }
 
 void CouplerSession::abort(ExitCode code, const std::string& reason) noexcept {

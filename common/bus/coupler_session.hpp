@@ -46,7 +46,13 @@ class CouplerSession {
   bool telemetry_due() const;
   /// Sends telemetry to whoever listens; never waits. `run`, `from`, `role` and the bus statistics are filled
   /// in.
-  void publish(const wire::Telemetry& telemetry);
+  void publish(wire::Telemetry telemetry);
+  /// True at most five times a second, where somebody watches: time to let everybody `show`.
+  bool picture_due() const;
+  /// Somebody watches.
+  bool watched() const;
+  /// Sends a picture to whoever watches; `run` is filled in.
+  void show(wire::Picture picture);
 
   /// Tells everybody that the run is over and why, and makes sure they got it. Does nothing when the end came
   /// from somebody else's Abort.

@@ -22,6 +22,7 @@ namespace {
 constexpr dds_duration_t liveliness_lease = DDS_MSECS(300);
 constexpr int lock_step_depth = 8;
 constexpr int lasting_depth = 64;
+constexpr int asking_depth = 16;
 
 /// The latest line of Cyclone's log. A flood of malformed packets costs no more than this.
 class LastLine {
@@ -183,9 +184,10 @@ Qos reader_qos(Delivery delivery) {
       dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, delivery == Delivery::newest ? 1 : lasting_depth);
       break;
     case Delivery::listening:
+    case Delivery::asking:
       dds_qset_reliability(qos.get(), DDS_RELIABILITY_BEST_EFFORT, 0);
       dds_qset_durability(qos.get(), DDS_DURABILITY_VOLATILE);
-      dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, 1);
+      dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, delivery == Delivery::asking ? asking_depth : 1);
       break;
   }
   return qos;
@@ -255,6 +257,14 @@ const dds_topic_descriptor_t& descriptor<amp_fsi_Waiting>() {
 template <>
 const dds_topic_descriptor_t& descriptor<amp_fsi_Telemetry>() {
   return amp_fsi_Telemetry_desc;
+}
+template <>
+const dds_topic_descriptor_t& descriptor<amp_fsi_Watch>() {
+  return amp_fsi_Watch_desc;
+}
+template <>
+const dds_topic_descriptor_t& descriptor<amp_fsi_Picture>() {
+  return amp_fsi_Picture_desc;
 }
 
 }  // namespace fsi::bus

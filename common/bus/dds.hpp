@@ -42,13 +42,15 @@ class Entity {
 
 using Qos = std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)>;
 
-/// The kinds of topics. Everything is keyless but telemetry, whose key is the sender.
+/// The kinds of topics. Everything is keyless but telemetry, whose key is the sender, and pictures: the
+/// sender and the quantity.
 enum class Delivery {
   lock_step,  ///< reliable, volatile, last 8: one writer, one reader, one sample per step
   lasting,    ///< reliable, late joiners get the last samples: abort, control; what hears hello, welcome
   newest,     ///< the same, but only the last sample of each sender: who says hello, welcome
   passing,    ///< reliable, nothing for late joiners: waiting
-  listening,  ///< best effort, newest only: telemetry
+  listening,  ///< best effort, newest only: telemetry, pictures
+  asking,     ///< best effort, last 16: watch
 };
 
 Qos writer_qos(Delivery delivery);
@@ -142,13 +144,18 @@ class Reader {
         condition_(dds_create_readcondition(reader_.get(), DDS_ANY_STATE), "condition " + name),
         sample_(new(dds_alloc(sizeof(T))) T{}) {}
 
-  /// Calls `use(sample)` for everything that has arrived.
+  /// Calls `use(sample)`, or `use(sample, time of writing)`, for everything that has arrived.
   template <class Use>
   void take(const Use& use) {
     void* place[1] = {sample_.get()};
     dds_sample_info_t info[1];
     while (checked(dds_take(reader_.get(), place, info, 1, 1), "take") > 0) {
-      if (info[0].valid_data) use(std::as_const(*sample_));
+      if (!info[0].valid_data) continue;
+      if constexpr (requires { use(std::as_const(*sample_), info[0].source_timestamp); }) {
+        use(std::as_const(*sample_), info[0].source_timestamp);
+      } else {
+        use(std::as_const(*sample_));
+      }
     }
   }
   const Entity& condition() const { return condition_; }

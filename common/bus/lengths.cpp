@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -13,6 +15,7 @@ namespace {
 
 constexpr std::int32_t most_dimensions = 3;
 constexpr std::int32_t most_modes = 20000;
+constexpr std::size_t longest_name = 256;
 
 /// Compares lengths, remembering whose message it is.
 class Lengths {
@@ -97,6 +100,19 @@ void check_lengths(const wire::ProjectedInterface& m, InterfaceSize size) {
   lengths.check("z_f", m.z_f, size.points);
   lengths.check("robin_r", m.robin_r, m.robin_t.size() * size.points);
   lengths.check("x_next", m.x_next, vectors);
+}
+
+bool is_sound(const wire::Picture& m) {
+  if (!std::isfinite(m.t) || !std::isfinite(m.low) || !std::isfinite(m.high) || m.high < m.low) return false;
+  if (m.grids.size() > wire::Picture::most_grids || m.from.size() > longest_name ||
+      m.quantity.size() > longest_name)
+    return false;
+  return std::ranges::all_of(m.grids, [](const wire::Picture::Grid& grid) {
+    const std::size_t n1 = grid.n1, n2 = grid.n2, most = wire::Picture::most_samples;
+    return n1 >= 1 && n2 >= 1 && n1 <= most && n2 <= most && grid.level.size() == n1 * n2 &&
+           grid.x.size() == (grid.straight ? n1 + n2 : 2 * n1 * n2) && grid.name.size() <= longest_name &&
+           std::ranges::all_of(grid.x, [](float value) { return std::isfinite(value); });
+  });
 }
 
 }  // namespace fsi::bus

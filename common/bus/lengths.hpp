@@ -23,4 +23,8 @@ InterfaceSize size_of(const wire::InterfaceInfo& info, const std::string& from);
 void check_lengths(const wire::PredictedInterface& predicted, InterfaceSize size);
 void check_lengths(const wire::ProjectedInterface& projected, InterfaceSize size);
 
+/// Whether all arrays of a picture have the lengths its grids say, within bounds, and all its numbers are
+/// finite: it may come from anybody.
+bool is_sound(const wire::Picture& picture);
+
 }  // namespace fsi::bus

@@ -55,6 +55,17 @@ double RoundTrips::quantile_us(double fraction) const {
   return 1e6 * sorted[static_cast<std::size_t>(rank)];
 }
 
+wire::Traffic Heard::report(const std::string& interface, const std::string& from) const {
+  return {.interface = interface,
+          .from = from,
+          .messages = messages,
+          .bytes = bytes,
+          .missing = missing,
+          .dropped = dropped,
+          .latency_p50_us = latency.quantile_us(0.5),
+          .latency_p99_us = latency.quantile_us(0.99)};
+}
+
 void Complaints::forget() {
   count_ = 0;
   since_ = last_ = Clock::now();
@@ -82,7 +93,8 @@ Link::Link(BusOptions options, std::string role, std::string name)
       abort_writer_(participant_, abort_topic, Delivery::lasting),
       telemetry_writer_(participant_, telemetry_topic, Delivery::listening),
       waiting_reader_(participant_, waiting_topic, Delivery::passing),
-      waiting_writer_(participant_, waiting_topic, Delivery::passing) {
+      waiting_writer_(participant_, waiting_topic, Delivery::passing),
+      watchers_(participant_, options_.run) {
   waitset_.attach(abort_reader_.condition());
 }
 
@@ -150,6 +162,7 @@ void Link::publish(wire::Telemetry telemetry) {
   telemetry_ = std::move(telemetry);
   waited_before_it_s_ = statistics_.wait_s;
   last_repetition_ = last_telemetry_;
+  watchers_.look();
 }
 
 /// The latest telemetry once more, so that a program that waits is not taken for one that is gone. It does
@@ -161,6 +174,22 @@ void Link::repeat_telemetry(const char* state) {
   telemetry_.wait_s += statistics_.wait_s - waited_before_it_s_;
   waited_before_it_s_ = statistics_.wait_s;
   telemetry_writer_.write(borrow(telemetry_).sample);
+  watchers_.look();
+}
+
+void Link::count(Heard& heard, std::size_t bytes, dds_time_t sent) {
+  ++heard.messages;
+  heard.bytes += bytes;
+  ++statistics_.messages;
+  statistics_.bytes += bytes;
+  const auto now = dds_time();
+  constexpr double nanoseconds = 1e-9;
+  if (sent >= waiting_since_ && now >= sent) heard.latency.add(nanoseconds * static_cast<double>(now - sent));
+}
+
+void Link::count_dropped(Heard& heard) {
+  ++heard.dropped;
+  ++statistics_.stale;
 }
 
 void Link::abort(ExitCode code, const std::string& reason) noexcept {

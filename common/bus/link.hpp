@@ -10,6 +10,7 @@
 
 #include "common/bus/dds.hpp"
 #include "common/bus/options.hpp"
+#include "common/bus/watchers.hpp"
 #include "common/core/failure.hpp"
 #include "common/wire/messages.hpp"
 
@@ -41,6 +42,15 @@ class RoundTrips {
   std::size_t next_ = 0;
 };
 
+/// What has come in at one interface from one program.
+struct Heard {
+  std::uint64_t messages = 0, bytes = 0;  ///< taken
+  std::uint64_t missing = 0;              ///< asked for, because they did not come
+  std::uint64_t dropped = 0;              ///< repeated or late
+  RoundTrips latency;                     ///< from writing to taking, of those that were waited for
+  wire::Traffic report(const std::string& interface, const std::string& from) const;
+};
+
 /// How often another program said that it lacks a message which was sent to it. What it said while the
 /// message was on its way, or twice in a row, counts little: only who complains again and again has really
 /// lost it.
@@ -63,6 +73,8 @@ class Link {
  public:
   /// Longest sleep without looking at signals, aborts and peers [s].
   static constexpr double slice_s = 0.1;
+  /// Who waits for longer than this may do something else meanwhile [s].
+  static constexpr double long_wait_s = 0.5;
   /// Longest wait for the last messages to arrive when leaving [s].
   static constexpr double leave_patience_s = 1;
 
@@ -86,7 +98,10 @@ class Link {
 
   /// Who waits says once per so many seconds what it lacks, and sends its last messages again [s].
   double repetition_s() const;
-  void begin_wait() { wait_began_ = last_word_ = Clock::now(); }
+  void begin_wait() {
+    wait_began_ = last_word_ = Clock::now();
+    waiting_since_ = dds_time();
+  }
   double waited_s() const { return since(wait_began_); }
   /// True once per `repetition_s` since the wait began.
   bool time_to_repeat();
@@ -105,6 +120,13 @@ class Link {
     if (!aborted_) (writers.arrived(std::max(0.0, leave_patience_s - since(start))), ...);
   }
 
+  /// Counts a message that was written at `sent`. One that was written while nobody waited for it here tells
+  /// nothing about the transport.
+  void count(Heard& heard, std::size_t bytes, dds_time_t sent);
+  void count_dropped(Heard& heard);
+
+  Watchers& watchers() { return watchers_; }
+  const Watchers& watchers() const { return watchers_; }
   const Entity& participant() const { return participant_; }
   Waitset& waitset() { return waitset_; }
   const BusOptions& options() const { return options_; }
@@ -126,12 +148,14 @@ class Link {
   Writer<amp_fsi_Telemetry> telemetry_writer_;
   Reader<amp_fsi_Waiting> waiting_reader_;
   Writer<amp_fsi_Waiting> waiting_writer_;
+  Watchers watchers_;
   bool aborted_ = false;  ///< somebody's Abort was heard, or ours was sent
   Clock::time_point last_telemetry_{}, last_repetition_{}, last_check_{}, wait_began_{}, last_word_{};
   wire::Telemetry telemetry_;      ///< the latest
   double waited_before_it_s_ = 0;  ///< time waited until then
   Statistics statistics_;
   RoundTrips round_trips_;
+  dds_time_t waiting_since_ = 0;  ///< by the clock of DDS
 };
 
 /// A message that was sent and did not arrive, however often it was sent again.

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "common/bus/convert.hpp"
 #include "common/bus/dds.hpp"
+#include "common/bus/lengths.hpp"
 #include "common/bus/link.hpp"
 #include "common/core/failure.hpp"
 
@@ -14,6 +16,8 @@ namespace fsi::bus {
 namespace {
 
 constexpr double participant_lease_s = 10;
+/// Pictures that wait for `pictures`; more than programs of a run send between two looks.
+constexpr std::size_t most_pictures = 256;
 
 /// Returns when the request has arrived. @throws PeerLost nobody takes it within `timeout_s`
 void deliver(const wire::Control& request, const Entity& participant, double timeout_s) {
@@ -52,11 +56,37 @@ struct Listener::Implementation {
     telemetry_reader.take([&](const amp_fsi_Telemetry& sample) {
       if (same(sample.run, run)) copy(sample, heard.emplace_back());
     });
+    if (looking) looking->reader.take([&](const amp_fsi_Picture& sample) { see(sample); });
     abort_reader.take([&](const amp_fsi_Abort& sample) {
       if (same(sample.run, run) && !abort) copy(sample, abort.emplace());
     });
     return heard;
   }
+
+  void see(const amp_fsi_Picture& sample) {
+    if (!same(sample.run, run) || pictures.size() >= most_pictures) return;
+    wire::Picture picture;
+    copy(sample, picture);
+    if (is_sound(picture)) pictures.push_back(std::move(picture));
+  }
+
+  void watch(const std::vector<std::string>& quantities) {
+    if (!looking) {
+      looking.emplace(participant);
+      waitset.attach(looking->reader.condition());
+    }
+    const wire::Watch word{.run = run, .quantities = quantities};
+    looking->writer.write(borrow(word).sample);
+  }
+
+  /// What it takes to see pictures; made when somebody looks.
+  struct Looking {
+    explicit Looking(const Entity& participant)
+        : writer(participant, watch_topic, Delivery::asking),
+          reader(participant, picture_topic, Delivery::listening) {}
+    Writer<amp_fsi_Watch> writer;
+    Reader<amp_fsi_Picture> reader;
+  };
 
   std::string run;
   std::shared_ptr<const Entity> domain;
@@ -65,6 +95,8 @@ struct Listener::Implementation {
   Reader<amp_fsi_Telemetry> telemetry_reader;
   Reader<amp_fsi_Abort> abort_reader;
   std::optional<wire::Abort> abort;
+  std::optional<Looking> looking;
+  std::vector<wire::Picture> pictures;
 };
 
 Listener::Listener(const std::string& run, const std::string& key)
@@ -75,6 +107,14 @@ Listener::~Listener() = default;
 
 std::vector<wire::Telemetry> Listener::wait(double seconds) {
   return implementation_->wait(seconds);
+}
+
+void Listener::watch(const std::vector<std::string>& quantities) {
+  implementation_->watch(quantities);
+}
+
+std::vector<wire::Picture> Listener::pictures() {
+  return std::exchange(implementation_->pictures, {});
 }
 
 const std::optional<wire::Abort>& Listener::aborted() const {

@@ -21,6 +21,10 @@ class Listener {
 
   /// What arrived, newest per program; waits up to `seconds` for the first.
   std::vector<wire::Telemetry> wait(double seconds);
+  /// Says that somebody looks at these quantities (those of `wire::Picture`); to be said again every second.
+  void watch(const std::vector<std::string>& quantities);
+  /// The pictures that came with the last `wait`, newest per program and quantity. Damaged ones are left out.
+  std::vector<wire::Picture> pictures();
   /// The Abort that ended the run, once one was heard.
   const std::optional<wire::Abort>& aborted() const;
   /// Programs of the run that can be heard now.

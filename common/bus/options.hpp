@@ -4,11 +4,13 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "common/core/failure.hpp"
+#include "common/wire/messages.hpp"
 
 namespace fsi::bus {
 
@@ -35,6 +37,9 @@ struct BusOptions {
   /// For tests: true when a message that is sent now on this topic is to be lost. May be empty.
   std::function<bool(const std::string& topic)> loses = {};
 };
+
+/// A picture of a quantity of the present state; nothing where the program does not have it.
+using Draw = std::function<std::optional<wire::Picture>(const std::string& quantity)>;
 
 /// The end of a run because another program failed, as that one told it.
 class FailureElsewhere : public Failure {

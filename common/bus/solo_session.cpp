@@ -54,6 +54,18 @@ void SoloSession::publish(const wire::Telemetry& telemetry) {
   implementation_->link.publish(telemetry);
 }
 
+bool SoloSession::picture_due() const {
+  return implementation_->link.watchers().due();
+}
+
+void SoloSession::show(const Draw& draw, std::uint64_t step, bool always) {
+  implementation_->link.watchers().show(draw, step, always);
+}
+
+void SoloSession::show_missing(const Draw& draw, std::uint64_t step) {
+  implementation_->link.watchers().show_missing(draw, step);
+}
+
 void SoloSession::abort(ExitCode code, const std::string& reason) noexcept {
   implementation_->link.abort(code, reason);
 }

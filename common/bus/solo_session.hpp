@@ -1,6 +1,7 @@
 #pragma once
 /// The seat of a solver that runs alone: nobody to wait for, but it can be watched and told to stop.
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -27,6 +28,13 @@ class SoloSession {
   bool telemetry_due() const;
   /// Sends telemetry to whoever listens; never waits. `run`, `from` and `role` are filled in.
   void publish(const wire::Telemetry& telemetry);
+  /// True at most five times a second, where somebody watches: time to `show`.
+  bool picture_due() const;
+  /// Draws what is wished and sends it to whoever watches. `always`: also where drawing has taken too large a
+  /// part of the time.
+  void show(const Draw& draw, std::uint64_t step, bool always);
+  /// The same for wishes that came since, while the run is paused.
+  void show_missing(const Draw& draw, std::uint64_t step);
   /// Tells whoever listens that the run is over and why.
   void abort(ExitCode code, const std::string& reason) noexcept;
 

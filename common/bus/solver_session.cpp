@@ -31,9 +31,9 @@ struct Channel {
         reader(participant, projected_topic, Delivery::lock_step) {}
 
   bool matched() const {
-    const bool heard = writer.matched() > 0,
+    const bool is_heard = writer.matched() > 0,
                hears = reader.matched() > 0;  // ask both: asking resets the wake-up
-    return heard && hears;
+    return is_heard && hears;
   }
 
   std::string interface;
@@ -48,6 +48,7 @@ struct Channel {
   bool unanswered = false;
   Complaints not_arrived;  ///< the coupler lacks what was sent
   Complaints overtaken;    ///< the coupler waits for the step after it: its answer was lost
+  Heard heard;             ///< from the coupler
 };
 
 }  // namespace
@@ -137,26 +138,23 @@ struct SolverSession::Implementation {
       complete = sample.complete;
     });
     for (Channel& channel : channels) {
-      channel.reader.take([&](const amp_fsi_ProjectedInterface& sample) { accept(channel, sample); });
+      channel.reader.take([&](const amp_fsi_ProjectedInterface& sample, dds_time_t sent) {
+        accept(channel, sample, sent);
+      });
     }
   }
 
-  void accept(Channel& channel, const amp_fsi_ProjectedInterface& sample) {
+  void accept(Channel& channel, const amp_fsi_ProjectedInterface& sample, dds_time_t sent) {
     const bool ours = same(sample.run, self.run) && same(sample.to, self.name) &&
                       same(sample.interface_name, channel.interface);
-    if (!ours || sample.step < channel.awaited) {
-      ++link.counters().stale;
-      return;
-    }
-    if (channel.fresh) {  // sent again before it was taken
-      ++link.counters().stale;
+    if (!ours || sample.step < channel.awaited || channel.fresh) {  // fresh: sent again before it was taken
+      link.count_dropped(channel.heard);
       return;
     }
     copy(sample, channel.incoming);
     check_lengths(channel.incoming, channel.size);
     channel.fresh = true;
-    ++link.counters().messages;
-    link.counters().bytes += payload(channel.incoming);
+    link.count(channel.heard, payload(channel.incoming), sent);
   }
 
   Channel& channel_of(const std::string& interface) {
@@ -171,7 +169,7 @@ struct SolverSession::Implementation {
     channel.awaited = step;
     if (!channel.fresh || channel.incoming.step >= step) return;
     channel.fresh = false;
-    ++link.counters().stale;
+    link.count_dropped(channel.heard);
   }
 
   void publish(const wire::PredictedInterface& predicted) {
@@ -248,6 +246,7 @@ struct SolverSession::Implementation {
       if (!channel.unanswered || channel.fresh) continue;
       link.send(channel.writer, channel.predicted_topic, borrow(channel.sent));
       link.say_waiting(coupler_name, channel.projected_topic, channel.sent.step);
+      ++channel.heard.missing;
       ++link.counters().repeated;
     }
   }
@@ -272,6 +271,13 @@ struct SolverSession::Implementation {
             .to = self.name,
             .topic = channel.projected_topic,
             .step = step};
+  }
+
+  std::vector<wire::Traffic> traffic() const {
+    std::vector<wire::Traffic> all;
+    for (const Channel& channel : channels)
+      all.push_back(channel.heard.report(channel.interface, coupler_name));
+    return all;
   }
 
   void leave() const {
@@ -316,8 +322,21 @@ bool SolverSession::telemetry_due() const {
   return implementation_->link.telemetry_due();
 }
 
-void SolverSession::publish(const wire::Telemetry& telemetry) {
-  implementation_->link.publish(telemetry);
+void SolverSession::publish(wire::Telemetry telemetry) {
+  telemetry.traffic = implementation_->traffic();
+  implementation_->link.publish(std::move(telemetry));
+}
+
+void SolverSession::show(const Draw& draw, std::uint64_t step, bool always) {
+  implementation_->link.watchers().show(draw, step, always);
+}
+
+bool SolverSession::waits_watched() const {
+  return implementation_->link.watchers().any() && implementation_->link.waited_s() > Link::long_wait_s;
+}
+
+void SolverSession::show_missing(const Draw& draw, std::uint64_t step) {
+  implementation_->link.watchers().show_missing(draw, step);
 }
 
 void SolverSession::abort(ExitCode code, const std::string& reason) noexcept {

@@ -1,6 +1,7 @@
 #pragma once
 /// A gas or solid solver's seat at the bus: one sample out and one in, per step and interface (Procedure 1).
 
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -37,7 +38,14 @@ class SolverSession {
   bool telemetry_due() const;
   /// Sends telemetry to whoever listens; never waits. `run`, `from`, `role` and the bus statistics are filled
   /// in.
-  void publish(const wire::Telemetry& telemetry);
+  void publish(wire::Telemetry telemetry);
+  /// Draws what is wished and sends it to whoever watches: when the coupler says so. `always`: also where
+  /// drawing has taken too large a part of the time.
+  void show(const Draw& draw, std::uint64_t step, bool always);
+  /// Somebody watches, and this program has waited for long: the run is paused.
+  bool waits_watched() const;
+  /// The same for wishes that came since the state was shown.
+  void show_missing(const Draw& draw, std::uint64_t step);
 
   /// Tells everybody that the run is over and why, and makes sure they got it. Does nothing when the end came
   /// from somebody else's Abort.

@@ -48,6 +48,7 @@ class CoupledRun {
       session_.request("terminate " + setup_.name);
       since_told_.lap();
     }
+    if (waiting_ && session_.waits_watched()) session_.show_missing(draw_of(part_, solver_, at_), at_.step);
     throw_if_interrupted();
   }
 
@@ -75,7 +76,7 @@ class CoupledRun {
       if (answer.write_checkpoint) checkpoints_.save(at_);
       clock_.lap(io::Work::output);
       if (session_.telemetry_due())
-        session_.publish(telemetry_of(setup_, part_, solver_, at_.dt, bid_.reason));
+        session_.publish(telemetry_of(setup_, part_, solver_, at_.dt, bid_));
       obey_signals();
       check_heard();
     }
@@ -92,11 +93,12 @@ class CoupledRun {
     watch_noise(part_, solver_, at_, answer.write_output || answer.stop);
     write_results(setup_, part_, [&] { solver_.write_tables(at_.t, at_.dt, projected_); });
     if (answer.write_output) write_results(setup_, part_, [&] { solver_.write_fields(at_.t, at_.step); });
+    if (answer.show) session_.show(draw_of(part_, solver_, at_), at_.step, answer.stop);
     clock_.lap(io::Work::output);
     if (!answer.stop) return true;
     if (!answer.stop_reason.empty()) part_.status = "stopped";
     part_.reason = answer.stop_reason;
-    wire::Telemetry last = telemetry_of(setup_, part_, solver_, at_.dt, bid_.reason);
+    wire::Telemetry last = telemetry_of(setup_, part_, solver_, at_.dt, bid_);
     last.state = "done";
     session_.publish(last);
     return false;
@@ -122,9 +124,11 @@ class CoupledRun {
   }
 
   void receive_projected() {
+    waiting_ = true;
     for (std::size_t k = 0; k < projected_.size(); ++k) {
       projected_[k] = &session_.receive(hello_.interfaces[k].name, at_.step);
     }
+    waiting_ = false;
     clock_.lap(io::Work::waiting);
   }
 
@@ -135,7 +139,7 @@ class CoupledRun {
   Checkpoints checkpoints_;
   io::Standing at_;
   LastState last_;
-  bool running_ = false, told_ = false;
+  bool running_ = false, told_ = false, waiting_ = false;
   int steps_since_told_ = 0;
   double unheard_s_ = 0;
   Stopwatch since_told_;

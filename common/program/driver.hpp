@@ -19,7 +19,10 @@ void run_coupled(const Setup& setup, io::Part& part, Participant& solver);
 void run_alone(const Setup& setup, io::Part& part, Participant& solver);
 
 wire::Telemetry telemetry_of(const Setup& setup, const io::Part& part, const Participant& solver, double dt,
-                             const std::string& reason);
+                             const TimeStepBid& bid);
+
+/// Draws the solver's present state, that of `at`.
+bus::Draw draw_of(const io::Part& part, Participant& solver, const io::Standing& at);
 
 /// Looks for noise every so many steps, and always `now`; what is worst goes into the part, and the log says
 /// when it is too much.

@@ -78,9 +78,16 @@ class LoneRun {
     clock_.lap(io::Work::output);
     progress_.show(part_.steps, at_.t, at_.dt, part_.participant);
     if (session_.telemetry_due() || step.end)
-      session_.publish(telemetry_of(setup_, part_, solver_, at_.dt, bid.reason));
+      publish(bid);
+    if (session_.picture_due()) session_.show(draw_of(part_, solver_, at_), at_.step, step.end);
     clock_.lap(io::Work::messages);
     end_ = step.end;
+  }
+
+  void publish(const TimeStepBid& bid) {
+    wire::Telemetry telemetry = telemetry_of(setup_, part_, solver_, at_.dt, bid);
+    telemetry.limited_by = part_.participant;
+    session_.publish(telemetry);
   }
 
   void write(bool fields) {
@@ -107,6 +114,7 @@ class LoneRun {
       if (stop || asked_to_end()) break;
       if (!paused_) continue;
       session_.idle(0.1);
+      session_.show_missing(draw_of(part_, solver_, at_), at_.step);
       watch_.begin_step();
       clock_.lap(io::Work::waiting);
     } while (paused_);

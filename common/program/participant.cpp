@@ -1,6 +1,11 @@
 #include "common/program/participant.hpp"
 
+#include <memory>
+#include <optional>
+#include <vector>
+
 #include "common/program/driver.hpp"
+#include "common/program/picture.hpp"
 
 namespace fsi {
 
@@ -15,14 +20,15 @@ bus::BusOptions bus_options(const Setup& setup) {
 }
 
 wire::Telemetry telemetry_of(const Setup& setup, const io::Part& part, const Participant& solver, double dt,
-                             const std::string& reason) {
+                             const TimeStepBid& bid) {
   wire::Telemetry telemetry;
   telemetry.state = part.t < setup.problem.time.end ? "computing" : "done";
   telemetry.step = part.steps;
   telemetry.t = part.t;
   telemetry.t_end = setup.problem.time.end;
   telemetry.dt = dt;
-  telemetry.dt_reason = reason;
+  telemetry.dt_reason = bid.reason;
+  telemetry.dt_bid = bid.dt;
   telemetry.compute_s = part.compute_s;
   telemetry.wait_s = part.wait_s;
   telemetry.health = solver.health();
@@ -30,6 +36,20 @@ wire::Telemetry telemetry_of(const Setup& setup, const io::Part& part, const Par
   const double updates = static_cast<double>(part.points) * static_cast<double>(part.substeps);
   telemetry.point_updates_per_s = part.compute_s > 0 ? updates / part.compute_s : 0;
   return telemetry;
+}
+
+bus::Draw draw_of(const io::Part& part, Participant& solver, const io::Standing& at) {
+  auto fields = std::make_shared<std::vector<io::GridOutput>>();
+  return [&part, &solver, at, fields](const std::string& quantity) {
+    if (fields->empty()) *fields = solver.fields_now();
+    std::optional<wire::Picture> picture = picture_of(*fields, quantity);
+    if (!picture) return picture;
+    picture->from = part.participant;
+    picture->role = part.role;
+    picture->step = at.step;
+    picture->t = at.t;
+    return picture;
+  };
 }
 
 void watch_noise(io::Part& part, Participant& solver, const io::Standing& at, bool now) {

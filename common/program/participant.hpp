@@ -8,6 +8,7 @@
 
 #include "common/core/archive.hpp"
 #include "common/grid/ripple.hpp"
+#include "common/io/grid_writer.hpp"
 #include "common/io/part.hpp"
 #include "common/program/program.hpp"
 #include "common/wire/messages.hpp"
@@ -50,6 +51,8 @@ class Participant {
 
   // What follows nobody needs to have.
 
+  /// Fields of the present state, for pictures. The views hold until the state changes.
+  virtual std::vector<io::GridOutput> fields_now() { return {}; }
   /// Fields at t.
   virtual void write_fields(double /*t*/, std::uint64_t /*step*/) {}
   /// Lines of the tables, once a step.

@@ -3,13 +3,14 @@
 /// types and back; no program sees those. Arrays over the n points of an interface are component-major:
 /// component c of point k is at [c * n + k].
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
 
 namespace fsi::wire {
 
-inline constexpr std::uint32_t protocol_version = 8;
+inline constexpr std::uint32_t protocol_version = 9;
 
 /// Where one program meets the gas or a solid.
 struct InterfaceInfo {
@@ -120,6 +121,7 @@ struct ProjectedInterface {
   std::vector<double> x_next;  ///< commanded positions at t + dt_next, n_d * n
   bool write_output = false;   ///< write fields of the state at t
   bool write_checkpoint = false;
+  bool show = false;  ///< somebody watches: send pictures of the state at t
   bool stop = false;  ///< the run ends after this state
   std::string stop_reason;
 };
@@ -147,6 +149,18 @@ struct Waiting {
   std::uint64_t step = 0;  ///< of that message
 };
 
+/// What a program received at one interface since it joined.
+struct Traffic {
+  std::string interface;
+  std::string from;           ///< whose messages
+  std::uint64_t messages = 0;
+  std::uint64_t bytes = 0;    ///< of their arrays
+  std::uint64_t missing = 0;  ///< times it had to ask for one that did not come
+  std::uint64_t dropped = 0;  ///< came twice or too late, and were ignored
+  double latency_p50_us = 0;  ///< from writing to taking: the transport alone, no waiting for anybody's work
+  double latency_p99_us = 0;
+};
+
 /// What the monitor shows; best effort, never waited for.
 struct Telemetry {
   std::string run;
@@ -158,6 +172,8 @@ struct Telemetry {
   std::uint64_t step = 0;
   double t = 0, t_end = 0, dt = 0;
   std::string dt_reason;
+  double dt_bid = 0;  ///< the step it proposed last; inf: no limit. Coupler: the step agreed on
+  std::string limited_by;  ///< coupler: the program or setting that limits the step; a lone solver: itself
   double compute_s = 0, wait_s = 0;
   double point_updates_per_s = 0;
   Health health;
@@ -180,6 +196,38 @@ struct Telemetry {
     std::vector<double> v_predicted_gas, v_projected;
   };
   std::vector<Interface> interfaces;
+  std::vector<Traffic> traffic;
+};
+
+/// Somebody looks at pictures; said again every second.
+struct Watch {
+  std::string run;
+  std::vector<std::string> quantities;  ///< those of `Picture`; what a program lacks it ignores
+};
+
+/// One quantity of one program on its grids, at a few points; best effort, sent only where somebody watches.
+struct Picture {
+  static constexpr std::size_t most_samples = 256;  ///< along one direction of a grid
+  static constexpr std::size_t most_grids = 4096;
+  static constexpr std::uint16_t no_value = 0;
+  static constexpr std::uint16_t lowest = 1, highest = 65535;
+
+  std::string run;
+  std::string from;      ///< participant's name
+  std::string quantity;  ///< "pressure", "speed", "density", "schlieren" (|grad rho|), "stress"; "outline"
+  std::string role;
+  std::uint64_t step = 0;
+  double t = 0;
+  double low = 0, high = 0;  ///< what `lowest` and `highest` stand for
+  /// Samples of a component grid; with n2 = 1 of a curve.
+  struct Grid {
+    std::string name;
+    std::uint32_t n1 = 0, n2 = 0;
+    bool straight = false;    ///< lines parallel to the axes: x holds n1 values of x1, then n2 of x2
+    std::vector<float> x;     ///< else n1 * n2 of x1, then as many of x2, the first index fastest
+    std::vector<std::uint16_t> level;  ///< n1 * n2 of `no_value`, or linear from `lowest` to `highest`
+  };
+  std::vector<Grid> grids;
 };
 
 }  // namespace fsi::wire

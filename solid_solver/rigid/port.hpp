@@ -23,6 +23,7 @@ class RigidParticipant final : public Participant {
   void fill(std::size_t k, wire::PredictedInterface& predicted) const override;
   void apply_bcs(double t, ProjectedStates projected) override;
   void advance(double t, double dt, int substeps, ProjectedStates projected) override;
+  std::vector<io::GridOutput> fields_now() override { return {fields()}; }
   void write_fields(double t, std::uint64_t step) override;
   void write_tables(double t, double dt, ProjectedStates projected) override;
   void write_last_state(double t, std::uint64_t step) override;

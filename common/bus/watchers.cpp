@@ -1,0 +1,71 @@
+#include "common/bus/watchers.hpp"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "common/bus/convert.hpp"
+
+namespace fsi::bus {
+
+namespace {
+
+/// Who watches says so every second; who has not for this time has left.
+constexpr std::chrono::seconds patience{3};
+/// After drawing for some time, a program draws nothing for so many times as long.
+constexpr int rest_per_work = 49;
+/// More quantities than there are, and longer names, are nobody's wish.
+constexpr std::size_t most_wishes = 16, longest_wish = 32;
+
+}  // namespace
+
+Watchers::Watchers(const Entity& participant, std::string run)
+    : run_(std::move(run)),
+      reader_(participant, watch_topic, Delivery::asking),
+      writer_(participant, picture_topic, Delivery::listening) {}
+
+void Watchers::look() {
+  const auto now = Clock::now();
+  wire::Watch watch;
+  reader_.take([&](const amp_fsi_Watch& sample) {
+    if (!same(sample.run, run_)) return;
+    copy(sample, watch);
+    for (const std::string& quantity : watch.quantities) {
+      const bool known = wishes_.contains(quantity);
+      if (known || (quantity.size() <= longest_wish && wishes_.size() < most_wishes)) wishes_[quantity] = now;
+    }
+  });
+  std::erase_if(wishes_, [now](const auto& wish) { return now - wish.second > patience; });
+}
+
+void Watchers::show(const Draw& draw, std::uint64_t step, bool always) {
+  look();
+  begin_pause();
+  if (!always && Clock::now() < rest_until_) return;
+  shown_.clear();
+  draw_all(draw, step);
+}
+
+void Watchers::show_missing(const Draw& draw, std::uint64_t step) {
+  if (wishes_.empty()) return;
+  if (step != shown_step_) shown_.clear();
+  draw_all(draw, step);
+}
+
+void Watchers::draw_all(const Draw& draw, std::uint64_t step) {
+  const auto begun = Clock::now();
+  shown_step_ = step;
+  for (const auto& [quantity, wished_at] : wishes_) {
+    if (!shown_.insert(quantity).second) continue;
+    if (auto picture = draw(quantity)) publish(std::move(*picture));
+  }
+  const auto now = Clock::now();
+  rest_until_ = now + rest_per_work * (now - begun);
+}
+
+void Watchers::publish(wire::Picture picture) {
+  picture.run = run_;
+  writer_.write(borrow(picture).sample);
+}
+
+}  // namespace fsi::bus
