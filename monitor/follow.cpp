@@ -9,6 +9,7 @@
 #include <string>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include "monitor/json.hpp"
 #include "monitor/screen.hpp"
@@ -26,6 +27,7 @@ constexpr double listen_s = 0.05;         ///< a key is answered within this tim
 constexpr double refresh_s = 0.25;        ///< time between two pictures
 constexpr double plain_refresh_s = 1;     ///< time between two lines
 constexpr double web_refresh_s = 0.2;     ///< time between two states for browsers
+constexpr double ask_s = 1;               ///< time between two words that somebody watches
 constexpr double message_s = 4;           ///< how long a message stays
 constexpr double patience_at_end_s = 10;  ///< how long the end stays on the screen unless a key is pressed
 
@@ -189,9 +191,17 @@ void follow_web(Source& source, RunState& state, const WebOptions& options) {
   server.publish(state, source.now());
   fmt::print("{}\n", server.url());
   std::fflush(stdout);
-  auto last = Clock::now();
+  auto last = Clock::now(), asked = last - std::chrono::seconds(2);
+  std::vector<std::string> wished;
   while (caught == 0 && !state.over()) {
     source.listen(state, listen_s);
+    for (const wire::Picture& picture : source.pictures()) server.show(picture);
+    const std::vector<std::string> wishes = server.wishes();
+    if (!wishes.empty() && (wishes != wished || since(asked) > ask_s)) {
+      source.watch(wishes);
+      asked = Clock::now();
+      wished = wishes;
+    }
     if (since(last) < web_refresh_s && !state.over()) continue;
     last = Clock::now();
     server.publish(state, source.now());

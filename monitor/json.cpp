@@ -1,6 +1,7 @@
 #include "monitor/json.hpp"
 
 #include <cmath>
+#include <cstddef>
 #include <nlohmann/json.hpp>
 
 namespace fsi::monitor {
@@ -28,6 +29,25 @@ std::string text(const json& object) {
   return object.dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
+json traffic_json(const RunState& state, const wire::Telemetry& program) {
+  json all = json::array();
+  for (std::size_t k = 0; k < program.traffic.size(); ++k) {
+    const wire::Traffic& one = program.traffic[k];
+    const TrafficRates rates = state.traffic_rates(program.from, k);
+    all.push_back({{"interface", one.interface},
+                   {"from", one.from},
+                   {"messages", one.messages},
+                   {"bytes", one.bytes},
+                   {"messages_per_s", number(rates.messages_per_s)},
+                   {"bytes_per_s", number(rates.bytes_per_s)},
+                   {"missing", one.missing},
+                   {"dropped", one.dropped},
+                   {"latency_p50_us", number(one.latency_p50_us)},
+                   {"latency_p99_us", number(one.latency_p99_us)}});
+  }
+  return all;
+}
+
 json program_json(const RunState& state, const wire::Telemetry& program, double now) {
   const auto& health = program.health;
   const Rates rates = state.rates(program.from);
@@ -40,6 +60,8 @@ json program_json(const RunState& state, const wire::Telemetry& program, double 
           {"t", number(program.t)},
           {"dt", number(program.dt)},
           {"dt_reason", program.dt_reason},
+          {"dt_bid", number(program.dt_bid)},
+          {"traffic", traffic_json(state, program)},
           {"compute_s", number(program.compute_s)},
           {"wait_s", number(program.wait_s)},
           {"computing_share", number(computing_share(program))},
@@ -102,6 +124,7 @@ std::string to_json(const RunState& state, double now) {
     result["t_end"] = number(leader->t_end);
     result["dt"] = number(leader->dt);
     result["dt_reason"] = leader->dt_reason;
+    result["limited_by"] = leader->limited_by;
     result["step"] = leader->step;
   }
   for (const auto& side : state.interfaces()) result["interfaces"][side.name] = interface_json(side);

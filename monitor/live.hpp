@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "common/bus/listener.hpp"
 #include "monitor/recording.hpp"
@@ -19,6 +20,9 @@ class Live : public Source {
   /// True when every program that is there has been heard.
   bool heard_everybody(const RunState& state) const;
   double now() const override;
+  void watch(const std::vector<std::string>& wishes) override { listener_.watch(wishes); }
+  std::vector<wire::Picture> pictures() override { return listener_.pictures(); }
+  bool has_pictures() const override { return true; }
   std::string request(const std::string& command) override;
   std::string controls() const override { return "p pause  r resume  c checkpoint  s stop  "; }
 

@@ -105,9 +105,10 @@ void show_once(const Wishes& wishes, Live& live, RunState& state) {
 void follow(const Wishes& wishes, Source& source, RunState& state) {
   if (wishes.web >= 0) {
     follow_web(source, state,
-               {.host = wishes.host, .port = wishes.web, .request = [&source](const std::string& command) {
-                  return source.request(command);
-                }});
+               {.host = wishes.host,
+                .port = wishes.web,
+                .request = [&source](const std::string& command) { return source.request(command); },
+                .pictures = source.has_pictures()});
   } else if (wishes.plain || wishes.json || isatty(STDOUT_FILENO) == 0) {
     follow_plain(source, state, wishes.json);
   } else {

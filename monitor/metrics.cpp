@@ -64,6 +64,8 @@ void programs(Page& page, const RunState& state, double now) {
   each("wait_seconds", "time waiting for others [s]", "counter", [](const auto& p) { return p.wait_s; });
   each("point_updates_per_second", "grid points advanced per second of computing", "gauge",
        [](const auto& p) { return p.point_updates_per_s; });
+  each("proposed_step", "step the program proposed last [time]", "gauge",
+       [](const auto& p) { return p.dt_bid; });
   each("bus_messages", "lock-step messages sent and received", "counter",
        [](const auto& p) { return static_cast<double>(p.messages); });
   each("bus_bytes", "payload of these messages [byte]", "counter",
@@ -72,6 +74,30 @@ void programs(Page& page, const RunState& state, double now) {
        [](const auto& p) { return 1e-6 * p.round_trip_p50_us; });
   each("round_trip_p99_seconds", "99 % of the round trips are faster [s]", "gauge",
        [](const auto& p) { return 1e-6 * p.round_trip_p99_us; });
+}
+
+void traffic(Page& page, const RunState& state) {
+  const auto each = [&](const std::string& name, const std::string& help, const std::string& kind,
+                        const std::function<double(const wire::Traffic&)>& number) {
+    page.family(name, help, kind);
+    for (const auto& [to, program] : state.programs()) {
+      for (const wire::Traffic& one : program.traffic)
+        page.value(number(one), fmt::format("interface={},from={},to={}", quoted(one.interface),
+                                            quoted(one.from), quoted(to)));
+    }
+  };
+  each("interface_messages", "lock-step messages received", "counter",
+       [](const auto& one) { return static_cast<double>(one.messages); });
+  each("interface_bytes", "payload of these messages [byte]", "counter",
+       [](const auto& one) { return static_cast<double>(one.bytes); });
+  each("interface_missing", "times a message had to be asked for", "counter",
+       [](const auto& one) { return static_cast<double>(one.missing); });
+  each("interface_dropped", "repeated or late messages", "counter",
+       [](const auto& one) { return static_cast<double>(one.dropped); });
+  each("latency_p50_seconds", "median time from writing to taking, without waiting for work [s]", "gauge",
+       [](const auto& one) { return 1e-6 * one.latency_p50_us; });
+  each("latency_p99_seconds", "99 % of these times are shorter [s]", "gauge",
+       [](const auto& one) { return 1e-6 * one.latency_p99_us; });
 }
 
 void interfaces(Page& page, const RunState& state) {
@@ -107,6 +133,7 @@ std::string to_prometheus(const RunState& state, double now) {
     page.value(static_cast<double>(state.non_finite().size()));
   }
   programs(page, state, now);
+  traffic(page, state);
   interfaces(page, state);
   return page.text();
 }

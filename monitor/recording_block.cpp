@@ -53,8 +53,12 @@ struct Table {
 constexpr const char* message_columns =
     "at from role state host pid step t t_end dt dt_reason compute_s wait_s point_updates_per_s min_rho "
     "min_p min_det_F min_cell_quality "
-    "first_order_fallbacks floors messages bytes round_trip_p50_us round_trip_p99_us interfaces noise";
-constexpr std::size_t message_width = 26;
+    "first_order_fallbacks floors messages bytes round_trip_p50_us round_trip_p99_us interfaces noise "
+    "dt_bid limited_by traffic";
+constexpr std::size_t message_width = 29;
+constexpr const char* traffic_columns =
+    "interface from messages bytes missing dropped latency_p50_us latency_p99_us";
+constexpr std::size_t traffic_width = 8;
 constexpr const char* interface_columns =
     "name velocity_jump traction_jump gap power p_min p_max v_min v_max closed points has_p_predicted_solid";
 constexpr std::size_t interface_width = 12;
@@ -148,6 +152,8 @@ wire::Telemetry telemetry_from(std::span<const double> row, const TextOf& text) 
           .t_end = row[8],
           .dt = row[9],
           .dt_reason = text(row[10]),
+          .dt_bid = row[26],
+          .limited_by = text(row[27]),
           .compute_s = row[11],
           .wait_s = row[12],
           .point_updates_per_s = row[13],
@@ -162,7 +168,19 @@ wire::Telemetry telemetry_from(std::span<const double> row, const TextOf& text) 
           .bytes = whole(row[21]),
           .round_trip_p50_us = row[22],
           .round_trip_p99_us = row[23],
-          .interfaces = {}};
+          .interfaces = {},
+          .traffic = {}};
+}
+
+wire::Traffic traffic_from(std::span<const double> row, const TextOf& text) {
+  return {.interface = text(row[0]),
+          .from = text(row[1]),
+          .messages = whole(row[2]),
+          .bytes = whole(row[3]),
+          .missing = whole(row[4]),
+          .dropped = whole(row[5]),
+          .latency_p50_us = row[6],
+          .latency_p99_us = row[7]};
 }
 
 }  // namespace
@@ -172,6 +190,7 @@ void write_block(io::Hdf5& group, const std::vector<Heard>& heard) {
   Table messages{.name = "messages", .columns = message_columns};
   Table sides{.name = "interfaces", .columns = interface_columns};
   Table profiles{.name = "profiles", .columns = profile_columns};
+  Table traffic{.name = "traffic", .columns = traffic_columns};
   Table aborts{.name = "aborts", .columns = abort_columns};
   for (const Heard& one : heard) {
     if (const auto& m = one.telemetry) {
@@ -200,7 +219,15 @@ void write_block(io::Hdf5& group, const std::vector<Heard>& heard) {
                               m->round_trip_p50_us,
                               m->round_trip_p99_us,
                               count(m->interfaces.size()),
-                              texts.number(m->noise)});
+                              texts.number(m->noise),
+                              m->dt_bid,
+                              texts.number(m->limited_by),
+                              count(m->traffic.size())});
+      for (const wire::Traffic& one : m->traffic) {
+        traffic.row(std::array{texts.number(one.interface), texts.number(one.from), count(one.messages),
+                               count(one.bytes), count(one.missing), count(one.dropped), one.latency_p50_us,
+                               one.latency_p99_us});
+      }
       for (const Side& side : m->interfaces) {
         sides.row(std::array{texts.number(side.name), side.velocity_jump, side.traction_jump, side.gap,
                              side.power, side.p_min, side.p_max, side.v_min, side.v_max,
@@ -214,7 +241,7 @@ void write_block(io::Hdf5& group, const std::vector<Heard>& heard) {
                             texts.number(abort->reason)});
     }
   }
-  for (const Table* table : {&messages, &sides, &profiles, &aborts}) table->write(group);
+  for (const Table* table : {&messages, &sides, &profiles, &traffic, &aborts}) table->write(group);
   for (std::size_t k = 0; k < texts.all().size(); ++k)
     group.write_attribute(fmt::format("text_{}", k), texts.all()[k]);
 }
@@ -227,7 +254,8 @@ std::vector<Heard> read_block(const io::Hdf5& group) {
     return place->second;
   };
   Rows messages(group, "messages", message_width), sides(group, "interfaces", interface_width),
-      profiles(group, "profiles", profile_width), aborts(group, "aborts", abort_width);
+      profiles(group, "profiles", profile_width), traffic(group, "traffic", traffic_width),
+      aborts(group, "aborts", abort_width);
   std::vector<Heard> heard;
   while (messages.more()) {
     const auto row = messages.take();
@@ -235,6 +263,8 @@ std::vector<Heard> read_block(const io::Hdf5& group) {
         heard.emplace_back(Heard{.at = row[0]}).telemetry.emplace(telemetry_from(row, text));
     for (std::uint64_t k = 0; k < whole(row[24]); ++k)
       telemetry.interfaces.push_back(side_from(sides.take(), profiles, text));
+    for (std::uint64_t k = 0; k < whole(row[28]); ++k)
+      telemetry.traffic.push_back(traffic_from(traffic.take(), text));
   }
   while (aborts.more()) {
     const auto row = aborts.take();

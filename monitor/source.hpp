@@ -2,6 +2,7 @@
 /// Where a monitor's knowledge comes from: a living run, or a recording of one.
 
 #include <string>
+#include <vector>
 
 #include "monitor/state.hpp"
 
@@ -20,6 +21,12 @@ class Source {
   virtual void listen(RunState& state, double seconds) = 0;
   /// The clock of `RunState` [s].
   virtual double now() const = 0;
+  /// Says that somebody looks at pictures of these quantities (ROLE.QUANTITY); to be said again every second.
+  virtual void watch(const std::vector<std::string>& /*wishes*/) {}
+  /// Pictures heard with the last `listen`.
+  virtual std::vector<wire::Picture> pictures() { return {}; }
+  /// A recording holds none.
+  virtual bool has_pictures() const { return false; }
   /// Sends a request ("pause", "resume", "checkpoint", "stop"). Returns what became of it, for people.
   virtual std::string request(const std::string& command) = 0;
   /// The requests that `request` understands, with their keys, for people.

@@ -44,7 +44,7 @@ std::optional<double> share(double compute_s, double wait_s) {
 bool welcome(const std::map<std::string, wire::Telemetry>& programs, const wire::Telemetry& telemetry) {
   const bool known = programs.contains(telemetry.from);
   return (known || (telemetry.from.size() <= longest_name && programs.size() < most_programs)) &&
-         telemetry.interfaces.size() <= most_programs;
+         telemetry.interfaces.size() <= most_programs && telemetry.traffic.size() <= most_programs;
 }
 
 }  // namespace
@@ -62,8 +62,11 @@ void RunState::hear(const wire::Telemetry& telemetry, double now) {
                   .step = telemetry.step,
                   .messages = telemetry.messages,
                   .bytes = telemetry.bytes});
+  for (const wire::Traffic& one : telemetry.traffic)
+    pace.back().traffic.push_back({.messages = one.messages, .bytes = one.bytes});
   while (pace.front().now < now - pace_window_s || pace.size() > longest_pace) pace.pop_front();
   if (leader()->from == telemetry.from) history_.add(telemetry);
+  if (telemetry.role != "coupler") history_.add(telemetry.from + ".dt_bid", telemetry.t, telemetry.dt_bid);
 }
 
 /// What it did since it was heard last; what a program does that is being waited for shows when it is done.
@@ -131,6 +134,14 @@ Rates RunState::rates(const std::string& program) const {
           .messages_per_s = per_second(first->messages, last->messages, seconds),
           .bytes_per_s = per_second(first->bytes, last->bytes, seconds),
           .computing = share(last->compute_s - first->compute_s, last->wait_s - first->wait_s)};
+}
+
+TrafficRates RunState::traffic_rates(const std::string& program, std::size_t k) const {
+  const auto [first, last] = window(program);
+  if (first == nullptr || k >= first->traffic.size() || k >= last->traffic.size()) return {};
+  const double seconds = last->now - first->now;
+  return {.messages_per_s = per_second(first->traffic[k].messages, last->traffic[k].messages, seconds),
+          .bytes_per_s = per_second(first->traffic[k].bytes, last->traffic[k].bytes, seconds)};
 }
 
 std::string RunState::status() const {

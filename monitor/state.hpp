@@ -1,6 +1,8 @@
 #pragma once
 /// What a monitor knows about a run, gathered from telemetry. How it is shown is elsewhere.
 
+#include <cstddef>
+#include <cstdint>
 #include <deque>
 #include <map>
 #include <optional>
@@ -20,6 +22,11 @@ enum class Process { unknown, lives, stopped, gone };
 struct Rates {
   double steps_per_s = 0, messages_per_s = 0, bytes_per_s = 0;
   std::optional<double> computing;  ///< share of the time it computes instead of waiting
+};
+
+/// What comes in at one interface now.
+struct TrafficRates {
+  double messages_per_s = 0, bytes_per_s = 0;
 };
 
 /// Latest state of a run. Times are seconds of the monitor's own clock.
@@ -49,6 +56,8 @@ class RunState {
   /// "alive", "waiting", "paused", "stopped" (SIGSTOP), "silent", "lost" or "done".
   std::string standing(const std::string& program, double now) const;
   Rates rates(const std::string& program) const;
+  /// Of entry `k` of the program's traffic.
+  TrafficRates traffic_rates(const std::string& program, std::size_t k) const;
   const History& history() const { return history_; }
   /// Share of its time a program computed, over the monitor's clock; by participant.
   const std::map<std::string, std::deque<Series::Point>>& timeline() const { return timeline_; }
@@ -70,6 +79,10 @@ class RunState {
   struct Moment {
     double now = 0, t = 0, compute_s = 0, wait_s = 0;
     std::uint64_t step = 0, messages = 0, bytes = 0;
+    struct Count {
+      std::uint64_t messages = 0, bytes = 0;
+    };
+    std::vector<Count> traffic = {};
   };
   /// First and last moment of the window; null while there are no two.
   struct Window {

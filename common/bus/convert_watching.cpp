@@ -142,16 +142,15 @@ void copy(const amp_fsi_Telemetry& from, wire::Telemetry& to) {
 
 Borrowed<amp_fsi_Watch, char*> borrow(const wire::Watch& watch) {
   Borrowed<amp_fsi_Watch, char*> result;
-  for (const std::string& quantity : watch.quantities) result.parts.push_back(borrow(quantity));
-  result.sample = {.run = borrow(watch.run), .quantities = borrowed<amp_fsi_Words>(result.parts)};
+  for (const std::string& wish : watch.wishes) result.parts.push_back(borrow(wish));
+  result.sample = {.run = borrow(watch.run), .wishes = borrowed<amp_fsi_Words>(result.parts)};
   return result;
 }
 
 void copy(const amp_fsi_Watch& from, wire::Watch& to) {
   copy(from.run, to.run);
-  to.quantities.resize(from.quantities._length);
-  for (std::uint32_t k = 0; k < from.quantities._length; ++k)
-    copy(from.quantities._buffer[k], to.quantities[k]);
+  to.wishes.resize(from.wishes._length);
+  for (std::uint32_t k = 0; k < from.wishes._length; ++k) copy(from.wishes._buffer[k], to.wishes[k]);
 }
 
 Borrowed<amp_fsi_Picture, amp_fsi_PictureGrid> borrow(const wire::Picture& picture) {

@@ -70,12 +70,12 @@ struct Listener::Implementation {
     if (is_sound(picture)) pictures.push_back(std::move(picture));
   }
 
-  void watch(const std::vector<std::string>& quantities) {
+  void watch(const std::vector<std::string>& wishes) {
     if (!looking) {
       looking.emplace(participant);
       waitset.attach(looking->reader.condition());
     }
-    const wire::Watch word{.run = run, .quantities = quantities};
+    const wire::Watch word{.run = run, .wishes = wishes};
     looking->writer.write(borrow(word).sample);
   }
 
@@ -109,8 +109,8 @@ std::vector<wire::Telemetry> Listener::wait(double seconds) {
   return implementation_->wait(seconds);
 }
 
-void Listener::watch(const std::vector<std::string>& quantities) {
-  implementation_->watch(quantities);
+void Listener::watch(const std::vector<std::string>& wishes) {
+  implementation_->watch(wishes);
 }
 
 std::vector<wire::Picture> Listener::pictures() {

@@ -21,8 +21,8 @@ class Listener {
 
   /// What arrived, newest per program; waits up to `seconds` for the first.
   std::vector<wire::Telemetry> wait(double seconds);
-  /// Says that somebody looks at these quantities (those of `wire::Picture`); to be said again every second.
-  void watch(const std::vector<std::string>& quantities);
+  /// Says that somebody looks at these quantities (ROLE.QUANTITY); to be said again every second.
+  void watch(const std::vector<std::string>& wishes);
   /// The pictures that came with the last `wait`, newest per program and quantity. Damaged ones are left out.
   std::vector<wire::Picture> pictures();
   /// The Abort that ended the run, once one was heard.

@@ -38,8 +38,8 @@ struct BusOptions {
   std::function<bool(const std::string& topic)> loses = {};
 };
 
-/// A picture of a quantity of the present state; nothing where the program does not have it.
-using Draw = std::function<std::optional<wire::Picture>(const std::string& quantity)>;
+/// A picture of the present state for a wish of `wire::Watch`; nothing where the program does not have it.
+using Draw = std::function<std::optional<wire::Picture>(const std::string& wish)>;
 
 /// The end of a run because another program failed, as that one told it.
 class FailureElsewhere : public Failure {

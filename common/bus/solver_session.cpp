@@ -138,9 +138,8 @@ struct SolverSession::Implementation {
       complete = sample.complete;
     });
     for (Channel& channel : channels) {
-      channel.reader.take([&](const amp_fsi_ProjectedInterface& sample, dds_time_t sent) {
-        accept(channel, sample, sent);
-      });
+      channel.reader.take(
+          [&](const amp_fsi_ProjectedInterface& sample, dds_time_t sent) { accept(channel, sample, sent); });
     }
   }
 

@@ -14,7 +14,7 @@ namespace {
 constexpr std::chrono::seconds patience{3};
 /// After drawing for some time, a program draws nothing for so many times as long.
 constexpr int rest_per_work = 49;
-/// More quantities than there are, and longer names, are nobody's wish.
+/// More wishes than there are quantities, and longer names, are nobody's wish.
 constexpr std::size_t most_wishes = 16, longest_wish = 32;
 
 }  // namespace
@@ -30,9 +30,9 @@ void Watchers::look() {
   reader_.take([&](const amp_fsi_Watch& sample) {
     if (!same(sample.run, run_)) return;
     copy(sample, watch);
-    for (const std::string& quantity : watch.quantities) {
-      const bool known = wishes_.contains(quantity);
-      if (known || (quantity.size() <= longest_wish && wishes_.size() < most_wishes)) wishes_[quantity] = now;
+    for (const std::string& wish : watch.wishes) {
+      const bool known = wishes_.contains(wish);
+      if (known || (wish.size() <= longest_wish && wishes_.size() < most_wishes)) wishes_[wish] = now;
     }
   });
   std::erase_if(wishes_, [now](const auto& wish) { return now - wish.second > patience; });
@@ -55,9 +55,9 @@ void Watchers::show_missing(const Draw& draw, std::uint64_t step) {
 void Watchers::draw_all(const Draw& draw, std::uint64_t step) {
   const auto begun = Clock::now();
   shown_step_ = step;
-  for (const auto& [quantity, wished_at] : wishes_) {
-    if (!shown_.insert(quantity).second) continue;
-    if (auto picture = draw(quantity)) publish(std::move(*picture));
+  for (const auto& [wish, wished_at] : wishes_) {
+    if (!shown_.insert(wish).second) continue;
+    if (auto picture = draw(wish)) publish(std::move(*picture));
   }
   const auto now = Clock::now();
   rest_until_ = now + rest_per_work * (now - begun);

@@ -43,7 +43,7 @@ class Watchers {
   std::string run_;
   Reader<amp_fsi_Watch> reader_;
   Writer<amp_fsi_Picture> writer_;
-  std::map<std::string, Clock::time_point> wishes_;  ///< quantities, when they were wished for last
+  std::map<std::string, Clock::time_point> wishes_;  ///< ROLE.QUANTITY, when it was wished for last
   Clock::time_point next_{}, rest_until_{};
   std::set<std::string> shown_;  ///< of the state of `shown_step_`
   std::uint64_t shown_step_ = 0;

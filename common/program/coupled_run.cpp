@@ -75,8 +75,7 @@ class CoupledRun {
       clock_.lap(io::Work::advance);
       if (answer.write_checkpoint) checkpoints_.save(at_);
       clock_.lap(io::Work::output);
-      if (session_.telemetry_due())
-        session_.publish(telemetry_of(setup_, part_, solver_, at_.dt, bid_));
+      if (session_.telemetry_due()) session_.publish(telemetry_of(setup_, part_, solver_, at_.dt, bid_));
       obey_signals();
       check_heard();
     }

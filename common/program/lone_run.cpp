@@ -77,8 +77,7 @@ class LoneRun {
     write(step.output);
     clock_.lap(io::Work::output);
     progress_.show(part_.steps, at_.t, at_.dt, part_.participant);
-    if (session_.telemetry_due() || step.end)
-      publish(bid);
+    if (session_.telemetry_due() || step.end) publish(bid);
     if (session_.picture_due()) session_.show(draw_of(part_, solver_, at_), at_.step, step.end);
     clock_.lap(io::Work::messages);
     end_ = step.end;

@@ -40,9 +40,12 @@ wire::Telemetry telemetry_of(const Setup& setup, const io::Part& part, const Par
 
 bus::Draw draw_of(const io::Part& part, Participant& solver, const io::Standing& at) {
   auto fields = std::make_shared<std::vector<io::GridOutput>>();
-  return [&part, &solver, at, fields](const std::string& quantity) {
+  return [&part, &solver, at, fields](const std::string& wish) {
+    const std::string mine = part.role + ".";
+    std::optional<wire::Picture> picture;
+    if (!wish.starts_with(mine)) return picture;
     if (fields->empty()) *fields = solver.fields_now();
-    std::optional<wire::Picture> picture = picture_of(*fields, quantity);
+    picture = picture_of(*fields, wish.substr(mine.size()));
     if (!picture) return picture;
     picture->from = part.participant;
     picture->role = part.role;

@@ -257,9 +257,9 @@ void set_levels(wire::Picture& picture, std::span<const std::vector<double>> val
     level.clear();
     for (const double value : values[k]) {
       const double part = range > 0 ? (value - picture.low) / range : 0;
-      level.push_back(std::isfinite(value) ? static_cast<std::uint16_t>(wire::Picture::lowest +
-                                                                        std::lround(part * steps))
-                                           : wire::Picture::no_value);
+      level.push_back(std::isfinite(value)
+                          ? static_cast<std::uint16_t>(wire::Picture::lowest + std::lround(part * steps))
+                          : wire::Picture::no_value);
     }
   }
 }

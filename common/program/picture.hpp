@@ -1,6 +1,6 @@
 #pragma once
-/// Pictures of fields for whoever watches a run: one quantity on the component grids, at so few points that it
-/// costs next to nothing. Nothing of the state is changed.
+/// Pictures of fields for whoever watches a run: one quantity on the component grids, at so few points that
+/// it costs next to nothing. Nothing of the state is changed.
 
 #include <cstddef>
 #include <optional>
@@ -16,11 +16,11 @@ namespace fsi {
 /// A picture is at most about so large [byte]: it then fits into the receive buffer of a stock kernel.
 inline constexpr std::size_t largest_picture = 160 << 10;
 
-/// A quantity of `wire::Picture` on these grids: "pressure", "density", "speed" |v|, "stress" |P| (the root of
-/// the sum of squares of the nominal stress), "schlieren" |grad rho| (largest among the points a sample stands
-/// for). Nothing where the fields do not have what it is made of. Of n points along a direction every k-th is
-/// a sample, and the last; k is 1 where the grids are small. A sample that is an unused point has the value of
-/// the nearest point less than k away that is used, and no value without one.
+/// A quantity of `wire::Picture` on these grids: "pressure", "density", "speed" |v|, "stress" |P| (the root
+/// of the sum of squares of the nominal stress), "schlieren" |grad rho| (largest among the points a sample
+/// stands for). Nothing where the fields do not have what it is made of. Of n points along a direction every
+/// k-th is a sample, and the last; k is 1 where the grids are small. A sample that is an unused point has the
+/// value of the nearest point less than k away that is used, and no value without one.
 std::optional<wire::Picture> picture_of(std::span<const io::GridOutput> grids, const std::string& quantity);
 
 /// Levels of the samples' values, one vector per grid, and what they stand for; numbers that are not finite

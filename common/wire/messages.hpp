@@ -152,7 +152,7 @@ struct Waiting {
 /// What a program received at one interface since it joined.
 struct Traffic {
   std::string interface;
-  std::string from;           ///< whose messages
+  std::string from;  ///< whose messages
   std::uint64_t messages = 0;
   std::uint64_t bytes = 0;    ///< of their arrays
   std::uint64_t missing = 0;  ///< times it had to ask for one that did not come
@@ -172,7 +172,7 @@ struct Telemetry {
   std::uint64_t step = 0;
   double t = 0, t_end = 0, dt = 0;
   std::string dt_reason;
-  double dt_bid = 0;  ///< the step it proposed last; inf: no limit. Coupler: the step agreed on
+  double dt_bid = 0;       ///< the step it proposed last; inf: no limit. Coupler: the step agreed on
   std::string limited_by;  ///< coupler: the program or setting that limits the step; a lone solver: itself
   double compute_s = 0, wait_s = 0;
   double point_updates_per_s = 0;
@@ -202,7 +202,7 @@ struct Telemetry {
 /// Somebody looks at pictures; said again every second.
 struct Watch {
   std::string run;
-  std::vector<std::string> quantities;  ///< those of `Picture`; what a program lacks it ignores
+  std::vector<std::string> wishes;  ///< ROLE.QUANTITY; each program obeys those for its role that it can
 };
 
 /// One quantity of one program on its grids, at a few points; best effort, sent only where somebody watches.
@@ -223,8 +223,8 @@ struct Picture {
   struct Grid {
     std::string name;
     std::uint32_t n1 = 0, n2 = 0;
-    bool straight = false;    ///< lines parallel to the axes: x holds n1 values of x1, then n2 of x2
-    std::vector<float> x;     ///< else n1 * n2 of x1, then as many of x2, the first index fastest
+    bool straight = false;             ///< lines parallel to the axes: x holds n1 values of x1, then n2 of x2
+    std::vector<float> x;              ///< else n1 * n2 of x1, then as many of x2, the first index fastest
     std::vector<std::uint16_t> level;  ///< n1 * n2 of `no_value`, or linear from `lowest` to `highest`
   };
   std::vector<Grid> grids;

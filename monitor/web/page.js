@@ -43,6 +43,7 @@ function hear(state) {
       memory.last[name] = program;
     }
     while (line.length && line[0][0] < now - SPAN - 2) line.shift();
+    if (program.role !== "coupler") remember(`${name}.dt_bid`, program.t, program.dt_bid);
   }
   memory.stale = true;
 }
@@ -57,12 +58,15 @@ async function fetchPast() {
 
 function connect() {
   const source = new EventSource("api/events");
-  source.onopen = async () => {
-    try { await fetchPast(); } catch (error) { return; }
+  source.onopen = () => {
     memory.connected = true;
     memory.stale = true;
+    fetchPast().catch(() => {}); // what comes in from now on is enough
   };
-  source.onmessage = (event) => hear(JSON.parse(event.data));
+  source.onmessage = (event) => {
+    memory.connected = true;
+    hear(JSON.parse(event.data));
+  };
   source.onerror = () => { // the browser tries again by itself
     memory.connected = false;
     memory.stale = true;
@@ -95,6 +99,7 @@ function showHead(state) {
   if (state && state.non_finite.length) notices.push(`not finite: ${state.non_finite.join(", ")}`);
   if (state && state.status === "ended") notices.push("the run has ended; this is its last state");
   if (lost && state) notices.push(over(state) ? "the monitor has left" : "connection to the monitor lost; trying again. This is the last state heard");
+  for (const button of document.querySelectorAll("[data-command]")) button.disabled = over(state) || lost;
   $("notice").hidden = !notices.length;
   $("notice").textContent = notices.join(" \u00b7 ");
   $("notice").className = `notice ${state && state.status === "ended" && !state.non_finite.length ? "calm" : ""}`;
@@ -135,10 +140,45 @@ function health(program) {
   return program.role === "solid" ? `min det F ${short(h.min_det_F)}${noise}` : "";
 }
 
+// Who limits the step stands out.
+function proposal(state, name, program) {
+  if (program.role === "coupler") return "\u2013";
+  const text = program.dt_bid === null ? "no limit" : short(program.dt_bid);
+  return name === state.limited_by ? make("b", { className: "limiter", title: program.dt_reason }, `${text} limits`) : make("span", { title: program.dt_reason }, text);
+}
+
+function showTraffic(state) {
+  const rows = Object.entries(state.participants).flatMap(([name, program]) => program.traffic.map((one) => [one, name]));
+  rows.sort((a, b) => (a[0].interface < b[0].interface ? -1 : a[0].interface > b[0].interface ? 1 : 0));
+  $("traffic-section").hidden = !rows.length;
+  const warn = (value) => make("span", { className: value > 0 ? "warning" : "" }, String(value));
+  $("traffic").replaceChildren(row("th", ["interface", "from", "to", "messages/s", "bytes/s", "bytes each", "messages", "missing", "dropped", "latency p50 / p99"]),
+    ...rows.map(([one, to]) => row("td", [one.interface, one.from, to, count(one.messages_per_s), count(one.bytes_per_s),
+      one.messages ? count(one.bytes / one.messages) : "\u2013", one.messages, warn(one.missing), warn(one.dropped),
+      one.latency_p99_us ? `${short(Math.round(one.latency_p50_us))} / ${short(Math.round(one.latency_p99_us))} \u00b5s` : "\u2013"])));
+}
+
+const BID_COLOURS = ["gas", "solid", "good", "busy", "bad"];
+
+// What everybody proposed, and what was agreed on: the lowest curve limits the step.
+function showBids(state) {
+  const names = Object.keys(state.participants).filter((name) => state.participants[name].role !== "coupler");
+  const colours = names.map((_, k) => theme[BID_COLOURS[k % BID_COLOURS.length]]);
+  const curves = names.map((name, k) => ({ list: memory.history[`${name}.dt_bid`] || [], colour: colours[k] }));
+  curves.push({ list: memory.history.dt || [], colour: theme.projected, dash: [2, 3] });
+  drawPlot($("bids"), { title: "dt, log", x: "t", log: true, nothing: "no step was proposed yet",
+    curves: curves.map(({ list, ...rest }) => ({ x: list.map((e) => e[0]), y: list.map((e) => e[1]), ...rest })) });
+  const key = names.join("\n") + theme.gas;
+  if ($("bids-legend").dataset.key === key) return;
+  $("bids-legend").dataset.key = key;
+  const mark = (colour, style) => { const line = make("i", {}); line.style.borderTop = `2.5px ${style} ${colour}`; return line; };
+  $("bids-legend").replaceChildren(...names.flatMap((name, k) => [mark(colours[k], "solid"), name]), mark(theme.projected, "dotted"), "agreed on");
+}
+
 function showTables(state) {
-  const head = row("th", ["", "state", "step", "computing / waiting", "points/s", "steps/s", "messages/s", "bytes/s", "round trip p50 / p99", "health"]);
+  const head = row("th", ["", "state", "step", "proposes dt", "computing / waiting", "points/s", "steps/s", "messages/s", "bytes/s", "others' answer p50 / p99", "health"]);
   const rows = Object.entries(state.participants).map(([name, p]) => row("td", [name,
-    make("span", { className: KIND[p.standing] || "" }, p.standing), p.step, meter(p.computing_now ?? p.computing_share),
+    make("span", { className: KIND[p.standing] || "" }, p.standing), p.step, proposal(state, name, p), meter(p.computing_now ?? p.computing_share),
     p.point_updates_per_s > 0 ? count(p.point_updates_per_s) : "\u2013", short(p.steps_per_s), count(p.bus.messages_per_s), count(p.bus.bytes_per_s),
     `${short(p.bus.round_trip_p50_us / 1e3)} / ${short(p.bus.round_trip_p99_us / 1e3)} ms`, health(p)]));
   $("programs").replaceChildren(head, ...rows);
@@ -201,6 +241,11 @@ function showProfiles(side) {
 
 function show() {
   requestAnimationFrame(show);
+  if (live.stale || (memory.stale && !live.frames.length)) {
+    readTheme();
+    live.stale = false;
+    if (!$("live").hidden) drawLive();
+  }
   const moving = memory.connected && !over(memory.state);
   const now = performance.now() / 1000;
   if (!memory.stale) return;
@@ -219,7 +264,9 @@ function show() {
   showHistories();
   const ends = Object.values(memory.timeline).flatMap((line) => line.slice(-1).map((e) => e[0]));
   drawTimeline($("timeline"), Object.entries(memory.timeline).map(([name, points]) => ({ name, points })), moving || !ends.length ? now : Math.max(...ends), SPAN);
+  showBids(state);
   showTables(state);
+  showTraffic(state);
 }
 
 // ---- buttons
@@ -237,7 +284,7 @@ function prepareControls() {
 
 function prepareTheme() {
   const dark = window.matchMedia("(prefers-color-scheme: dark)");
-  const set = (name) => { document.documentElement.dataset.theme = name; memory.stale = true; };
+  const set = (name) => { document.documentElement.dataset.theme = name; memory.stale = live.stale = true; };
   const wanted = new URLSearchParams(location.search).get("theme");
   set(wanted || (dark.matches ? "dark" : "light"));
   dark.onchange = () => set(dark.matches ? "dark" : "light");
@@ -246,6 +293,7 @@ function prepareTheme() {
 
 prepareTheme();
 prepareControls();
-$("factor").onchange = $("minus").onchange = window.onresize = () => { memory.stale = true; };
+prepareLive();
+$("factor").onchange = $("minus").onchange = window.onresize = () => { memory.stale = live.stale = true; };
 connect();
 show();

@@ -7,5 +7,7 @@ extern const char* const page_html;
 extern const char* const page_css;
 extern const char* const page_js;
 extern const char* const plots_js;
+extern const char* const raster_js;
+extern const char* const picture_js;
 
 }  // namespace fsi::monitor

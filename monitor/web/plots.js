@@ -4,7 +4,7 @@
 const theme = {};
 function readTheme() {
   const style = getComputedStyle(document.documentElement);
-  for (const name of ["card", "ink", "dim", "rule", "grid", "gas", "solid", "projected", "busy", "idle", "bad"]) {
+  for (const name of ["card", "ink", "dim", "rule", "grid", "gas", "solid", "projected", "busy", "idle", "good", "bad"]) {
     theme[name] = style.getPropertyValue("--" + name).trim();
   }
 }

@@ -9,14 +9,17 @@
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
+#include <cstdlib>
 #include <mutex>
 #include <random>
+#include <sstream>
 #include <string_view>
 #include <thread>
 #include <utility>
 
 #include "common/core/failure.hpp"
 #include "monitor/json.hpp"
+#include "monitor/web/gallery.hpp"
 #include "monitor/web/guards.hpp"
 #include "monitor/web/pages.hpp"
 
@@ -40,6 +43,14 @@ std::string random_token() {
   std::string token;
   for (int k = 0; k < 4; ++k) token += fmt::format("{:08x}", source());
   return token;
+}
+
+/// The words of a list "one,two".
+std::vector<std::string> words_of(const std::string& list) {
+  std::vector<std::string> words;
+  std::istringstream stream(list);
+  for (std::string word; std::getline(stream, word, ',');) words.push_back(word);
+  return words;
 }
 
 }  // namespace
@@ -73,6 +84,7 @@ struct WebServer::Implementation {
   ~Implementation() {
     stopping = true;
     changed.notify_all();
+    gallery.close();
     server.stop();
     thread.join();
   }
@@ -106,9 +118,12 @@ struct WebServer::Implementation {
     file("/page.css", page_css, "text/css; charset=utf-8");
     file("/page.js", page_js, "text/javascript; charset=utf-8");
     file("/plots.js", plots_js, "text/javascript; charset=utf-8");
+    file("/raster.js", raster_js, "text/javascript; charset=utf-8");
+    file("/picture.js", picture_js, "text/javascript; charset=utf-8");
     answer("/api/state.json", "application/json", to_json);
     answer("/api/history.json", "application/json", history_json);
     answer("/metrics", "text/plain; version=0.0.4; charset=utf-8", to_prometheus);
+    server.Get("/api/pictures", [this](const auto& request, auto& response) { pictures(request, response); });
     server.Get("/api/events", [this](const auto&, auto& response) { stream(response); });
     server.Post("/api/control", [this](const auto& request, auto& response) { control(request, response); });
   }
@@ -126,6 +141,20 @@ struct WebServer::Implementation {
         response.status = 503;
       }
     });
+  }
+
+  /// What is newer than the last picture the browser has, as soon as there is something; else, after a while,
+  /// nothing.
+  void pictures(const httplib::Request& request, httplib::Response& response) {
+    if (!options.pictures) {
+      response.status = 404;
+      response.set_content("a replay holds no pictures\n", "text/plain");
+      return;
+    }
+    const std::uint64_t after = std::strtoull(request.get_param_value("after").c_str(), nullptr, 10);
+    const Hanging hanging = gallery.wait(after, words_of(request.get_param_value("wish")), heartbeat);
+    response.set_header("X-AMP-FSI-Version", fmt::format("{}", hanging.version));
+    response.set_content(hanging.bytes, "application/octet-stream");
   }
 
   /// One state after the other as server-sent events, until the browser leaves.
@@ -189,6 +218,7 @@ struct WebServer::Implementation {
   WebOptions options;
   std::string token;
   httplib::Server server;
+  Gallery gallery;
   std::mutex mutex;
   std::condition_variable changed;
   std::shared_ptr<const Snapshot> latest;
@@ -207,6 +237,14 @@ std::string WebServer::url() const {
   const bool bracketed = options.host.find(':') != std::string::npos;
   return fmt::format("http://{}{}{}:{}/{}", bracketed ? "[" : "", options.host, bracketed ? "]" : "",
                      options.port, implementation_->controllable() ? "#token=" + implementation_->token : "");
+}
+
+std::vector<std::string> WebServer::wishes() {
+  return implementation_->gallery.wishes();
+}
+
+void WebServer::show(const wire::Picture& picture) {
+  implementation_->gallery.hang(picture);
 }
 
 void WebServer::publish(const RunState& state, double now) {

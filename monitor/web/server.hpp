@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "monitor/state.hpp"
 
@@ -15,6 +16,7 @@ struct WebOptions {
   /// Sends a request to the run and returns what became of it. Empty: nobody may. Obeyed only with the token
   /// in `url()`, and only on the loopback interface.
   std::function<std::string(const std::string& command)> request = {};
+  bool pictures = false;  ///< there is a run that can be asked for pictures
 };
 
 class WebServer {
@@ -31,6 +33,10 @@ class WebServer {
   std::string url() const;
   /// The state from now on; copied, so that a slow browser holds up nobody.
   void publish(const RunState& state, double now);
+  /// The quantities that browsers look at now, ROLE.QUANTITY.
+  std::vector<std::string> wishes();
+  /// A picture for the browsers that wish for it.
+  void show(const wire::Picture& picture);
 
  private:
   struct Implementation;

@@ -8,6 +8,7 @@ import os
 import pathlib
 import re
 import socket
+import struct
 import subprocess
 import sys
 import unittest
@@ -74,7 +75,7 @@ class Server(WebTest):
         self.assertIn("solid", self.state()["interfaces"])
         self.assertTrue(until(lambda: len(json.loads(self.get("api/history.json"))["history"]["solid.gap"]) > 3))
         self.assertIn(f'amp_fsi_up{{run="{self.state()["run"]}"}} 1', self.get("metrics"))
-        for path in ("", "page.css", "page.js", "plots.js"):
+        for path in ("", "page.css", "page.js", "plots.js", "raster.js", "picture.js"):
             content = self.get(path)
             self.assertGreater(len(content), 1000)
             self.assertNotIn("https://", content)  # nothing is loaded from elsewhere
@@ -105,6 +106,47 @@ class Server(WebTest):
                     self.assertIn(b" 413 ", large.recv(100))
         self.assertLess(resident_mib(monitor.pid) - before, 30)
         self.assertEqual(self.state()["status"], "running")
+
+    def pictures(self, wish, after=0):
+        """{participant: (header, places, levels) of its last grid}, and how new they are."""
+        with urllib.request.urlopen(f"{self.url}api/pictures?after={after}&wish={wish}", timeout=WATCHDOG) as answer:
+            version, data = int(answer.headers["X-AMP-FSI-Version"]), answer.read()
+        place, found = 0, {}
+        while place < len(data):
+            length = struct.unpack_from("<I", data, place)[0]
+            header = json.loads(data[place + 4:place + 4 + length])
+            place += 4 + length
+            for grid in header["grids"]:
+                n1, n2 = grid["n1"], grid["n2"]
+                positions = n1 + n2 if grid["straight"] else 2 * n1 * n2
+                places = struct.unpack_from(f"<{positions}f", data, place)
+                levels = struct.unpack_from(f"<{n1 * n2}H", data, place + 4 * positions)
+                place += 4 * positions + 4 * ((n1 * n2 + 1) // 2)
+                found[header["from"]] = (header, places, levels)
+        return found, version
+
+    def test_pictures_show_one_step_of_all_programs_and_change_no_bit_of_the_run(self):
+        run, _ = self.begin()
+        seen, version, together = {}, 0, set()
+        while not {"fluid", "solid", "coupler"} <= together:
+            found, version = self.pictures("fluid.pressure,solid.speed,coupler.outline", version)
+            seen |= found
+            together = {name for name, (header, _, _) in seen.items() if header["step"] == max(h["step"] for h, _, _ in seen.values())}
+        self.assertEqual({name: header["quantity"] for name, (header, _, _) in seen.items()},
+                         {"fluid": "pressure", "solid": "speed", "coupler": "outline"})
+        gas, x, levels = seen["fluid"]
+        self.assertLess(0, gas["low"])
+        self.assertIn(1, levels)  # the smallest value, and no point without one
+        side = seen["coupler"][1]
+        self.assertTrue(any(abs(place - side[0]) < 1e-6 for place in x))  # the gas begins where the interface is
+        run.until_further(20_000)
+        run.ctl("stop")
+        self.assertEqual(run.wait(), 0, run.stderr)
+        alone = self.launch(*LONG, out="alone")
+        self.assertTrue(until(lambda: alone.written() > run.written()))
+        alone.ctl("stop")
+        self.assertEqual(alone.wait(), 0, alone.stderr)
+        self.assertEqual(run.table(), alone.table()[:len(run.table())])
 
     def test_events_tell_every_change_and_the_end(self):
         run, monitor = self.begin()
@@ -189,6 +231,44 @@ class Page(WebTest):
         self.assertEqual(self.browser.problems, [])
         monitor.kill()
         self.shows("notice", "the monitor has left")
+
+    def test_fields_are_shown_while_the_run_is_paused_and_as_it_goes_on(self):
+        run = self.launch(*LONG, "--pause-at", "30")
+        run.until_paused()
+        self.serve(run, str(run.directory))
+        self.browser.show(self.url + "#token=" + self.token)
+        shown = "[...currentFrame().pictures.values()].map((p) => p.from + ' ' + p.quantity).sort().join()"
+        self.assertTrue(until(lambda: self.browser.value(shown) == "fluid pressure,solid speed"))
+        self.assertTrue(until(lambda: self.coloured("picture") > 1000), "no field is drawn")
+        self.assertEqual(self.browser.value("currentFrame().step"), 30)
+        self.choose("gas-quantity", "schlieren")  # another picture of the same step
+        self.assertTrue(until(lambda: self.browser.value(shown) == "fluid schlieren,solid speed"))
+        self.choose("gas-quantity", "pressure")
+        self.assertTrue(until(lambda: self.browser.value(shown) == "fluid pressure,solid speed"))
+        # the raster holds values of the field
+        under = ("(() => { const k = live.raster.owner.indexOf(1), [p] = live.drawn; "
+                 "return [live.raster.value[k], p.low, p.high]; })()")
+        value, low, high = self.browser.value(under)
+        self.assertTrue(low * (1 - 1e-6) <= value <= high * (1 + 1e-6), (low, value, high))
+        self.choose("gas-limits", "fixed")
+        self.browser.value("document.getElementById('gas-high').value = 77; document.getElementById('gas-high').oninput({target: document.getElementById('gas-high')})")
+        self.browser.value("document.querySelector('[data-command=resume]').click()")
+        self.assertTrue(until(lambda: self.browser.value("live.frames.length") > 5), "no new moments")
+        self.assertEqual(self.browser.value("rangeOf(live.drawn[0])[1]"), 77)  # colours hold
+        self.browser.value("document.getElementById('moment').value = 0; document.getElementById('moment').oninput()")
+        self.assertEqual(self.browser.value("currentFrame().step"), 30)
+        count = self.browser.value("live.frames.length")
+        self.assertTrue(until(lambda: self.browser.value("live.frames.length") > count), "nothing is kept while one looks back")
+        self.assertEqual(self.browser.value("currentFrame().step"), 30)
+        self.browser.value("document.getElementById('follow').click()")
+        self.assertGreater(self.browser.value("currentFrame().step"), 30)
+        self.shows("traffic", "solid")
+        self.shows("programs", "limits")
+        self.assertTrue(until(lambda: self.coloured("bids") > 300), "no proposals are drawn")
+        self.assertEqual(self.browser.problems, [])
+
+    def choose(self, element, value):
+        self.browser.value(f"document.getElementById('{element}').value = '{value}'; document.getElementById('{element}').onchange()")
 
     def test_lost_connection_is_shown_while_the_run_goes_on(self):
         run, monitor = self.begin()

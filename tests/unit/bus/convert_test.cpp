@@ -94,6 +94,7 @@ TEST(Convert, ProjectedStateKeepsEveryField) {
                                      .x_next = {17},
                                      .write_output = true,
                                      .write_checkpoint = true,
+                                     .show = true,
                                      .stop = true,
                                      .stop_reason = "end"};
   const wire::ProjectedInterface in = carried(out);
@@ -102,9 +103,9 @@ TEST(Convert, ProjectedStateKeepsEveryField) {
             std::tie(out.run, out.to, out.interface, out.step, out.t, out.n, out.v_n, out.w_n, out.v, out.a,
                      out.q_dot, out.z_f));
   EXPECT_EQ(std::tie(in.robin_t, in.robin_r, in.dt_next, in.t_next, in.substeps_next, in.x_next,
-                     in.write_output, in.write_checkpoint, in.stop, in.stop_reason),
+                     in.write_output, in.write_checkpoint, in.show, in.stop, in.stop_reason),
             std::tie(out.robin_t, out.robin_r, out.dt_next, out.t_next, out.substeps_next, out.x_next,
-                     out.write_output, out.write_checkpoint, out.stop, out.stop_reason));
+                     out.write_output, out.write_checkpoint, out.show, out.stop, out.stop_reason));
 }
 
 TEST(Convert, HelloKeepsItsInterfaces) {
@@ -140,6 +141,8 @@ wire::Telemetry telemetry() {
           .t_end = 3,
           .dt = 4,
           .dt_reason = "gas",
+          .dt_bid = 4.5,
+          .limited_by = "fluid",
           .compute_s = 5,
           .wait_s = 6,
           .point_updates_per_s = 7,
@@ -149,7 +152,15 @@ wire::Telemetry telemetry() {
           .bytes = 9,
           .round_trip_p50_us = 10,
           .round_trip_p99_us = 11,
-          .interfaces = {}};
+          .interfaces = {},
+          .traffic = {{.interface = "beam",
+                       .from = "fluid",
+                       .messages = 12,
+                       .bytes = 13,
+                       .missing = 14,
+                       .dropped = 15,
+                       .latency_p50_us = 16,
+                       .latency_p99_us = 17}}};
 }
 
 wire::Telemetry::Interface interface_telemetry() {
@@ -183,6 +194,36 @@ TEST(Convert, TelemetryKeepsEveryField) {
                      in.round_trip_p50_us, in.round_trip_p99_us, in.health.floors, in.noise),
             std::tie(out.compute_s, out.wait_s, out.point_updates_per_s, out.messages, out.bytes,
                      out.round_trip_p50_us, out.round_trip_p99_us, out.health.floors, out.noise));
+  EXPECT_EQ(std::tie(in.dt_bid, in.limited_by), std::tie(out.dt_bid, out.limited_by));
+  ASSERT_EQ(in.traffic.size(), 1U);
+  const wire::Traffic &there = in.traffic[0], &here = out.traffic[0];
+  EXPECT_EQ(std::tie(there.interface, there.from, there.messages, there.bytes, there.missing, there.dropped,
+                     there.latency_p50_us, there.latency_p99_us),
+            std::tie(here.interface, here.from, here.messages, here.bytes, here.missing, here.dropped,
+                     here.latency_p50_us, here.latency_p99_us));
+}
+
+TEST(Convert, WishesAndPicturesKeepEveryField) {
+  const wire::Watch watch{.run = "r", .wishes = {"fluid.pressure", "solid.speed"}};
+  const wire::Watch heard = carried(watch);
+  EXPECT_EQ(std::tie(heard.run, heard.wishes), std::tie(watch.run, watch.wishes));
+  const wire::Picture out{
+      .run = "r",
+      .from = "fluid",
+      .quantity = "pressure",
+      .role = "gas",
+      .step = 1,
+      .t = 2,
+      .low = 3,
+      .high = 4,
+      .grids = {{.name = "g", .n1 = 2, .n2 = 1, .straight = true, .x = {5, 6, 7}, .level = {0, 65535}}}};
+  const wire::Picture in = carried(out);
+  EXPECT_EQ(std::tie(in.run, in.from, in.quantity, in.role, in.step, in.t, in.low, in.high),
+            std::tie(out.run, out.from, out.quantity, out.role, out.step, out.t, out.low, out.high));
+  ASSERT_EQ(in.grids.size(), 1U);
+  const auto &there = in.grids[0], &here = out.grids[0];
+  EXPECT_EQ(std::tie(there.name, there.n1, there.n2, there.straight, there.x, there.level),
+            std::tie(here.name, here.n1, here.n2, here.straight, here.x, here.level));
 }
 
 TEST(Convert, TelemetryKeepsItsInterfaces) {
