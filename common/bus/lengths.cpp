@@ -16,6 +16,7 @@ namespace {
 constexpr std::int32_t most_dimensions = 3;
 constexpr std::int32_t most_modes = 20000;
 constexpr std::size_t longest_name = 256;
+constexpr std::size_t most_samples_in_all = 1 << 18;  ///< of a picture
 
 /// Compares lengths, remembering whose message it is.
 class Lengths {
@@ -107,10 +108,13 @@ bool is_sound(const wire::Picture& m) {
   if (m.grids.size() > wire::Picture::most_grids || m.from.size() > longest_name ||
       m.quantity.size() > longest_name)
     return false;
-  return std::ranges::all_of(m.grids, [](const wire::Picture::Grid& grid) {
+  std::size_t samples = 0;
+  return std::ranges::all_of(m.grids, [&samples](const wire::Picture::Grid& grid) {
+    samples += grid.level.size();
     const std::size_t n1 = grid.n1, n2 = grid.n2, most = wire::Picture::most_samples;
-    return n1 >= 1 && n2 >= 1 && n1 <= most && n2 <= most && grid.level.size() == n1 * n2 &&
-           grid.x.size() == (grid.straight ? n1 + n2 : 2 * n1 * n2) && grid.name.size() <= longest_name &&
+    return samples <= most_samples_in_all && n1 >= 1 && n2 >= 1 && n1 <= most && n2 <= most &&
+           grid.level.size() == n1 * n2 && grid.x.size() == (grid.straight ? n1 + n2 : 2 * n1 * n2) &&
+           grid.name.size() <= longest_name &&
            std::ranges::all_of(grid.x, [](float value) { return std::isfinite(value); });
   });
 }

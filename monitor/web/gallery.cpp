@@ -13,7 +13,7 @@ namespace {
 constexpr std::chrono::seconds patience_with_browsers{3};
 constexpr std::size_t most_wishes = 16, longest_wish = 32;
 /// More than the programs of a run have quantities: anybody may send pictures under any name.
-constexpr std::size_t most_frames = 1024;
+constexpr std::size_t most_frames = 256;
 
 template <class T>
 void append(std::string& bytes, const std::vector<T>& values) {

@@ -81,6 +81,7 @@ async function watchRun() {
 function rangeOf(picture) {
   const limits = limitsOf(picture);
   if (limits.mode === "fixed") return [limits.low, limits.high];
+  if (picture.quantity === "schlieren") return [0, limits.mode === "now" ? picture.high : limits.seen[1]]; // a gradient of zero is white
   return limits.mode === "now" ? [picture.low, picture.high] : limits.seen;
 }
 

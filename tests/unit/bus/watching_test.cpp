@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -79,6 +80,7 @@ TEST_F(Watched, NothingIsDrawnUntilSomebodyWatches) {
   }));
   std::vector<wire::Picture> pictures;
   ASSERT_TRUE(comes([&] {
+    listener.watch({"fluid.pressure"});
     solver_.show(draw_, 1, true);
     return seen(listener, pictures);
   }));
@@ -133,7 +135,13 @@ TEST(Pictures, AreSoundOnlyWithArraysOfTheLengthsTheyPromise) {
       [](auto& p) { p.low = 2; },
       [](auto& p) { p.high = std::nan(""); },
       [](auto& p) { p.from.assign(1000, 'x'); },
-      [](auto& p) { p.grids.resize(wire::Picture::most_grids + 1, p.grids[0]); }};
+      [](auto& p) {  // each grid is sound
+        p.grids[0].n1 = p.grids[0].n2 = 256;
+        p.grids[0].x.assign(512, 0);
+        p.grids[0].level.assign(1 << 16, 1);
+        p.grids.resize(5, wire::Picture::Grid(p.grids[0]));
+      },
+      [](auto& p) { p.grids.resize(wire::Picture::most_grids + 1, wire::Picture::Grid(p.grids[0])); }};
   for (std::size_t k = 0; k < damages.size(); ++k) {
     wire::Picture picture = square("pressure");
     damages[k](picture);

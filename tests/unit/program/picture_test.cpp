@@ -9,6 +9,7 @@
 #include <functional>
 #include <limits>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -139,9 +140,10 @@ TEST(Picture, OfSchlierenMissesNoShockBetweenItsSamples) {
 
 TEST(Picture, OfSpeedAndStressAreRootsOfSumsOfSquares) {
   Sheet sheet(3, 3, sheared);
-  for (const auto& [name, number] :
-       {std::pair("v1", -3.0), {"v2", 4.0}, {"P11", 1.0}, {"P12", -2.0}, {"P21", 4.0}, {"P22", 10.0}})
-    sheet.add(name, [number = number](double, double) { return number; });
+  const std::vector<std::pair<const char*, double>> parts{{"v1", -3},  {"v2", 4},  {"P11", 1},
+                                                          {"P12", -2}, {"P21", 4}, {"P22", 10}};
+  for (const auto& [name, number] : parts)
+    sheet.add(name, [value = number](double, double) { return value; });
   EXPECT_DOUBLE_EQ(picture(sheet.output(), "speed").high, 5);
   EXPECT_DOUBLE_EQ(picture(sheet.output(), "stress").high, 11);
 }
