@@ -223,10 +223,10 @@ void write_block(io::Hdf5& group, const std::vector<Heard>& heard) {
                               m->dt_bid,
                               texts.number(m->limited_by),
                               count(m->traffic.size())});
-      for (const wire::Traffic& one : m->traffic) {
-        traffic.row(std::array{texts.number(one.interface), texts.number(one.from), count(one.messages),
-                               count(one.bytes), count(one.missing), count(one.dropped), one.latency_p50_us,
-                               one.latency_p99_us});
+      for (const wire::Traffic& line : m->traffic) {
+        traffic.row(std::array{texts.number(line.interface), texts.number(line.from), count(line.messages),
+                               count(line.bytes), count(line.missing), count(line.dropped),
+                               line.latency_p50_us, line.latency_p99_us});
       }
       for (const Side& side : m->interfaces) {
         sides.row(std::array{texts.number(side.name), side.velocity_jump, side.traction_jump, side.gap,

@@ -160,7 +160,7 @@ function showTraffic(state) {
 
 const BID_COLOURS = ["gas", "solid", "good", "busy", "bad"];
 
-// What everybody proposed, and what was agreed on: the lowest curve limits the step.
+// What everybody proposed, and what was agreed on. A solid that takes substeps may propose less.
 function showBids(state) {
   const names = Object.keys(state.participants).filter((name) => state.participants[name].role !== "coupler");
   const colours = names.map((_, k) => theme[BID_COLOURS[k % BID_COLOURS.length]]);

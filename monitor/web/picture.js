@@ -2,6 +2,7 @@
 // The live picture: asks the monitor for pictures while somebody can see them, keeps what came, and draws one moment of it.
 
 const MOST_BYTES = 96e6;   // of pictures that are kept; then every second moment goes
+const MOST_BACK = 8;       // moments
 const SHARPEST = 1.5;      // pixels of the raster per CSS pixel, at most
 const UNITS = { pressure: "p", speed: "|v|", density: "\u03c1", schlieren: "|grad \u03c1|", stress: "|P|" };
 const live = {
@@ -52,6 +53,15 @@ function currentFrame() {
   return last.pictures.size >= before.pictures.size ? last : before;
 }
 
+// The pictures of a moment. A program that had no time to draw one, or whose picture was lost, is shown as it was shortly before.
+function picturesAt(frame) {
+  const found = new Map(frame.pictures), k = live.frames.indexOf(frame);
+  for (let back = 1; back <= MOST_BACK && k - back >= 0; ++back) {
+    for (const [from, picture] of live.frames[k - back].pictures) if (!found.has(from)) found.set(from, picture);
+  }
+  return [...found.values()];
+}
+
 function visible() {
   return live.seen && document.visibilityState === "visible";
 }
@@ -92,7 +102,7 @@ function mapOf(picture) {
 // The gas first, then the solids, so that a solid hides what lies under it.
 function layersOf(frame) {
   const shown = { fluid: $("gas-quantity").value, solid: $("solid-quantity").value };
-  const all = [...frame.pictures.values()].filter((picture) => shown[picture.role]);
+  const all = picturesAt(frame).filter((picture) => shown[picture.role]);
   return all.sort((a, b) => (a.role > b.role ? 1 : a.role < b.role ? -1 : 0));
 }
 
@@ -100,7 +110,7 @@ function drawLive() {
   const frame = currentFrame(), canvas = $("picture");
   showScrubber(frame);
   if (!frame) { sayNothing(canvas); return; }
-  const layers = layersOf(frame), outline = [...frame.pictures.values()].find((picture) => picture.role === "coupler");
+  const layers = layersOf(frame), outline = picturesAt(frame).find((picture) => picture.role === "coupler");
   const whole = extentOf([...layers, ...(outline ? [outline] : [])]);
   if (!whole) { sayNothing(canvas); return; }
   live.whole = whole;
@@ -205,7 +215,15 @@ function showScrubber(frame) {
   slider.setAttribute("aria-valuetext", frame ? `t = ${short(frame.t)}` : "nothing recorded");
   $("follow").classList.toggle("on", !live.at);
   $("follow").setAttribute("aria-pressed", String(!live.at));
-  $("moment-note").textContent = frame ? `t = ${short(frame.t)}, step ${frame.step}; moment ${k + 1} of ${live.frames.length}` : "";
+  $("moment-note").textContent = frame ? `t = ${short(frame.t)}, step ${frame.step}; moment ${k + 1} of ${live.frames.length}${missingAt(frame)}` : "";
+}
+
+// What was chosen when it could no longer be drawn.
+function missingAt(frame) {
+  if (!live.at && !over(memory.state)) return ""; // it will come
+  const wanted = { fluid: $("gas-quantity").value, solid: $("solid-quantity").value };
+  const missing = new Set(picturesAt(frame).filter((one) => wanted[one.role] && one.quantity !== wanted[one.role]).map((one) => wanted[one.role]));
+  return missing.size ? `; no ${[...missing].join(", no ")} was recorded then` : "";
 }
 
 function choose(k) {

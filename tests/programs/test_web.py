@@ -263,7 +263,9 @@ class Page(WebTest):
         self.browser.value("document.getElementById('follow').click()")
         self.assertGreater(self.browser.value("currentFrame().step"), 30)
         self.shows("traffic", "solid")
-        self.shows("programs", "limits")
+        self.shows("programs", "proposes dt")
+        limits = "proposal({limited_by: 'fluid'}, '%s', {role: 'fluid', dt_bid: 0.5}).textContent"
+        self.assertEqual([self.browser.value(limits % name) for name in ("fluid", "other")], ["0.5 limits", "0.5"])
         self.assertTrue(until(lambda: self.coloured("bids") > 300), "no proposals are drawn")
         self.assertEqual(self.browser.problems, [])
 
