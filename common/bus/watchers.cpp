@@ -1,6 +1,7 @@
 #include "common/bus/watchers.hpp"
 
 #include <algorithm>
+#include <ctime>
 #include <utility>
 #include <vector>
 
@@ -12,10 +13,17 @@ namespace {
 
 /// Who watches says so every second; who has not for this time has left.
 constexpr std::chrono::seconds patience{3};
-/// After drawing for some time, a program draws nothing for so many times as long.
-constexpr int rest_per_work = 49;
+/// After drawing, a program computes for so many times as long before it draws again.
+constexpr double rest_per_work = 49;
 /// More wishes than there are quantities, and longer names, are nobody's wish.
 constexpr std::size_t most_wishes = 16, longest_wish = 32;
+
+/// Processor time of this thread [s]: others on the machine change nothing.
+double computed_s() {
+  timespec time{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
 
 }  // namespace
 
@@ -41,7 +49,7 @@ void Watchers::look() {
 void Watchers::show(const Draw& draw, std::uint64_t step, bool always) {
   look();
   begin_pause();
-  if (!always && Clock::now() < rest_until_) return;
+  if (!always && computed_s() < rest_until_s_) return;
   shown_.clear();
   draw_all(draw, step);
 }
@@ -53,14 +61,14 @@ void Watchers::show_missing(const Draw& draw, std::uint64_t step) {
 }
 
 void Watchers::draw_all(const Draw& draw, std::uint64_t step) {
-  const auto begun = Clock::now();
+  const double begun_s = computed_s();
   shown_step_ = step;
   for (const auto& [wish, wished_at] : wishes_) {
     if (!shown_.insert(wish).second) continue;
     if (auto picture = draw(wish)) publish(std::move(*picture));
   }
-  const auto now = Clock::now();
-  rest_until_ = now + rest_per_work * (now - begun);
+  const double now_s = computed_s();
+  rest_until_s_ = now_s + rest_per_work * (now_s - begun_s);
 }
 
 void Watchers::publish(wire::Picture picture) {

@@ -44,7 +44,8 @@ class Watchers {
   Reader<amp_fsi_Watch> reader_;
   Writer<amp_fsi_Picture> writer_;
   std::map<std::string, Clock::time_point> wishes_;  ///< ROLE.QUANTITY, when it was wished for last
-  Clock::time_point next_{}, rest_until_{};
+  Clock::time_point next_{};
+  double rest_until_s_ = 0;  ///< of this thread's processor time
   std::set<std::string> shown_;  ///< of the state of `shown_step_`
   std::uint64_t shown_step_ = 0;
 

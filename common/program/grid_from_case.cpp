@@ -1,6 +1,9 @@
 #include "common/program/grid_from_case.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 
 #include "common/case/composite_from_case.hpp"
 
@@ -46,12 +49,13 @@ std::vector<std::uint8_t> kinds_of(const grid::CompositeGrid* composite, int gri
   std::vector<std::uint8_t> kinds;
   if (composite == nullptr) return kinds;
   const Layout layout = composite->layout(grid);
-  kinds.reserve(layout.points());
+  kinds.assign(layout.points(), 0);
   for (int j = 0; j < layout.n2; ++j) {
-    for (int i = 0; i < layout.n1; ++i) {
-      const grid::PointKind kind = composite->kind(grid, i, j);
-      kinds.push_back(kind == grid::PointKind::unused ? 0 : kind == grid::PointKind::discretised ? 1 : 2);
-    }
+    const auto row = kinds.begin() + static_cast<std::ptrdiff_t>(j) * layout.n1;
+    for (const grid::Interval& run : composite->valid(grid).row(j))
+      std::fill(row + run.begin, row + run.end, std::uint8_t{2});
+    for (const grid::Interval& run : composite->discretised(grid).row(j))
+      std::fill(row + run.begin, row + run.end, std::uint8_t{1});
   }
   return kinds;
 }

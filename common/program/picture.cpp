@@ -169,17 +169,18 @@ class Sampled {
 
   /// Largest |grad| among the points that are nearer to this sample than to others.
   double steepest_near(Point at) const {
-    double steepest = nan;
+    double steepest = -1;  // none yet
     for (int b = -(every_.j / 2); b <= every_.j / 2; ++b) {
       for (int a = -(every_.i / 2); a <= every_.i / 2; ++a)
-        steepest = std::fmax(steepest, steepness({at.i + a, at.j + b}));  // of a number and none, the number
+        steepest = std::max(steepest, steepness({at.i + a, at.j + b}));
     }
-    return steepest;
+    return steepest < 0 ? nan : steepest;
   }
 
-  /// |grad f| by differences to the neighbours that are used, one-sided where there is only one.
+  /// |grad f| by differences to the neighbours that are used, one-sided where there is only one; -1 of a
+  /// point that is not used.
   double steepness(Point at) const {
-    if (!used(at)) return nan;
+    if (!used(at)) return -1;
     const io::NamedPlane& f = planes_.front();
     double x[2][2] = {}, df[2] = {};
     for (const int direction : {0, 1}) {
@@ -191,7 +192,8 @@ class Sampled {
       for (const int c : {0, 1}) x[direction][c] = grid_.x(c, high.i, high.j) - grid_.x(c, low.i, low.j);
     }
     const double det = x[0][0] * x[1][1] - x[0][1] * x[1][0];
-    return std::hypot(df[0] * x[1][1] - df[1] * x[0][1], df[1] * x[0][0] - df[0] * x[1][0]) / std::fabs(det);
+    const double g1 = df[0] * x[1][1] - df[1] * x[0][1], g2 = df[1] * x[0][0] - df[0] * x[1][0];
+    return std::sqrt(g1 * g1 + g2 * g2) / std::fabs(det);
   }
 };
 
