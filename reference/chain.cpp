@@ -4,21 +4,34 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "common/core/failure.hpp"
 
 namespace fsi::reference {
 
-AnyLaw law_named(const std::string& name, double lambda, double mu) {
-  const AnyLaw laws[] = {solid::LinearElastic{.lambda = lambda, .mu = mu},
-                         solid::SaintVenantKirchhoff{.lambda = lambda, .mu = mu},
-                         solid::NeoHookean{.lambda = lambda, .mu = mu}};
-  for (const auto& law : laws) {
-    if (std::visit([&](const auto& known) { return known.name == name; }, law)) return law;
+namespace {
+
+/// The law named so among the alternatives from the k-th on.
+template <std::size_t k = 0>
+std::optional<AnyLaw> law_among(const std::string& name, double lambda, double mu,
+                                const std::map<std::string, double>& own) {
+  if constexpr (k == std::variant_size_v<AnyLaw>) {
+    return std::nullopt;
+  } else {
+    using L = std::variant_alternative_t<k, AnyLaw>;
+    if (L::name == name) return solid::law_with<L>(lambda, mu, own);
+    return law_among<k + 1>(name, lambda, mu, own);
   }
+}
+
+}  // namespace
+
+AnyLaw law_named(const std::string& name, double lambda, double mu, const std::map<std::string, double>& own) {
+  if (const auto law = law_among(name, lambda, mu, own)) return *law;
   throw UserMistake(
       fmt::format("the one-dimensional reference knows no law '{}'; write linear_elastic, "
-                  "saint_venant_kirchhoff or neo_hookean",
+                  "saint_venant_kirchhoff, neo_hookean, mooney_rivlin or gent",
                   name));
 }
 

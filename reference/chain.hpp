@@ -2,22 +2,27 @@
 /// What the one-dimensional references share: the laws, values at masses from springs, differences of two
 /// runs.
 
+#include <map>
 #include <span>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "common/exact/table.hpp"
+#include "solid_solver/laws/gent.hpp"
 #include "solid_solver/laws/linear_elastic.hpp"
+#include "solid_solver/laws/mooney_rivlin.hpp"
 #include "solid_solver/laws/neo_hookean.hpp"
 #include "solid_solver/laws/saint_venant_kirchhoff.hpp"
 
 namespace fsi::reference {
 
-using AnyLaw = std::variant<solid::LinearElastic, solid::SaintVenantKirchhoff, solid::NeoHookean>;
+using AnyLaw = std::variant<solid::LinearElastic, solid::SaintVenantKirchhoff, solid::NeoHookean,
+                            solid::MooneyRivlin, solid::Gent>;
 
-/// The law of that name. @throws UserMistake for an unknown one
-AnyLaw law_named(const std::string& name, double lambda, double mu);
+/// The law of that name; `own`: its numbers besides lambda and mu. @throws UserMistake for an unknown one
+AnyLaw law_named(const std::string& name, double lambda, double mu,
+                 const std::map<std::string, double>& own = {});
 
 /// What the springs do before the first one.
 enum class Start { end, mirror };

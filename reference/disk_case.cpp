@@ -129,6 +129,7 @@ DiskProblem disk_from_case(const Case& problem) {
   disk.rho_bar = solid.rho;
   disk.lambda = solid.lambda;
   disk.mu = solid.mu;
+  disk.own = solid.data;
   disk.load_on_reference = load_on_reference(solid);
   disk.b = number_or(problem, "b", 0);
   if (disk.b != 0 && disk.b <= 1) {

@@ -367,7 +367,7 @@ DiskRun solve_disk_while_sound(const DiskProblem& problem, int points) {
         }
         return run;
       },
-      law_named(problem.law, problem.lambda, problem.mu));
+      law_named(problem.law, problem.lambda, problem.mu, problem.own));
 }
 
 std::vector<DiskOutput> solve_disk(const DiskProblem& problem, int points) {

@@ -115,6 +115,7 @@ PistonProblem piston_from_case(const Case& problem) {
   piston.rho_bar = solid.rho;
   piston.lambda = solid.lambda;
   piston.mu = solid.mu;
+  piston.own = solid.data;
   piston.x_a = solid.grid.x_a;
   piston.x_b = solid.grid.x_b;
   piston.x_end = fluid.grid.x_b;

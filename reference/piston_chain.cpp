@@ -238,7 +238,7 @@ PistonRun solve_piston_while_sound(const PistonProblem& problem, int points) {
         }
         return run;
       },
-      law_named(problem.law, problem.lambda, problem.mu));
+      law_named(problem.law, problem.lambda, problem.mu, problem.own));
 }
 
 std::vector<PistonOutput> solve_piston(const PistonProblem& problem, int points) {

@@ -29,7 +29,7 @@ class SolidParticipant final : public Participant {
   SolidParticipant(const Setup& setup, const SolidSpec& spec)
       : setup_(setup),
         spec_(spec),
-        law_{spec.lambda, spec.mu},
+        law_(law_with<L>(spec.lambda, spec.mu, spec.data)),
         data_(setup, spec, law_),
         solver_(data_.parts(), bodies_of(spec.body_fitted), law_, data_.options(), 0),
         fields_(setup.run_dir, "solid_" + spec.name) {

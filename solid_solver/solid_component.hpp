@@ -356,6 +356,9 @@ std::string SolidComponent<L>::trouble_at(int i, int j, double dt) const {
   const double J = determinant(F);
   const double phi_s = std::min(wave_eigenvalues(acoustic_matrix(K, m.r1.normalized())).y,
                                 wave_eigenvalues(acoustic_matrix(K, m.r2.normalized())).y);
+  if constexpr (requires { L::end_of_law; }) {
+    if (std::isnan(J) || (J > 0 && std::isnan(law_.psi(F)))) return fmt::format("det F = {:.4g}: {}", J, L::end_of_law);
+  }
   if (!(J > 0)) return fmt::format("det F = {:.4g}", J);
   if (!(phi_s > 0)) return fmt::format("no longer hyperbolic, phi_s = {:.4g}", phi_s);
   return {};

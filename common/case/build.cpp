@@ -10,6 +10,7 @@
 
 #include "common/case/build_beam.hpp"
 #include "common/case/build_domain.hpp"
+#include "common/case/build_material.hpp"
 #include "common/case/build_shape.hpp"
 #include "common/case/laws.hpp"
 #include "common/case/reader.hpp"
@@ -107,10 +108,6 @@ SolidScheme solid_scheme_of(const Node* node) {
   return result;
 }
 
-bool has_lame_constants(const SolidSpec& solid) {
-  return solid.law != rigid_law && solid.law != external_law;
-}
-
 /// `program` and an external law go together.
 void check_program(const SolidSpec& solid, const Node& node, const std::string& path) {
   const bool external = solid.law == external_law;
@@ -134,12 +131,7 @@ SolidSpec solid_of(const Reader& reader, const config::Entry& entry) {
       fail(motion->place, owner.path + ".motion", "belongs to `law: rigid`; leave it out");
     result.fixed = motion->text == "fixed";
   }
-  for (const auto& [key, modulus] : {std::pair{"lambda", &result.lambda}, std::pair{"mu", &result.mu}}) {
-    if (has_lame_constants(result) && node.find(key) == nullptr) {
-      fail(node.place, owner.path, fmt::format("`{}` is missing (Lame constant [pressure])", key));
-    }
-    Reader::assign(node, key, *modulus);
-  }
+  build_material(node, owner.path, result);
   result.grid = build_grid(reader, owner);
   result.boundary = build_boundaries(reader, owner, result.grid);
   result.body_fitted = build_outline_grid(reader, owner, result.boundary);

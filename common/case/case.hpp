@@ -144,7 +144,7 @@ struct SolidSpec {
   std::string name;
   std::string law;      ///< the executable is solid_solver_<law>, or `program` where the law is external
   std::string program;  ///< of an external solid: a name among the programs, or a path
-  std::map<std::string, double> data;  ///< numbers for that program
+  std::map<std::string, double> data;  ///< numbers for that program, or of the law besides lambda and mu
   double rho = 1, lambda = 1, mu = 1;
   bool fixed = false;  ///< a rigid body that stays where it is
   GridSpec grid;

@@ -3,6 +3,8 @@
 /// strain).
 
 #include <concepts>
+#include <map>
+#include <string>
 #include <string_view>
 
 namespace fsi::solid {
@@ -20,9 +22,17 @@ struct Stiffness {
          k2222 = 0;
 };
 
+/// A number that one law takes besides lambda and mu. A law L lists those it has in `L::own_numbers`.
+template <class L>
+struct OwnNumber {
+  std::string_view key;  ///< of the solid in a case file
+  double L::*member;
+  double typical;  ///< for the tests that run over all laws
+};
+
 /// A constitutive law: strain energy psi per unit reference volume, nominal stress P_ij = dpsi/dF_ji,
 /// stiffness K. Each is a pure, branch-free function of F that a compiler can vectorise; `L{lambda, mu}`
-/// makes one.
+/// makes one, whose own numbers, if there are any, are then to be set.
 template <class L>
 concept Law = requires(const L law, const Tensor2 F) {
   { L::name } -> std::convertible_to<std::string_view>;
@@ -33,5 +43,16 @@ concept Law = requires(const L law, const Tensor2 F) {
   { law.lambda } -> std::convertible_to<double>;
   { law.mu } -> std::convertible_to<double>;
 };
+
+/// The law with the Lame constants and with its own numbers by their keys. Whether they are there and in their
+/// range is checked where a case is read (common/case/build_material.hpp).
+template <Law L>
+L law_with(double lambda, double mu, const std::map<std::string, double>& numbers) {
+  L law{.lambda = lambda, .mu = mu};
+  if constexpr (requires { L::own_numbers; }) {
+    for (const OwnNumber<L>& own : L::own_numbers) law.*own.member = numbers.find(std::string(own.key))->second;
+  }
+  return law;
+}
 
 }  // namespace fsi::solid

@@ -79,7 +79,7 @@ TEST(OverrideMistake, OfALawNamesTheLawsThereAre) {
   EXPECT_EQ(mistake_of({}, {"solid=neohookean"}),
             "--solid solid=neohookean: `neohookean` does not exist here; did you mean `neo_hookean`? (one of "
             "linear_elastic, saint_venant_kirchhoff, "
-            "neo_hookean, rigid, beam, external)");
+            "neo_hookean, mooney_rivlin, gent, rigid, beam, external)");
   EXPECT_EQ(mistake_of({}, {"piston=neo_hookean"}),
             "--solid piston=neo_hookean: `piston` in section `solids` of the case is missing; it has solid");
   EXPECT_EQ(mistake_of({}, {"solid"}), "--solid `solid`: write --solid NAME=LAW");

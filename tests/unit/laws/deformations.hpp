@@ -32,6 +32,16 @@ inline std::vector<Mat2> deformations() {
           rotation(-1.1) * general};
 }
 
+/// The law with these moduli, and with typical values of what only it takes.
+template <class L>
+L typical(double lambda, double mu) {
+  L law{.lambda = lambda, .mu = mu};
+  if constexpr (requires { L::own_numbers; }) {
+    for (const auto& own : L::own_numbers) law.*own.member = own.typical;
+  }
+  return law;
+}
+
 /// K_ijkl (indices 0 or 1) out of the ten stored entries and the six that K_ijkl = K_lkji gives.
 inline double entry(const Stiffness& K, int i, int j, int k, int l) {
   const double all[16] = {K.k1111, K.k1112, K.k1121, K.k1122, K.k1121, K.k2121, K.k1221, K.k1222,

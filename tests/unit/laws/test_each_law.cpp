@@ -3,10 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 
 #include "deformations.hpp"
+#include "solid_solver/impedance.hpp"
+#include "solid_solver/laws/gent.hpp"
 #include "solid_solver/laws/linear_elastic.hpp"
+#include "solid_solver/laws/mooney_rivlin.hpp"
 #include "solid_solver/laws/neo_hookean.hpp"
 #include "solid_solver/laws/saint_venant_kirchhoff.hpp"
 
@@ -67,6 +71,98 @@ TEST(Eq10NeoHookean, GivesNoNumberForAnInvertedElement) {
   const NeoHookean law{.lambda = lambda, .mu = mu};
   EXPECT_TRUE(std::isnan(law.P({-0.5, 0.0, 0.0, 1.0}).a11));
   EXPECT_TRUE(std::isnan(law.K({0.0, 0.0, 0.0, 1.0}).k1111));
+}
+
+/// Largest difference of P and K between two laws at a deformation.
+template <class A, class B>
+double difference_of_laws(const A& a, const B& b, const Mat2& F) {
+  double worst = (matrix(a.P(plain(F))) - matrix(b.P(plain(F)))).norm();
+  const Stiffness K = a.K(plain(F)), other = b.K(plain(F));
+  for (int n = 0; n < 16; ++n) {
+    const auto at = [n](const Stiffness& S) { return entry(S, n / 8, n / 4 % 2, n / 2 % 2, n % 2); };
+    worst = std::max(worst, std::abs(at(K) - at(other)));
+  }
+  return worst;
+}
+
+TEST(MooneyRivlinLaw, IsTheNeoHookeanOneWithoutItsSecondConstant) {
+  const NeoHookean neo{.lambda = lambda, .mu = mu};
+  const MooneyRivlin law{.lambda = lambda, .mu = mu}, other{.lambda = lambda, .mu = mu, .c01 = 0.3};
+  for (const Mat2& F : deformations()) {
+    EXPECT_LE(difference_of_laws(law, neo, F), 1e-14) << F;
+    if (std::abs(F.determinant() - 1) > 0.1) {
+      EXPECT_GE(difference_of_laws(other, neo, F), 1e-3) << F;
+    }
+  }
+}
+
+/// With C33 = 1 the invariants are those of the whole C, so its energy can be written with them.
+TEST(MooneyRivlinLaw, EnergyIsThatOfItsInvariantsInSpace) {
+  const double c01 = 0.3, c10 = mu / 2 - c01;
+  const MooneyRivlin law{.lambda = lambda, .mu = mu, .c01 = c01};
+  for (const Mat2& F : deformations()) {
+    Eigen::Matrix3d C = Eigen::Matrix3d::Identity();
+    C.topLeftCorner<2, 2>() = F.transpose() * F;
+    const double I1 = C.trace(), I2 = 0.5 * (I1 * I1 - (C * C).trace()), log_J = 0.5 * std::log(C.determinant());
+    const double shape = c10 * (I1 - 3) + c01 * (I2 - 3);
+    const double area = -(2 * c10 + 4 * c01) * log_J + 0.5 * (lambda - 4 * c01) * log_J * log_J;
+    EXPECT_NEAR(law.psi(plain(F)), shape + area, 1e-13);
+  }
+}
+
+/// An incompressible Mooney-Rivlin block in plane strain is a neo-Hookean one: P = mu (F^T - p F^-1).
+TEST(MooneyRivlinLaw, KeepsTheShearStressOfANeoHookeanSolidWhereAreasDoNotChange) {
+  const MooneyRivlin law{.lambda = 100 * mu, .mu = mu, .c01 = 0.25 * mu};
+  for (const double shear : {0.1, 1.0, 5.0}) {
+    const Mat2 F = (Mat2() << 1.0, shear, 0.0, 1.0).finished();
+    const Mat2 sigma = F * matrix(law.P(plain(F)));
+    EXPECT_NEAR(sigma(0, 1), mu * shear, 1e-12);
+    EXPECT_NEAR(sigma(0, 0) - sigma(1, 1), mu * shear * shear, 1e-12);  // Rivlin's universal relation
+  }
+}
+
+TEST(GentLaw, TendsToTheNeoHookeanOneAsItsLockingGoesToInfinity) {
+  const NeoHookean neo{.lambda = lambda, .mu = mu};
+  const auto distance = [&](const Mat2& F, double J_m) {
+    return difference_of_laws(Gent{.lambda = lambda, .mu = mu, .J_m = J_m}, neo, F);
+  };
+  for (const Mat2& F : deformations()) {
+    if ((F.transpose() * F - Mat2::Identity()).norm() < 1e-12) continue;  // there they are one at once
+    EXPECT_NEAR(distance(F, 1e4) / distance(F, 2e4), 2, 1e-3);
+    EXPECT_LE(distance(F, 1e12), 1e-10);
+  }
+}
+
+/// Shear of J_m = 4 locks at an angle of arctan 2: I1 - 3 is the square of the shear.
+TEST(GentLaw, GrowsWithoutBoundUpToItsLockingStretchAndEndsThere) {
+  const Gent law{.lambda = lambda, .mu = mu, .J_m = 4};
+  const auto at = [](double shear) -> Tensor2 { return {1.0, shear, 0.0, 1.0}; };
+  double psi = law.psi(at(2 - 1e-2)), stress = law.P(at(2 - 1e-2)).a21;
+  for (const double rest : {1e-4, 1e-6}) {
+    const Tensor2 F = at(2 - rest);
+    EXPECT_NEAR(law.P(F).a21 / stress, 100, 1);  // as one over the distance
+    EXPECT_GT(law.psi(F), psi + 1);
+    psi = law.psi(F), stress = law.P(F).a21;
+  }
+  for (const double beyond : {2.0, 2.1, 50.0}) {
+    EXPECT_TRUE(std::isnan(law.psi(at(beyond))));
+    EXPECT_TRUE(std::isnan(law.P(at(beyond)).a21));
+    EXPECT_TRUE(std::isnan(law.K(at(beyond)).k1221));
+  }
+  EXPECT_TRUE(std::isnan(law.P({-0.5, 0.0, 0.0, 1.0}).a11));
+}
+
+/// The stiffening acts along the stretch: waves stay real all the way, and become fast.
+TEST(GentLaw, IsHyperbolicUpToItsLockingStretch) {
+  const Gent law{.lambda = lambda, .mu = mu, .J_m = 4};
+  for (const double shear : {0.0, 1.0, 1.9, 1.999}) {
+    const Stiffness K = law.K({1.0, shear, 0.0, 1.0});
+    for (const double angle : {0.0, 0.4, 0.9, 1.57, 2.2, 2.9}) {
+      const SymmetricTensor2 B = acoustic_matrix(K, {std::cos(angle), std::sin(angle)});
+      EXPECT_GT(B.a11, 0);
+      EXPECT_GT(B.a11 * B.a22 - B.a12 * B.a12, 0);
+    }
+  }
 }
 
 TEST(Eq11LinearElastic, StressesOfTwoDisplacementsAdd) {

@@ -14,7 +14,7 @@ namespace {
 template <class L>
 class EveryLaw : public ::testing::Test {
  protected:
-  const L law_{.lambda = 1.7, .mu = 0.9};
+  const L law_ = typical<L>(1.7, 0.9);
 
   double psi(const Mat2& F) const { return law_.psi(plain(F)); }
   Mat2 P(const Mat2& F) const { return matrix(law_.P(plain(F))); }

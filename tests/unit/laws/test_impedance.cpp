@@ -22,7 +22,7 @@ Mat2 matrix(const SymmetricTensor2& A) {
 template <class L>
 class Impedance : public ::testing::Test {
  protected:
-  const L law_{.lambda = 1.7, .mu = 0.9};
+  const L law_ = typical<L>(1.7, 0.9);
 
   Mat2 P(const Mat2& F) const { return testing::matrix(law_.P(plain(F))); }
   Mat2 B(const Mat2& F, const Vec2& n) const { return matrix(acoustic_matrix(law_.K(plain(F)), n)); }
