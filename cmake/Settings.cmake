@@ -33,8 +33,8 @@ option(FSI_PRECOMPILED "Parse the headers most sources begin with once, before a
 # Contraction is pinned so that vector bodies and their tails round alike.
 add_library(fsi_settings INTERFACE)
 target_compile_options(fsi_settings INTERFACE
-  $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -Wpedantic -Wconversion -Wshadow>
-  $<$<AND:$<COMPILE_LANGUAGE:CXX>,$<BOOL:${FSI_WERROR}>>:-Werror>
+  $<BUILD_INTERFACE:$<$<COMPILE_LANGUAGE:CXX>:-Wall;-Wextra;-Wpedantic;-Wconversion;-Wshadow>>
+  $<BUILD_INTERFACE:$<$<AND:$<COMPILE_LANGUAGE:CXX>,$<BOOL:${FSI_WERROR}>>:-Werror>>
   -march=${FSI_MARCH} -fno-math-errno -fno-trapping-math -ffp-contract=fast -fopenmp-simd
 )
 # g++ 12 takes the deliberately undefined registers of its own AVX-512 intrinsics (avx512fintrin.h, _mm512_undefined_*) for

@@ -217,8 +217,10 @@ void InterfaceExchange::project_modal(const Moment& moment, const wire::ModalRes
   if (moment.dt > 0) {
     const Eigen::SparseMatrix<double> S = wire::matrix_of(modal.S, k, k);
     const Eigen::VectorXd g = Eigen::Map<const Eigen::VectorXd>(modal.g.data(), k);
-    const auto answer = [&](const ModalLoad& load) { return project_modes(S, g, load, moment.dt); };
-    q_dot_ = balance(N, gas_, ds_, answer);
+    added_mass_.take(N);
+    q_dot_ = balance(N, gas_, [&](std::span<const NormalSide> gas) {
+      return solver_.project(S, g, added_mass_.load(gas, ds_), moment.dt);
+    });
     if (q_dot_.size() == 0) {
       throw NumbersBroke(fmt::format(
           "step {}, t = {:.6g}: \"{}\" at interface \"{}\": nothing resists one of its {} modes, no "

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "common/core/archive.hpp"
+#include "common/interface/modal_system.hpp"
 #include "common/interface/wave_curve.hpp"
 #include "common/wire/messages.hpp"
 #include "coupler/interface_motion.hpp"
@@ -100,6 +101,8 @@ class InterfaceExchange {
   InterfaceMotion motion_;
   std::optional<PrescribedMotion> prescribed_;
   Eigen::VectorXd q_dot_;      ///< of a solid with degrees of freedom, now
+  AddedMass added_mass_;       ///< of the gas on them
+  ModalSolver solver_;
   std::vector<Level> levels_;  ///< newest first
   std::size_t known_ = 0;      ///< levels that are filled
   std::vector<double> n_, ds_, v_, a_, z_f_, x_solid_, x_gas_;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 
 #include "common/case/build.hpp"
@@ -127,7 +128,8 @@ std::vector<std::string> names_in_folders(const std::vector<std::string>& folder
 }  // namespace
 
 std::string configs_folder() {
-  return FSI_CONFIGS_FOLDER;
+  const char* const told = std::getenv("FSI_CONFIGS");  // by the launcher that was installed
+  return told != nullptr ? told : FSI_CONFIGS_FOLDER;
 }
 
 std::string find_case(const std::string& path_or_name, const std::vector<std::string>& folders) {

@@ -1,30 +1,14 @@
 #include "common/interface/modal.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <vector>
 
+#include "common/interface/modal_system.hpp"
+
 namespace fsi {
-
-namespace {
-
-/// Up to so many unknowns a dense factorisation with pivoting costs less than a sparse one.
-constexpr Eigen::Index few = 16;
-
-using Factors = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>;
-
-/// A pivot that is less than this part of the diagonal it comes from is round-off.
-constexpr double round_off = 1e-14;
-
-bool is_singular(const Eigen::SparseMatrix<double>& S, const Factors& factors) {
-  const Eigen::VectorXd diagonal = factors.permutationP() * Eigen::VectorXd(S.diagonal());
-  return (factors.vectorD().array().abs() <= round_off * diagonal.array().abs()).any();
-}
-
-}  // namespace
 
 ModalLoad modal_load(const Eigen::SparseMatrix<double>& N, std::span<const NormalSide> gas,
                      std::span<const double> ds) {
@@ -40,13 +24,9 @@ ModalLoad modal_load(const Eigen::SparseMatrix<double>& N, std::span<const Norma
 }
 
 Eigen::VectorXd solve_modes(const Eigen::SparseMatrix<double>& S, const Eigen::VectorXd& right) {
-  if (S.rows() <= few) {
-    const Eigen::MatrixXd dense = Eigen::MatrixXd(S).selfadjointView<Eigen::Lower>();
-    return dense.ldlt().solve(right);
-  }
-  const Factors factors(S);
-  if (factors.info() != Eigen::Success || is_singular(S, factors)) return {};
-  return factors.solve(right);
+  if (S.rows() > few_modes) return ModalSolver().solve(S, right);
+  const Eigen::MatrixXd dense = Eigen::MatrixXd(S).selfadjointView<Eigen::Lower>();
+  return dense.ldlt().solve(right);
 }
 
 Eigen::VectorXd project_modes(const Eigen::SparseMatrix<double>& S, const Eigen::VectorXd& g,
@@ -57,6 +37,12 @@ Eigen::VectorXd project_modes(const Eigen::SparseMatrix<double>& S, const Eigen:
 Eigen::VectorXd balance(const Eigen::SparseMatrix<double>& N, std::span<const GasSide> gas,
                         std::span<const double> ds,
                         const std::function<Eigen::VectorXd(const ModalLoad&)>& answer) {
+  return balance(N, gas,
+                 [&](std::span<const NormalSide> tangents) { return answer(modal_load(N, tangents, ds)); });
+}
+
+Eigen::VectorXd balance(const Eigen::SparseMatrix<double>& N, std::span<const GasSide> gas,
+                        const std::function<Eigen::VectorXd(std::span<const NormalSide>)>& answer) {
   std::vector<NormalSide> tangents(gas.size());
   double scale = 0;
   bool straight = true;
@@ -65,14 +51,14 @@ Eigen::VectorXd balance(const Eigen::SparseMatrix<double>& N, std::span<const Ga
     straight = straight && gas[i].curve.gamma == 0;
     scale = std::max(scale, std::fabs(gas[i].state.v_n) + gas[i].curve.sound());
   }
-  Eigen::VectorXd q_dot = answer(modal_load(N, tangents, ds));
+  Eigen::VectorXd q_dot = answer(tangents);
   if (straight || q_dot.size() == 0) return q_dot;
 
   const auto change_at = [&](const Eigen::VectorXd& at) -> Eigen::VectorXd {
     const Eigen::VectorXd v_n = N.transpose() * at;
     for (std::size_t i = 0; i < gas.size(); ++i)
       tangents[i] = gas[i].tangent(v_n(static_cast<Eigen::Index>(i)));
-    return answer(modal_load(N, tangents, ds)) - at;
+    return answer(tangents) - at;
   };
   const auto size_of = [&](const Eigen::VectorXd& change) {
     return (N.transpose() * change).cwiseAbs().maxCoeff();

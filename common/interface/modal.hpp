@@ -17,6 +17,9 @@
 
 namespace fsi {
 
+/// Up to so many modes a dense factorisation with pivoting costs less than a sparse one.
+inline constexpr Eigen::Index few_modes = 16;
+
 /// Load of the gas on the modes: f~ - A q_dot.
 struct ModalLoad {
   Eigen::SparseMatrix<double> A;  ///< added-mass matrix [force/velocity], k x k
@@ -43,7 +46,10 @@ Eigen::VectorXd project_modes(const Eigen::SparseMatrix<double>& S, const Eigen:
 /// that balance it with a gas of linear answer (empty: nothing resists a mode); where that touches the curve
 /// is found by Newton's iteration, from the gas's own velocity on (which is the linear solution), with steps
 /// halved while they do not shrink.
-/// @param N, ds as in modal_load
+/// @param N mode vectors, as in modal_load
+Eigen::VectorXd balance(const Eigen::SparseMatrix<double>& N, std::span<const GasSide> gas,
+                        const std::function<Eigen::VectorXd(std::span<const NormalSide>)>& answer);
+/// The same with an answer to the load of the gas. @param ds as in modal_load
 Eigen::VectorXd balance(const Eigen::SparseMatrix<double>& N, std::span<const GasSide> gas,
                         std::span<const double> ds,
                         const std::function<Eigen::VectorXd(const ModalLoad&)>& answer);

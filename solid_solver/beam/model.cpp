@@ -148,6 +148,11 @@ Eigen::SparseMatrix<double> BeamModel::stiffness(const Eigen::VectorXd& u,
   return K;
 }
 
+ElementForce BeamModel::element_force(const Eigen::VectorXd& u, int element, const Resultants& stress) const {
+  const Strained strained = strain(u, element);
+  return {.index = strained.index, .force = -strained.gradient(), .stiffness = strained.hessian(stress)};
+}
+
 double BeamModel::strain_energy(const Eigen::VectorXd& u) const {
   double sum = 0;
   for (int element = 0; element < elements(); ++element) {

@@ -17,6 +17,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
+#include <array>
 #include <vector>
 
 #include "common/core/types.hpp"
@@ -52,6 +53,13 @@ struct Resultants {
   double M = 0;  ///< bending moment [force*length/depth]
 };
 
+/// Force and stiffness of one element on its degrees of freedom: those of its first node, then of its second.
+struct ElementForce {
+  std::array<Eigen::Index, 6> index{};     ///< among all degrees of freedom
+  Eigen::Matrix<double, 6, 1> force;       ///< -dW/du
+  Eigen::Matrix<double, 6, 6> stiffness;   ///< d^2 W / du^2
+};
+
 /// The first degree of freedom of a node: x, y and theta follow each other.
 constexpr Eigen::Index freedom_of(int node) {
   return 3 * static_cast<Eigen::Index>(node);
@@ -83,6 +91,8 @@ class BeamModel {
   /// The same with other stresses in its geometric part, one for every element.
   Eigen::SparseMatrix<double> stiffness(const Eigen::VectorXd& u,
                                         const std::vector<Resultants>& stress) const;
+  /// One element's part of both. @param stress in the geometric part
+  ElementForce element_force(const Eigen::VectorXd& u, int element, const Resultants& stress) const;
   double strain_energy(const Eigen::VectorXd& u) const;
   Resultants resultants(const Eigen::VectorXd& u, int element) const;
   std::vector<Resultants> resultants(const Eigen::VectorXd& u) const;

@@ -50,7 +50,46 @@ Eigen::SparseMatrix<double> free_motions(const Line& line, const std::array<End,
 
 BeamMotion::BeamMotion(BeamModel model, const std::array<End, 2>& ends)
     : model_(std::move(model)), B_(beam::free_motions(model_.line(), ends)) {
+  find_places();
   start(Eigen::VectorXd::Zero(model_.freedoms()));
+}
+
+/// Where the entries of S are: those of the elements between free motions.
+void BeamMotion::find_places() {
+  free_.resize(static_cast<std::size_t>(model_.freedoms()));
+  for (int column = 0; column < B_.cols(); ++column) {
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(B_, column); entry; ++entry)
+      free_[static_cast<std::size_t>(entry.row())] = {.column = column, .part = entry.value()};
+  }
+  const Eigen::VectorXd rest = Eigen::VectorXd::Zero(model_.freedoms());
+  std::vector<std::array<int, 6>> columns;
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int k = 0; k < B_.cols(); ++k) entries.emplace_back(k, k, 0.0);
+  for (int element = 0; element < model_.elements(); ++element) {
+    const ElementForce part = model_.element_force(rest, element, {});
+    std::array<int, 6>& own = columns.emplace_back();
+    for (std::size_t i = 0; i < 6; ++i) own[i] = free_motion(part.index[i]).column;
+    for (const int row : own) {
+      for (const int column : own) {
+        if (column >= 0 && row >= column) entries.emplace_back(row, column, 0.0);
+      }
+    }
+  }
+  Eigen::SparseMatrix<double>& S = own_response_.S;
+  S.resize(B_.cols(), B_.cols());
+  S.setFromTriplets(entries.begin(), entries.end());
+  const auto place = [&](int row, int column) {
+    const int *rows = S.innerIndexPtr(), *starts = S.outerIndexPtr();
+    return static_cast<int>(std::lower_bound(rows + starts[column], rows + starts[column + 1], row) - rows);
+  };
+  for (int k = 0; k < B_.cols(); ++k) diagonal_.push_back(place(k, k));
+  for (const std::array<int, 6>& own : columns) {
+    std::array<int, 36>& all = places_.emplace_back();
+    for (std::size_t e = 0; e < 36; ++e) {
+      const int row = own[e / 6], column = own[e % 6];
+      all[e] = column >= 0 && row >= column ? place(row, column) : -1;
+    }
+  }
 }
 
 void BeamMotion::start(const Eigen::VectorXd& u_dot) {
@@ -86,9 +125,9 @@ void BeamMotion::advance(double dt, const Eigen::VectorXd& own, const ModalLoad*
 
 /// One iteration, and the largest change it made: of a displacement over the length, of a rotation.
 double BeamMotion::improve(const ModalLoad* gas, std::vector<Resultants>& stress) {
-  const Response own = response(stress);
-  const Eigen::VectorXd q_dot =
-      gas != nullptr ? project_modes(own.S, own.g, *gas, dt_) : solve_modes(own.S, own.g);
+  assemble(stress, own_response_);
+  const auto& [S, g] = own_response_;
+  const Eigen::VectorXd q_dot = gas != nullptr ? solver_.project(S, g, *gas, dt_) : solver_.solve(S, g);
   if (q_dot.size() == 0 || !q_dot.allFinite()) {
     throw NumbersBroke(
         "the beam has a motion that no mass, no stiffness and no gas resists, or its numbers are not finite");
@@ -97,22 +136,59 @@ double BeamMotion::improve(const ModalLoad* gas, std::vector<Resultants>& stress
   correct(q_dot);
   const Eigen::VectorXd change = u_ - before;
   stress = model_.resultants_along(before, change);
+  const double length = model_.length();
   double largest = 0;
   for (Eigen::Index k = 0; k < change.size(); ++k)
-    largest = std::max(largest, std::abs(change[k]) / (k % 3 == 2 ? 1 : model_.length()));
+    largest = std::max(largest, std::abs(change[k]) / (k % 3 == 2 ? 1 : length));
   return largest;
 }
 
-Response BeamMotion::response(const std::vector<Resultants>& stress) const {
+void BeamMotion::assemble(const std::vector<Resultants>& stress, Response& into) const {
   const BackwardDifference bdf = difference();
-  const Eigen::SparseMatrix<double> K = model_.stiffness(u_, stress);
   const Eigen::VectorXd from_history = u_ - bdf.history(u_old_, u_older_) / bdf.leading;
   const Eigen::VectorXd past = bdf.history(v_old_, v_older_);
-  const Eigen::VectorXd load = own_ + model_.internal_force(u_) + K * from_history;
-  Eigen::SparseMatrix<double> S = (dt_ * dt_ / bdf.leading) * K;
-  S.diagonal() += bdf.leading * model_.mass();
-  return {.S = B_.transpose() * S * B_,
-          .g = B_.transpose() * (model_.mass().cwiseProduct(past) + dt_ * load)};
+  const double scale = dt_ * dt_ / bdf.leading;
+  double* const S = into.S.valuePtr();
+  std::fill_n(S, into.S.nonZeros(), 0.0);
+  into.g.setZero(modes());
+  for (int element = 0; element < model_.elements(); ++element) {
+    const auto k = static_cast<std::size_t>(element);
+    const ElementForce part = model_.element_force(u_, element, stress[k]);
+    Eigen::Matrix<double, 6, 1> own;
+    std::array<FreeMotion, 6> free;
+    for (std::size_t i = 0; i < 6; ++i) {
+      own[static_cast<Eigen::Index>(i)] = from_history[part.index[i]];
+      free[i] = free_motion(part.index[i]);
+    }
+    const Eigen::Matrix<double, 6, 1> load = part.force + part.stiffness * own;
+    for (std::size_t i = 0; i < 6; ++i) {
+      const auto row = static_cast<Eigen::Index>(i);
+      if (free[i].column >= 0) into.g[free[i].column] += dt_ * free[i].part * load[row];
+      for (std::size_t j = 0; j < 6; ++j) {
+        const int place = places_[k][6 * i + j];
+        if (place < 0) continue;
+        S[place] += scale * free[i].part * free[j].part * part.stiffness(row, static_cast<Eigen::Index>(j));
+      }
+    }
+  }
+  for (Eigen::Index freedom = 0; freedom < model_.freedoms(); ++freedom) {
+    const auto& [column, part] = free_motion(freedom);
+    if (column < 0) continue;
+    const double mass = model_.mass()[freedom];
+    S[diagonal_[static_cast<std::size_t>(column)]] += bdf.leading * mass * part * part;
+    into.g[column] += part * (mass * past[freedom] + dt_ * own_[freedom]);
+  }
+}
+
+Response BeamMotion::lower_response() const {
+  Response result = own_response_;
+  assemble(model_.resultants(u_), result);
+  return result;
+}
+
+Response BeamMotion::response() const {
+  const Response lower = lower_response();
+  return {.S = lower.S.selfadjointView<Eigen::Lower>(), .g = lower.g};
 }
 
 void BeamMotion::correct(const Eigen::VectorXd& q_dot) {

@@ -24,12 +24,13 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <array>
+#include <cstddef>
 #include <vector>
 
 #include "common/core/archive.hpp"
 #include "common/core/backward_difference.hpp"
 #include "common/core/choices.hpp"
-#include "common/interface/modal.hpp"
+#include "common/interface/modal_system.hpp"
 #include "solid_solver/beam/model.hpp"
 
 namespace fsi::beam {
@@ -38,6 +39,12 @@ using End = BeamEnd;
 
 /// Unit vectors of the motions that the supports of a line leave, in columns.
 Eigen::SparseMatrix<double> free_motions(const Line& line, const std::array<End, 2>& ends);
+
+/// Where a degree of freedom appears among the free motions.
+struct FreeMotion {
+  int column = -1;  ///< -1: it is held
+  double part = 0;  ///< of the motion's unit vector
+};
 
 /// S and g of S q' = g + dt f.
 struct Response {
@@ -57,10 +64,13 @@ class BeamMotion {
   void advance(double dt, const Eigen::VectorXd& own, const ModalLoad* gas);
   /// Ends the step with the velocities of the free motions.
   void correct(const Eigen::VectorXd& q_dot);
-  Response response() const { return response(model_.resultants(u_)); }
+  Response response() const;
+  /// The same with the lower triangle of S alone, whose entries always have the same places.
+  Response lower_response() const;
 
   const BeamModel& model() const { return model_; }
   const Eigen::SparseMatrix<double>& free_motions() const { return B_; }
+  FreeMotion free_motion(Eigen::Index freedom) const { return free_[static_cast<std::size_t>(freedom)]; }
   Eigen::Index modes() const { return B_.cols(); }
   const Eigen::VectorXd& u() const { return u_; }
   const Eigen::VectorXd& u_dot() const { return u_dot_; }
@@ -76,10 +86,16 @@ class BeamMotion {
   BackwardDifference difference() const { return backward_difference(dt_, dt_before_); }
   Eigen::VectorXd displacement_of(const Eigen::VectorXd& u_dot) const;
   double improve(const ModalLoad* gas, std::vector<Resultants>& stress);
-  Response response(const std::vector<Resultants>& stress) const;
+  void find_places();
+  void assemble(const std::vector<Resultants>& stress, Response& into) const;
 
   BeamModel model_;
   Eigen::SparseMatrix<double> B_;  ///< free motions
+  std::vector<FreeMotion> free_;   ///< of every degree of freedom
+  std::vector<std::array<int, 36>> places_;  ///< of the elements' stiffness in the lower triangle; -1: none
+  std::vector<int> diagonal_;                ///< places of the diagonal there
+  Response own_response_;                    ///< lower triangle; used again in every iteration
+  ModalSolver solver_;
   Eigen::VectorXd u_, u_old_,
       u_older_;  ///< displacements and rotations now, before the step, and one more before
   Eigen::VectorXd u_dot_, v_old_, v_older_;  ///< velocities

@@ -102,8 +102,8 @@ void BeamParticipant::fill(std::size_t /*k*/, wire::PredictedInterface& predicte
                      .N = wire::entries_of(skin_.mode_vectors(motion_, skin_.normals(predicted.x))),
                      .q_dot = numbers(motion_.q_dot())};
   if (dt_ == 0) return;
-  const Response response = motion_.response();
-  predicted.modal.S = wire::lower_entries_of(response.S);
+  const Response response = motion_.lower_response();
+  predicted.modal.S = wire::entries_of(response.S);
   predicted.modal.g = numbers(response.g);
 }
 
@@ -115,7 +115,8 @@ void BeamParticipant::apply_bcs(double /*t*/, ProjectedStates projected) {
   std::vector<NormalSide> gas;
   for (std::size_t k = 0; k < skin_.points(); ++k)
     gas.push_back({.z = answer.z_f[k], .v_n = answer.v_n[k], .w_n = answer.w_n[k]});
-  gas_ = modal_load(skin_.mode_vectors(motion_, answer.n), gas, point_lengths(x));
+  added_mass_.take(skin_.mode_vectors(motion_, answer.n));
+  gas_ = &added_mass_.load(gas, point_lengths(x));
   load_ = rigid::load_of_gas(x, answer.n, answer.w_n, answer.v_n);
   impulse_.add(load_, dt_);
 }
@@ -123,7 +124,7 @@ void BeamParticipant::apply_bcs(double /*t*/, ProjectedStates projected) {
 /// Any number of substeps is one.
 void BeamParticipant::advance(double t, double dt, int /*substeps*/, ProjectedStates /*projected*/) {
   dt_ = dt;
-  motion_.advance(dt, own_load(t + dt), gas_ ? &*gas_ : nullptr);
+  motion_.advance(dt, own_load(t + dt), gas_);
 }
 
 std::array<double, 12> BeamParticipant::values_at(const Attached& point, const Vec2& x_bar) const {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/core/field.hpp"
+#include "common/interface/modal_system.hpp"
 #include "common/io/csv_writer.hpp"
 #include "common/io/grid_writer.hpp"
 #include "common/program/participant.hpp"
@@ -44,7 +45,8 @@ class BeamParticipant final : public Participant {
   std::vector<Attached> probes_;
   std::vector<Vec2> probe_places_;  ///< reference positions
   Field reference_, state_;  ///< two lines of points: the outline, and a line just beside the centre line
-  std::optional<ModalLoad> gas_;  ///< what the gas answered last
+  AddedMass added_mass_;
+  const ModalLoad* gas_ = nullptr;  ///< what the gas answered last
   rigid::GasLoad load_;
   rigid::Impulse impulse_;
   double dt_ = 0;  ///< of the step going on; 0 before the first

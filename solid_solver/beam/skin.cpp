@@ -130,23 +130,40 @@ std::vector<std::uint8_t> Skin::freedom() const {
 Eigen::SparseMatrix<double> Skin::mode_vectors(const BeamMotion& beam,
                                                const std::vector<double>& normals) const {
   const std::size_t n = points();
-  std::vector<Eigen::Triplet<double>> entries;
-  entries.reserve(12 * n);
+  std::vector<int> starts{0}, rows;
+  std::vector<double> values;
+  for (std::vector<int>* indices : {&starts, &rows}) indices->reserve(12 * n + 1);
+  values.reserve(12 * n);
+  std::array<std::pair<int, double>, 12> column;
   for (std::size_t k = 0; k < n; ++k) {
     const Attached& point = places_[k];
     const Vec2 normal(normals[k], normals[n + k]);
     const double turning = normal.dot(across(turned(state_of(beam, point).theta, point.r)));
+    const std::array<double, 3> on_node{normal.x(), normal.y(), turning};
+    auto last = column.begin();
     for (std::size_t l = 0; l < 4; ++l) {
       if (point.weight[l] == 0) continue;
-      const int first = 3 * point.node[l], column = static_cast<int>(k);
-      entries.emplace_back(first, column, point.weight[l] * normal.x());
-      entries.emplace_back(first + 1, column, point.weight[l] * normal.y());
-      entries.emplace_back(first + 2, column, point.weight[l] * turning);
+      for (int c = 0; c < 3; ++c) {
+        const FreeMotion free = beam.free_motion(freedom_of(point.node[l]) + c);
+        const double value = point.weight[l] * on_node[static_cast<std::size_t>(c)] * free.part;
+        if (free.column >= 0) *last++ = {free.column, value};
+      }
     }
+    std::sort(column.begin(), last, [](const auto& a, const auto& b) { return a.first < b.first; });
+    for (auto entry = column.begin(); entry != last; ++entry) {
+      const bool again = rows.size() > static_cast<std::size_t>(starts.back()) && rows.back() == entry->first;
+      if (again) {
+        values.back() += entry->second;  // x and y of a guided end
+      } else {
+        rows.push_back(entry->first);
+        values.push_back(entry->second);
+      }
+    }
+    starts.push_back(static_cast<int>(rows.size()));
   }
-  Eigen::SparseMatrix<double> N(beam.model().freedoms(), static_cast<Eigen::Index>(n));
-  N.setFromTriplets(entries.begin(), entries.end());
-  return beam.free_motions().transpose() * N;
+  return Eigen::Map<const Eigen::SparseMatrix<double>>(beam.modes(), static_cast<Eigen::Index>(n),
+                                                       static_cast<Eigen::Index>(values.size()), starts.data(),
+                                                       rows.data(), values.data());
 }
 
 }  // namespace fsi::beam

@@ -8,7 +8,8 @@
 #include <vector>
 
 #include "common/core/backward_difference.hpp"
-#include "common/interface/modal.hpp"
+#include "common/interface/modal_system.hpp"
+#include "common/wire/sparse.hpp"
 
 namespace fsi {
 namespace {
@@ -108,6 +109,68 @@ TEST(ModalProjection, ManyModesAreSolvedAsFewAre) {
   const Eigen::VectorXd g = Eigen::VectorXd::LinSpaced(k, -1, 1);
   const Eigen::VectorXd q_dot = project_modes(sparse(S.triangularView<Eigen::Lower>()), g, load, 0.3);
   EXPECT_LE((S * q_dot - g - 0.3 * (load.f - load.A * q_dot)).norm(), 1e-13);
+}
+
+/// Mode vectors of a chain: each point moves with two neighbouring modes, or with modes `apart` from each other.
+Eigen::SparseMatrix<double> chain(int modes, int points, int apart) {
+  Eigen::MatrixXd N = Eigen::MatrixXd::Zero(modes, points);
+  for (int i = 0; i < points; ++i) {
+    N(i % modes, i) = 1 + 0.1 * i;
+    N((i + apart) % modes, i) = 0.7 - 0.05 * i;
+  }
+  return sparse(N);
+}
+
+TEST(AddedMass, IsTheLoadOfTheGasWhereverItsEntriesAre) {
+  constexpr int modes = 20, points = 33;
+  std::vector<NormalSide> gas;
+  std::vector<double> ds;
+  for (int i = 0; i < points; ++i) {
+    gas.push_back({.z = 1 + 0.1 * i, .v_n = std::sin(i), .w_n = std::cos(i)});
+    ds.push_back(0.3 + 0.01 * i);
+  }
+  AddedMass added;
+  for (const int apart : {1, 1, 7, 1}) {
+    const Eigen::SparseMatrix<double> N = (apart + 0.5) * chain(modes, points, apart);
+    added.take(N);
+    const ModalLoad& load = added.load(gas, ds);
+    const ModalLoad expected = modal_load(N, gas, ds);
+    const Eigen::MatrixXd A = Eigen::MatrixXd(load.A).selfadjointView<Eigen::Lower>();
+    EXPECT_LE((A - Eigen::MatrixXd(expected.A)).norm(), 1e-12 * A.norm()) << apart;
+    EXPECT_LE((load.f - expected.f).norm(), 1e-12 * load.f.norm()) << apart;
+  }
+}
+
+TEST(ModalSolver, SolvesForEachMatrixWhateverItSolvedBefore) {
+  constexpr int modes = 40;
+  const Eigen::VectorXd right = Eigen::VectorXd::LinSpaced(modes, -1, 2);
+  ModalSolver solver;
+  for (const int apart : {1, 1, 9, 1}) {
+    const Eigen::SparseMatrix<double> N = chain(modes, 60, apart);
+    const Eigen::SparseMatrix<double> S = 0.1 * apart * Eigen::SparseMatrix<double>(N * N.transpose());
+    const Eigen::VectorXd x = solver.solve(S, right);
+    ASSERT_EQ(x.size(), modes);
+    EXPECT_LE((S * x - right).norm(), 1e-9 * right.norm()) << apart;
+  }
+  Eigen::SparseMatrix<double> singular(modes, modes);
+  singular.setIdentity();
+  singular.coeffRef(3, 3) = 0;
+  EXPECT_EQ(solver.solve(singular, right).size(), 0);
+  EXPECT_EQ(solver.solve(chain(modes, modes, 9) * chain(modes, modes, 9).transpose(), right).size(), modes);
+}
+
+TEST(SparseMessage, IsTheSameMatrixInAnyOrderOfItsEntries) {
+  const Eigen::SparseMatrix<double> N = chain(6, 9, 2);
+  const wire::SparseMatrix ordered = wire::entries_of(N);
+  wire::SparseMatrix reversed = ordered, doubled = ordered;
+  for (auto* numbers : {&reversed.row, &reversed.column}) std::ranges::reverse(*numbers);
+  std::ranges::reverse(reversed.value);
+  doubled.row.push_back(ordered.row.front());  // entries of one place add up
+  doubled.column.push_back(ordered.column.front());
+  doubled.value.push_back(2);
+  EXPECT_EQ((wire::matrix_of(ordered, 6, 9) - N).norm(), 0);
+  EXPECT_EQ((wire::matrix_of(reversed, 6, 9) - N).norm(), 0);
+  EXPECT_EQ((wire::matrix_of(doubled, 6, 9) - N).norm(), 2);
 }
 
 TEST(ModalLoad, Eq19GasAtRestResistsEveryMotionOfARigidBody) {
