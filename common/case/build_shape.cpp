@@ -14,6 +14,7 @@
 #include "common/case/grid_points.hpp"
 #include "common/core/suggest.hpp"
 #include "common/core/text_file.hpp"
+#include "common/grid/shapes/blunted.hpp"
 #include "common/grid/shapes/circle.hpp"
 #include "common/grid/shapes/ellipse.hpp"
 #include "common/grid/shapes/plane_curve.hpp"
@@ -67,7 +68,19 @@ grid::PlaneCurve curve_of(const Node& shape, bool closed, const std::string& pat
   }
   const Node* through = shape.find("through");
   if (through == nullptr) fail(shape.place, path, "give `through: [[x, y], ..]` or `file: NAME.csv`");
-  return grid::spline(points_of(*through), ends);
+  double corner_angle = 180;
+  Reader::assign(shape, "corner_angle", corner_angle);
+  return grid::spline(points_of(*through), ends, corner_angle / 180 * std::numbers::pi);
+}
+
+/// The curve, its sharpest ends cut off.
+grid::PlaneCurve blunted_curve(const Reader& reader, const Node& shape, bool closed,
+                               const std::string& path) {
+  const grid::PlaneCurve curve = curve_of(shape, closed, path);
+  constexpr double usual = 0.5;  // a face of one cell, half as wide as others
+  double width = usual * reader.scope().constants.at("h");
+  Reader::assign(shape, "blunt", width);
+  return grid::blunted(curve, width);
 }
 
 std::vector<grid::PointWeight> weights_of(const Node& shape) {
@@ -262,10 +275,12 @@ CurveSpec build_curve(const Reader& reader, const Node& shape, const std::string
   CurveSpec result;
   result.walls = walls_of(shape, path);
   try {
-    const grid::PlaneCurve curve = curve_of(shape, result.closed(), path);
+    const grid::PlaneCurve curve = blunted_curve(reader, shape, result.closed(), path);
     const double length = grid::length_of(curve);
     const int points = wanted ? *wanted : count_of(reader, shape, length, result.closed(), path);
-    result.x = grid::points_on(curve, points, weights_of(shape));
+    const std::vector<double> s = grid::distribute(curve, points, weights_of(shape));
+    result.x = grid::points_at(curve, s);
+    result.corners = grid::corners_among(curve, s);
     result.spacing = length / (points - 1);
   } catch (const UserMistake& mistake) {
     const std::string what = mistake.what();

@@ -50,7 +50,12 @@ struct GridSpec {
 struct CurveSpec {
   std::vector<double> x;  ///< 2 n, component-major; of a closed curve the last point is the first one
   double spacing = 0;     ///< mean distance of points
-  std::optional<std::array<Side, 2>> walls;  ///< open: sides of the background on which its ends lie
+  /// Open: sides of the background on which its ends lie; of a curve on a wall, those it stands for: the side
+  /// whose direction into the domain is nearest to the wall's.
+  std::optional<std::array<Side, 2>> walls = {};
+  std::string on = {};             ///< the gas's grid along the wall on which both ends stand; empty: sides
+  std::array<Vec2, 2> along = {};  ///< direction of that wall at the first and at the last point
+  std::vector<int> corners = {};   ///< points at which it turns sharply
 
   bool closed() const { return !walls.has_value(); }
   int points() const { return static_cast<int>(x.size() / 2); }

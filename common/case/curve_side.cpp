@@ -77,6 +77,11 @@ void put_body_to_the_left(CurveSpec& curve, const std::optional<std::array<doubl
   };
   if (!backwards()) return;
   reverse_direction(curve.x);
+  for (int& corner : curve.corners) {
+    const bool seam = corner == 0;  // of a closed curve, which begins where it ends
+    corner = seam ? 0 : curve.points() - 1 - corner;
+  }
+  std::ranges::sort(curve.corners);
   if (curve.walls) std::swap(curve.walls->front(), curve.walls->back());
 }
 

@@ -43,8 +43,8 @@ struct Measures {
 
   explicit Measures(const CurveSpec& curve)
       : length(length_of(curve)),
-        inwards(grid::sharpest_bend(curve.x, ends_of(curve), 1)),
-        outwards(grid::sharpest_bend(curve.x, ends_of(curve), -1)),
+        inwards(grid::sharpest_bend(curve.x, ends_of(curve), 1, curve.corners)),
+        outwards(grid::sharpest_bend(curve.x, ends_of(curve), -1, curve.corners)),
         thickness(grid::narrowest(curve.x, ends_of(curve), 1)) {}
 
   /// The deepest grid along the outline that leaves room for a core.
@@ -162,7 +162,7 @@ std::vector<Room> rooms_of(const GridSpec& background, const std::vector<BodyFit
     const CurveSpec& curve = ring.curve;
     const double to_gas = ring.side == Side::top ? -1 : 1;
     Room room{.own = std::min(0.5 * grid::narrowest(curve.x, ends_of(curve), to_gas).distance,
-                              grid::sharpest_bend(curve.x, ends_of(curve), to_gas).radius),
+                              grid::sharpest_bend(curve.x, ends_of(curve), to_gas, curve.corners).radius),
               .between = std::numeric_limits<double>::infinity()};
     for (const BodyFittedSpec& other : rings) {
       if (&other != &ring)

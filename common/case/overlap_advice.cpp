@@ -35,7 +35,7 @@ double depth_of(const BodyFittedSpec& spec) {
 
 grid::Bend bend_of(const BodyFittedSpec& spec) {
   return grid::sharpest_bend(spec.curve.x, spec.curve.closed() ? grid::Curve::closed : grid::Curve::open,
-                             spec.side == Side::bottom ? 1 : -1);
+                             spec.side == Side::bottom ? 1 : -1, spec.curve.corners);
 }
 
 double spacing_of(const GridSpec& grid) {

@@ -72,6 +72,12 @@ constexpr array ellipse_keys{
         .unit = "degree",
         .fallback = "0"},
 };
+constexpr Key blunt_key{
+    .name = "blunt",
+    .meaning = "corners that turn by more than 110 degrees are cut off where the sides are so far apart",
+    .unit = "length",
+    .fallback = "0.5 * h",
+    .range = positive};
 constexpr array polygon_keys{
     Key{.name = "corners",
         .type = Type::list,
@@ -81,16 +87,18 @@ constexpr array polygon_keys{
         .most = 200,
         .element = &point_element},
     Key{.name = "radius",
-        .meaning = "corners become arcs of this radius between edges that stay where they are",
+        .meaning =
+            "corners become arcs of this radius between edges that stay where they are; 0: sharp corners",
         .unit = "length",
         .fallback = "from `sharpness`",
-        .range = positive},
+        .range = {.low = 0}},
     Key{.name = "sharpness",
         .meaning =
             "in place of `radius`: one over the radius of the rounded corners, in parts of the length; "
             "the outline is drawn in from its corners",
         .fallback = "50",
         .range = positive},
+    blunt_key,
 };
 constexpr array spline_keys{
     Key{.name = "through",
@@ -103,6 +111,14 @@ constexpr array spline_keys{
         .type = Type::text,
         .meaning = "CSV file with the points, x, y on each line; relative to the case file",
         .fallback = "from `through`"},
+    Key{.name = "corner_angle",
+        .meaning =
+            "the outline has a sharp corner at every point where the lines from point to point turn by more "
+            "than this: a trailing edge",
+        .unit = "degree",
+        .fallback = "180: smooth everywhere",
+        .range = {.low = 1, .high = 180}},
+    blunt_key,
 };
 constexpr array shape_variants{
     Variant{"circle", "a circle", circle_keys},

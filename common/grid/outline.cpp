@@ -131,10 +131,11 @@ Gap gap_between(std::span<const double> a, std::span<const double> b) {
   return gap;
 }
 
-Bend sharpest_bend(std::span<const double> x, Curve ends, double turn) {
+Bend sharpest_bend(std::span<const double> x, Curve ends, double turn, std::span<const int> corners) {
   const std::size_t n = x.size() / 2;
   Bend bend{.radius = std::numeric_limits<double>::infinity()};
   for (std::size_t k = ends == Curve::closed ? 0 : 1; k + 1 < n; ++k) {
+    if (std::ranges::find(corners, static_cast<int>(k)) != corners.end()) continue;
     const Vec2 before = point(x, k == 0 ? n - 2 : k - 1), here = point(x, k), after = point(x, k + 1);
     const double area = turn * cross(here - before, after - here);
     if (!(area > 0)) continue;

@@ -39,12 +39,12 @@ struct Gap {
 Gap gap_between(std::span<const double> a, std::span<const double> b);
 
 /// The smallest radius of curvature of a curve where it turns to the left (`turn` = 1) or to the right (-1),
-/// and where; infinite where it never does.
+/// and where; infinite where it never does. At `corners` (points) it turns with no radius: left out.
 struct Bend {
   double radius = 0;
   Vec2 x = Vec2::Zero();
 };
-Bend sharpest_bend(std::span<const double> x, Curve ends, double turn);
+Bend sharpest_bend(std::span<const double> x, Curve ends, double turn, std::span<const int> corners = {});
 
 /// The shortest way along a normal from a curve to the next place of it, on its left (`side` = 1) or on its
 /// right

@@ -20,6 +20,8 @@ struct PlaneCurve {
   std::function<Vec2(double s)> position;
   std::function<Vec2(double s)> slope;  ///< dx/ds
   bool even = false;                    ///< s is proportional to the arclength
+  /// Parameters, ascending, 0 <= s < 1, where the direction jumps; an open curve has none at its ends.
+  std::vector<double> corners = {};
 };
 
 /// Draws points together around one place of a curve: adds strength/2 tanh(sharpness (r - place)) to the
@@ -34,8 +36,13 @@ struct PointWeight {
 double length_of(const PlaneCurve& curve);
 
 /// Parameters of n points, both ends included, evenly in arclength or by weights in arclength. Ascending
-/// from 0 to 1. @throws UserMistake for n < 3 or weights that turn the points back
+/// from 0 to 1. Each corner is one of the points; those between two corners are evenly spaced.
+/// @throws UserMistake for n < 3, weights that turn the points back, or fewer points than corners take
 std::vector<double> distribute(const PlaneCurve& curve, int n, std::span<const PointWeight> weights = {});
+
+/// Points of the curve at parameters, component-major, and which of them are corners.
+std::vector<double> points_at(const PlaneCurve& curve, std::span<const double> s);
+std::vector<int> corners_among(const PlaneCurve& curve, std::span<const double> s);
 
 /// n points of the curve at distribute()'s parameters, 2 n.
 std::vector<double> points_on(const PlaneCurve& curve, int n, std::span<const PointWeight> weights = {});

@@ -58,7 +58,8 @@ Skeleton skeleton_of(const RoundedPolygon& shape) {
   if (shape.corners.size() < (closed ? 3U : 2U))
     throw UserMistake(
         fmt::format("a polygon of {} corners; write at least 2, 3 for a closed one", shape.corners.size()));
-  if (!(shape.radius > 0)) throw UserMistake("radius of a polygon's corners; write a positive number");
+  if (!(shape.radius >= 0))
+    throw UserMistake("radius of a polygon's corners; write a positive number, or 0 for sharp ones");
   Skeleton skeleton{.points = shape.corners, .directions = {}, .lengths = {}, .corners = {}};
   if (closed) skeleton.points.push_back(shape.corners.front());
   const std::size_t edges = skeleton.points.size() - 1;
@@ -122,11 +123,23 @@ std::vector<Piece> pieces_of(const RoundedPolygon& shape) {
   return pieces;
 }
 
+/// Where the pieces of a polygon without arcs meet at an angle, as parts of its length.
+std::vector<double> corners_of(const std::vector<Piece>& pieces, double total) {
+  constexpr double straight = 1e-9;
+  std::vector<double> corners;
+  for (std::size_t k = 1; k < pieces.size(); ++k) {
+    if ((pieces[k].direction - pieces[k - 1].tangent(pieces[k - 1].length)).norm() > straight)
+      corners.push_back(pieces[k].from / total);
+  }
+  return corners;
+}
+
 }  // namespace
 
 PlaneCurve rounded_polygon(const RoundedPolygon& shape) {
   const std::vector<Piece> pieces = pieces_of(shape);
   const double total = pieces.back().from + pieces.back().length;
+  const std::vector<double> corners = corners_of(pieces, total);
   const auto piece_at = [pieces, total, closed = shape.ends == Curve::closed](double s) {
     double r = closed ? s - std::floor(s) : s;
     r *= total;
@@ -143,7 +156,7 @@ PlaneCurve rounded_polygon(const RoundedPolygon& shape) {
     return Vec2(total * piece.tangent(r));
   };
   if (shape.ends == Curve::closed)
-    return {.ends = Curve::closed, .position = position, .slope = slope, .even = true};
+    return {.ends = Curve::closed, .position = position, .slope = slope, .even = true, .corners = corners};
   // The ends to the bit: they stand on walls.
   return {
       .ends = shape.ends,
@@ -152,7 +165,8 @@ PlaneCurve rounded_polygon(const RoundedPolygon& shape) {
         return s == 1 ? last : position(s);
       },
       .slope = slope,
-      .even = true};
+      .even = true,
+      .corners = corners};
 }
 
 }  // namespace fsi::grid

@@ -5,7 +5,8 @@
 ///      /      \          outline reaches as far as an edge does and no other corner changes it
 ///     |        |
 ///
-/// The parameter is the arclength. The curvature jumps where an arc begins.
+/// The parameter is the arclength. The curvature jumps where an arc begins. With a radius of 0 the corners
+/// are sharp, and corners of the curve.
 
 #include <vector>
 
@@ -16,7 +17,7 @@ namespace fsi::grid {
 struct RoundedPolygon {
   std::vector<Vec2> corners = {};  ///< a closed polygon's last corner is joined to its first one
   Curve ends = Curve::open;        ///< open: the first and the last corner are its ends
-  double radius = 0;               ///< of every corner's arc
+  double radius = 0;               ///< of every corner's arc; 0: sharp corners
 };
 
 /// Starts in the middle of a closed polygon's first edge, at an open one's first corner.

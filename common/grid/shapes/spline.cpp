@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <memory>
+#include <numbers>
 #include <utility>
 
 #include "common/core/failure.hpp"
@@ -15,9 +16,10 @@ namespace fsi::grid {
 namespace {
 
 struct Knots {
-  std::vector<double> s;      ///< parameters, 0 .. 1
-  std::vector<Vec2> x;        ///< points
-  std::vector<Vec2> tangent;  ///< dx/ds
+  std::vector<double> s;  ///< parameters, 0 .. 1
+  std::vector<Vec2> x;    ///< points
+  /// dx/ds on either side of each knot; the same but at corners.
+  std::vector<Vec2> leaving, arriving;
 
   std::size_t piece(double at) const {
     const auto above = std::upper_bound(s.begin() + 1, s.end() - 1, at);
@@ -27,25 +29,27 @@ struct Knots {
     const std::size_t k = piece(at);
     const double h = s[k + 1] - s[k], q = (at - s[k]) / h, p = 1 - q;
     return p * p * (1 + 2 * q) * x[k] + q * q * (1 + 2 * p) * x[k + 1] +
-           h * p * q * (p * tangent[k] - q * tangent[k + 1]);
+           h * p * q * (p * leaving[k] - q * arriving[k + 1]);
   }
   Vec2 slope(double at) const {
     const std::size_t k = piece(at);
     const double h = s[k + 1] - s[k], q = (at - s[k]) / h, p = 1 - q;
-    return 6 * p * q / h * (x[k + 1] - x[k]) + p * (p - 2 * q) * tangent[k] +
-           q * (q - 2 * p) * tangent[k + 1];
+    return 6 * p * q / h * (x[k + 1] - x[k]) + p * (p - 2 * q) * leaving[k] +
+           q * (q - 2 * p) * arriving[k + 1];
   }
 };
 
-/// Slope at s[at] of the cubic through the points at, at + step, at + 2 step, at + 3 step.
+/// Slope at s[at] of the cubic through the points at, at + step, at + 2 step, at + 3 step, or of the
+/// polynomial through all points where they are fewer.
 Vec2 end_slope(const Knots& knots, std::size_t at, std::ptrdiff_t step) {
   const auto index = [&](int k) {
     return static_cast<std::size_t>(static_cast<std::ptrdiff_t>(at) + k * step);
   };
+  const int count = std::min(4, static_cast<int>(knots.x.size()));
   Vec2 slope = Vec2::Zero();
-  for (int k = 1; k < 4; ++k) {
+  for (int k = 1; k < count; ++k) {
     double weight = 1 / (knots.s[index(k)] - knots.s[at]);
-    for (int m = 1; m < 4; ++m) {
+    for (int m = 1; m < count; ++m) {
       if (m != k) weight *= (knots.s[index(m)] - knots.s[at]) / (knots.s[index(m)] - knots.s[index(k)]);
     }
     slope += weight * (knots.x[index(k)] - knots.x[at]);
@@ -117,17 +121,44 @@ std::vector<Vec2> closed_tangents(const Knots& knots) {
   return tangents;
 }
 
-Knots knots_of(std::vector<Vec2> points, Curve ends) {
-  if (ends == Curve::closed && points.size() > 1) {
-    const double seam = (points.back() - points.front()).norm();
-    const bool given_again = seam < 1e-9 * (points[1] - points.front()).norm();
-    if (given_again) points.pop_back();
+/// By how much the way from a to c turns at b, 0 .. pi.
+double turn_at(const Vec2& a, const Vec2& b, const Vec2& c) {
+  const Vec2 in = b - a, out = c - b;
+  return std::abs(std::atan2(in[0] * out[1] - in[1] * out[0], in.dot(out)));
+}
+
+/// Points of the curve, a closed one's first one again at the end.
+std::vector<Vec2> completed(std::vector<Vec2> points, Curve ends) {
+  if (ends == Curve::open || points.size() < 2) return points;
+  const double seam = (points.back() - points.front()).norm();
+  const bool given_again = seam < 1e-9 * (points[1] - points.front()).norm();
+  if (given_again) points.pop_back();
+  points.push_back(points.front());
+  return points;
+}
+
+/// The points at which the curve turns by more than an angle; of a closed one, which begins at the first of
+/// them afterwards, without that.
+std::vector<std::size_t> corners_of(std::vector<Vec2>& points, Curve ends, double angle) {
+  const std::size_t n = points.size();
+  if (ends == Curve::closed && n > 3) {
+    points.pop_back();
+    for (std::size_t k = 0; k < n - 1; ++k) {
+      if (!(turn_at(points[(k + n - 2) % (n - 1)], points[k], points[(k + 1) % (n - 1)]) > angle)) continue;
+      std::ranges::rotate(points, points.begin() + static_cast<std::ptrdiff_t>(k));
+      break;
+    }
     points.push_back(points.front());
   }
-  if (points.size() < 4 + static_cast<std::size_t>(ends == Curve::closed)) {
-    throw UserMistake(fmt::format("a spline through {} points; write at least 4", points.size()));
+  std::vector<std::size_t> corners;
+  for (std::size_t k = 1; k + 1 < n; ++k) {
+    if (turn_at(points[k - 1], points[k], points[k + 1]) > angle) corners.push_back(k);
   }
-  Knots knots{std::vector<double>(points.size(), 0.0), std::move(points), {}};
+  return corners;
+}
+
+Knots knots_of(std::vector<Vec2> points) {
+  Knots knots{std::vector<double>(points.size(), 0.0), std::move(points), {}, {}};
   for (std::size_t k = 1; k < knots.x.size(); ++k) {
     const double chord = (knots.x[k] - knots.x[k - 1]).norm();
     if (!(chord > 0)) {
@@ -140,15 +171,65 @@ Knots knots_of(std::vector<Vec2> points, Curve ends) {
   return knots;
 }
 
+/// The tangents of an open spline through some of the knots.
+std::vector<Vec2> open_tangents(const Knots& knots, std::size_t first, std::size_t last) {
+  const auto part = [&](const auto& values) {
+    return std::vector(values.begin() + static_cast<std::ptrdiff_t>(first),
+                       values.begin() + static_cast<std::ptrdiff_t>(last) + 1);
+  };
+  const Knots own{part(knots.s), part(knots.x), {}, {}};
+  return solve(rows_of(own, Curve::open));
+}
+
+/// Stretches between corners, each an open spline.
+void find_open_tangents(Knots& knots, const std::vector<std::size_t>& corners) {
+  std::vector<std::size_t> ends = corners;
+  ends.insert(ends.begin(), 0);
+  ends.push_back(knots.x.size() - 1);
+  knots.leaving.resize(knots.x.size());
+  knots.arriving.resize(knots.x.size());
+  for (std::size_t m = 0; m + 1 < ends.size(); ++m) {
+    const std::vector<Vec2> tangents = open_tangents(knots, ends[m], ends[m + 1]);
+    for (std::size_t k = 0; k < tangents.size(); ++k) {
+      if (ends[m] + k < ends[m + 1]) knots.leaving[ends[m] + k] = tangents[k];
+      if (k > 0) knots.arriving[ends[m] + k] = tangents[k];
+    }
+  }
+}
+
+void check_count(std::size_t points, Curve ends, bool corners) {
+  const std::size_t fewest = corners ? 3 : 4;
+  if (points >= fewest + static_cast<std::size_t>(ends == Curve::closed)) return;
+  throw UserMistake(fmt::format("a spline through {} points; write at least {}", points, fewest));
+}
+
 }  // namespace
 
-PlaneCurve spline(std::vector<Vec2> points, Curve ends) {
-  Knots knots = knots_of(std::move(points), ends);
-  knots.tangent = ends == Curve::closed ? closed_tangents(knots) : solve(rows_of(knots, ends));
+PlaneCurve spline(std::vector<Vec2> points, Curve ends, double corner_angle) {
+  points = completed(std::move(points), ends);
+  const bool looks_for_corners = corner_angle < std::numbers::pi;
+  check_count(points.size(), ends, looks_for_corners);
+  std::vector<std::size_t> corners;
+  bool starts_at_corner = false;
+  if (looks_for_corners) {
+    corners = corners_of(points, ends, corner_angle);
+    const std::size_t n = points.size();
+    starts_at_corner = ends == Curve::closed && turn_at(points[n - 2], points[0], points[1]) > corner_angle;
+  }
+  Knots knots = knots_of(std::move(points));
+  if (ends == Curve::closed && !starts_at_corner) {
+    knots.leaving = knots.arriving = closed_tangents(knots);
+  } else {
+    find_open_tangents(knots, corners);
+  }
+  std::vector<double> places;
+  if (starts_at_corner) places.push_back(0);
+  for (const std::size_t k : corners) places.push_back(knots.s[k]);
   const auto shared = std::make_shared<const Knots>(std::move(knots));
   return {.ends = ends,
           .position = [shared](double s) { return shared->position(s); },
-          .slope = [shared](double s) { return shared->slope(s); }};
+          .slope = [shared](double s) { return shared->slope(s); },
+          .corners = std::move(places)};
 }
 
 }  // namespace fsi::grid
