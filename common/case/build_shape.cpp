@@ -10,6 +10,7 @@
 #include <optional>
 #include <utility>
 
+#include "common/case/build_walls.hpp"
 #include "common/case/curve_side.hpp"
 #include "common/case/grid_points.hpp"
 #include "common/core/suggest.hpp"
@@ -120,10 +121,6 @@ std::optional<std::array<double, 4>> gas_rectangle(const Reader& reader) {
   return std::array{*x->items[0].number, *x->items[1].number, *y->items[0].number, *y->items[1].number};
 }
 
-Side side_of(const Node& node) {
-  return *std::ranges::find(all_sides, node.text, [](Side side) { return std::string(name_of(side)); });
-}
-
 /// What a solid's `body_fitted` and an entry of the gas's have in common.
 BodyFittedSpec build_fitted(const Reader& reader, const Node* node, CurveSpec curve,
                             const std::string& name) {
@@ -166,6 +163,16 @@ void assign_boundaries(BodyFittedSpec& grid, const BoundarySpec& on_curve,
   }
 }
 
+/// The ends of curves that stand on the wall of another grid get that wall's condition.
+void assign_ends_on_walls(std::vector<BodyFittedSpec>& grids) {
+  for (BodyFittedSpec& grid : grids) {
+    const auto wall = std::ranges::find(grids, grid.curve.on, &BodyFittedSpec::name);
+    if (grid.curve.on.empty() || wall == grids.end()) continue;
+    for (const Side side : {Side::left, Side::right})
+      grid.boundary[static_cast<std::size_t>(side)] = wall->boundary[static_cast<std::size_t>(wall->side)];
+  }
+}
+
 /// What holds on the curve.
 BoundarySpec boundary_or(const Reader& reader, const Owner& owner, const Node* node, const std::string& path,
                          BoundaryKind fallback) {
@@ -190,13 +197,6 @@ const SolidSpec& solid_named(const std::vector<SolidSpec>& solids, const Node& n
        fmt::format("there is no solid {}{}", in_ticks(name.text), did_you_mean(name.text, names)));
 }
 
-std::optional<std::array<Side, 2>> walls_of(const Node& owner, const std::string& path) {
-  const Node* walls = owner.find("walls");
-  if (walls == nullptr) return std::nullopt;
-  if (walls->items.size() != 2) fail(walls->place, path + ".walls", "must be two sides, [bottom, bottom]");
-  return std::array{side_of(walls->items[0]), side_of(walls->items[1])};
-}
-
 /// Number of points a grid at a solid has of its own.
 std::optional<int> own_points(const Node& node) {
   const Node* points = node.find("points");
@@ -216,16 +216,17 @@ CurveSpec outline_of(const Reader& reader, const Node& node, const SolidSpec& so
 BodyFittedSpec build_grid_at_solid(const Reader& reader, const Node& node, const std::string& path,
                                    const SolidSpec& solid) {
   const std::string name = node.find("name")->text;
-  const auto walls = walls_of(node, path);
+  CurveSpec curve{.x = {}, .spacing = reader.scope().constants.at("h")};
+  read_walls(node, path, curve);
   if (!solid.body_fitted.empty()) {
-    if (walls)
+    if (curve.walls)
       fail(node.find("walls")->place, path + ".walls", "the outline of the solid has its own; leave it out");
     BodyFittedSpec grid = build_fitted(reader, &node, outline_of(reader, node, solid), name);
     grid.side = Side::top;
     return grid;
   }
   const auto meets = std::ranges::find(solid.boundary, BoundaryKind::interface, &BoundarySpec::kind);
-  if (meets == solid.boundary.end() || !walls) {
+  if (meets == solid.boundary.end() || !curve.walls) {
     fail(
         node.place, path,
         fmt::format(
@@ -234,7 +235,6 @@ BodyFittedSpec build_grid_at_solid(const Reader& reader, const Node& node, const
             in_ticks(solid.name)));
   }
   const Side side = all_sides[static_cast<std::size_t>(meets - solid.boundary.begin())];
-  CurveSpec curve{.x = {}, .spacing = reader.scope().constants.at("h"), .walls = walls};
   curve.x = points_on_side(solid.grid, side, own_points(node).value_or(points_along(solid.grid, side)));
   BodyFittedSpec grid = build_fitted(reader, &node, std::move(curve), name);
   grid.side = side == Side::right || side == Side::bottom ? Side::top : Side::bottom;
@@ -273,7 +273,7 @@ BodyFittedSpec build_gas_grid(const Reader& reader, const Node& node, const std:
 CurveSpec build_curve(const Reader& reader, const Node& shape, const std::string& path,
                       std::optional<int> wanted) {
   CurveSpec result;
-  result.walls = walls_of(shape, path);
+  read_walls(shape, path, result);
   try {
     const grid::PlaneCurve curve = blunted_curve(reader, shape, result.closed(), path);
     const double length = grid::length_of(curve);
@@ -288,6 +288,7 @@ CurveSpec build_curve(const Reader& reader, const Node& shape, const std::string
     fail(shape.place, path, what);
   }
   put_body_to_the_left(result, gas_rectangle(reader));
+  stand_on_wall(reader, shape, path, result);
   return result;
 }
 
@@ -326,6 +327,7 @@ std::vector<BodyFittedSpec> build_fitted_grids(const Reader& reader, const Owner
     }
     result.push_back(std::move(grid));
   }
+  assign_ends_on_walls(result);
   return result;
 }
 

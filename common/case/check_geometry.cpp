@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <utility>
+#include <vector>
 
 #include "common/case/laws.hpp"
 #include "common/grid/outline.hpp"
@@ -24,7 +25,8 @@ struct Outline {
   std::string name;  ///< "solid `disk`"
   const Node& node;
   std::string path;
-  Side side;  ///< of the grid fitted to it; bottom: the domain is to the left of the curve
+  Side side;              ///< of the grid fitted to it; bottom: the domain is to the left of the curve
+  std::string grid = {};  ///< of the gas
 
   grid::Curve ends() const { return curve.closed() ? grid::Curve::closed : grid::Curve::open; }
   Vec2 point(std::size_t k) const { return {curve.x[k], curve.x[curve.x.size() / 2 + k]}; }
@@ -50,7 +52,7 @@ std::vector<Outline> outlines_in_gas(const Case& problem, const Node& root) {
     const auto solid = std::ranges::find(problem.solids, grids[k].solid, &SolidSpec::name);
     if (solid != problem.solids.end() && !solid->body_fitted.empty()) {
       const Outline own = outline_of(*solid, root);
-      outlines.push_back({grids[k].curve, own.name, own.node, own.path, grids[k].side});
+      outlines.push_back({grids[k].curve, own.name, own.node, own.path, grids[k].side, grids[k].name});
       continue;
     }
     const Node& node = root.find("fluid")->find("body_fitted")->items[k];
@@ -61,7 +63,8 @@ std::vector<Outline> outlines_in_gas(const Case& problem, const Node& root) {
                                                        : fmt::format("solid `{}`", grids[k].solid),
                         .node = shape != nullptr ? *shape : node,
                         .path = shape != nullptr ? path + ".shape" : path,
-                        .side = grids[k].side});
+                        .side = grids[k].side,
+                        .grid = grids[k].name});
   }
   return outlines;
 }
@@ -153,20 +156,20 @@ void check_within_gas(const Outline& outline, const GridSpec& gas) {
 
 /// The ends of an open curve stand on the sides it names.
 void check_ends(const Outline& outline, const GridSpec& gas) {
-  if (outline.curve.closed()) return;
+  if (outline.curve.closed() || !outline.curve.on.empty()) return;
   const auto last = static_cast<std::size_t>(outline.curve.points()) - 1;
   for (const std::size_t end : {0U, 1U}) {
     const Side wall = (*outline.curve.walls)[end];
     const Vec2 x = outline.point(end == 0 ? 0 : last);
     const double distance = std::abs(x[direction_of(wall)] - end_of(gas, wall));
     if (distance <= tolerance(gas)) continue;
-    fail(
-        outline.node.place, outline.path,
-        fmt::format(
-            "an end of the outline of {}, ({:.4g}, {:.4g}), is {:.4g} from the {} side of fluid.grid, {} = "
-            "{:.4g}, on which `walls` has it stand; let it end there (bodies cannot stand on other outlines)",
-            outline.name, x[0], x[1], distance, name_of(wall), direction_of(wall) == 0 ? "x" : "y",
-            end_of(gas, wall)));
+    fail(outline.node.place, outline.path,
+         fmt::format(
+             "an end of the outline of {}, ({:.4g}, {:.4g}), is {:.4g} from the {} side of fluid.grid, {} = "
+             "{:.4g}, on which `walls` has it stand; let it end there, or write the "
+             "name of the grid along the wall on which it stands",
+             outline.name, x[0], x[1], distance, name_of(wall), direction_of(wall) == 0 ? "x" : "y",
+             end_of(gas, wall)));
   }
 }
 
@@ -208,8 +211,17 @@ Excess deepest(const Outline& outline, const Outline& other) {
   return worst;
 }
 
+/// The points of a curve without its ends, which may stand on the other one.
+std::vector<double> between_ends(const Outline& outline, const Outline& other) {
+  std::vector<double> x = outline.curve.x;
+  if (outline.curve.on.empty() || outline.curve.on != other.grid) return x;
+  const auto n = static_cast<std::ptrdiff_t>(x.size() / 2);
+  for (const std::ptrdiff_t end : {2 * n - 1, n, n - 1, std::ptrdiff_t{0}}) x.erase(x.begin() + end);
+  return x;
+}
+
 void check_apart(const Outline& outline, const Outline& other) {
-  const auto crossing = grid::crossing_of(outline.curve.x, other.curve.x);
+  const auto crossing = grid::crossing_of(between_ends(outline, other), between_ends(other, outline));
   const bool within = outline.behind(other.point(0)) || other.behind(outline.point(0));
   if (!crossing && !within) return;
   Excess overlap = deepest(outline, other);

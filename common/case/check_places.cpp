@@ -55,7 +55,8 @@ bool behind(const BodyFittedSpec& spec, const GridSpec& background, const Vec2& 
            .y = spec.curve.x.data() + n,
            .points = spec.curve.points(),
            .ends = spec.curve.closed() ? grid::Curve::closed : grid::Curve::open,
-           .domain_left = spec.side == Side::bottom},
+           .domain_left = spec.side == Side::bottom,
+           .on_wall = !spec.curve.on.empty()},
           spec.name, 0);
   return cut.behind(cartesian, x);
 }

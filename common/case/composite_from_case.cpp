@@ -1,5 +1,7 @@
 #include "common/case/composite_from_case.hpp"
 
+#include <algorithm>
+
 #include "common/core/failure.hpp"
 
 namespace fsi {
@@ -49,7 +51,10 @@ grid::GridDescription grid_of(const BodyFittedSpec& spec) {
                              .concave_smoothing = spec.concave_smoothing};
   march.blend = 2 * spec.lines;  // over twice the depth, where points are as far apart as lines
   if (spec.curve.walls) {
-    for (std::size_t end : {0U, 1U}) march.walls[end] = direction_along((*spec.curve.walls)[end]);
+    for (std::size_t end : {0U, 1U}) {
+      march.walls[end] =
+          spec.curve.on.empty() ? direction_along((*spec.curve.walls)[end]) : spec.curve.along[end];
+    }
   }
   grid::GridDescription description = grid::marched_from(march, spec.curve.x);
   description.follows = false;
@@ -59,11 +64,14 @@ grid::GridDescription grid_of(const BodyFittedSpec& spec) {
 std::vector<grid::BodyFittedGrid> bodies_of(const std::vector<BodyFittedSpec>& specs) {
   std::vector<grid::BodyFittedGrid> bodies;
   for (const BodyFittedSpec& spec : specs) {
+    const auto wall = std::ranges::find(specs, spec.curve.on, &BodyFittedSpec::name);
+    const bool stands = !spec.curve.on.empty() && wall != specs.end();
     bodies.push_back({.name = spec.name,
                       .n1 = spec.curve.points(),
                       .n2 = spec.lines,
                       .curve = spec.side,
-                      .ends = ends_of(spec)});
+                      .ends = ends_of(spec),
+                      .wall = stands ? static_cast<int>(wall - specs.begin()) + 1 : 0});
   }
   return bodies;
 }

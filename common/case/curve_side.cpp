@@ -69,7 +69,8 @@ void reverse_direction(std::vector<double>& x) {
 }  // namespace
 
 void put_body_to_the_left(CurveSpec& curve, const std::optional<std::array<double, 4>>& rectangle) {
-  const bool between_sides = curve.walls && curve.walls->front() != curve.walls->back() && rectangle;
+  const bool between_sides =
+      curve.on.empty() && curve.walls && curve.walls->front() != curve.walls->back() && rectangle;
   const auto backwards = [&] {
     if (!between_sides) return signed_area(curve.x) < 0;
     const auto [x_a, x_b, y_a, y_b] = *rectangle;

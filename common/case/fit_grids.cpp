@@ -156,6 +156,10 @@ double distance_to_rim(const CurveSpec& curve, const GridSpec& box) {
   return distance;
 }
 
+bool stands_on(const BodyFittedSpec& ring, const BodyFittedSpec& wall) {
+  return !ring.curve.on.empty() && ring.curve.on == wall.name;
+}
+
 std::vector<Room> rooms_of(const GridSpec& background, const std::vector<BodyFittedSpec>& rings) {
   std::vector<Room> rooms;
   for (const BodyFittedSpec& ring : rings) {
@@ -165,7 +169,7 @@ std::vector<Room> rooms_of(const GridSpec& background, const std::vector<BodyFit
                               grid::sharpest_bend(curve.x, ends_of(curve), to_gas, curve.corners).radius),
               .between = std::numeric_limits<double>::infinity()};
     for (const BodyFittedSpec& other : rings) {
-      if (&other != &ring)
+      if (&other != &ring && !stands_on(ring, other) && !stands_on(other, ring))
         room.between = std::min(room.between, 0.5 * grid::gap_between(curve.x, other.curve.x).distance);
     }
     if (curve.closed() && ring.side == Side::top)

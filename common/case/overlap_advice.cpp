@@ -107,6 +107,7 @@ std::optional<Advice> too_near(const OverlapCheck& check, const Node& list) {
   for (std::size_t k = 1; k < check.body_fitted.size(); ++k) {
     for (std::size_t l = 0; l < k; ++l) {
       const BodyFittedSpec &a = check.body_fitted[k], &b = check.body_fitted[l];
+      if (a.curve.on == b.name || b.curve.on == a.name) continue;  // one stands on the other
       const grid::Gap gap = grid::gap_between(a.curve.x, b.curve.x);
       const double needed = depth_of(a) + depth_of(b) + 2 * h;
       if (needed - gap.distance <= shortest) continue;

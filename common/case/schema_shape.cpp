@@ -29,6 +29,8 @@ constexpr Key point_element{.name = "point", .type = Type::pair, .meaning = "[x,
 constexpr array<string_view, 4> side_words{"left", "right", "bottom", "top"};
 constexpr Key side_element{.name = "side", .type = Type::word, .meaning = "a side", .words = side_words};
 
+constexpr Key wall_element{.name = "wall", .type = Type::name, .meaning = "a side, or a grid along a wall"};
+
 constexpr array shape_keys{
     Key{.name = "points",
         .type = Type::integer,
@@ -48,10 +50,12 @@ constexpr array shape_keys{
         .element = &weight_element},
     Key{.name = "walls",
         .type = Type::list,
-        .meaning =
-            "open curve: the sides of the background (left, right, bottom, top) on which its two ends lie",
+        .meaning = "open curve: the sides of the background (left, right, bottom, top) on which its two ends "
+                   "lie; or twice "
+                   "the name of a grid of `fluid.body_fitted` with a `shape`, on whose wall, straight there, "
+                   "both ends stand",
         .fallback = "closed curve",
-        .element = &side_element},
+        .element = &wall_element},
 };
 constexpr Key centre_key{
     .name = "centre", .type = Type::pair, .meaning = "its middle", .unit = "length", .fallback = "[0, 0]"};

@@ -148,7 +148,8 @@ CuttingCurve CompositeGrid::curve_of(int grid) const {
           .y = x.row(1, j),
           .points = body(grid).n1,
           .ends = body(grid).ends,
-          .domain_left = curve_below(grid)};
+          .domain_left = curve_below(grid),
+          .on_wall = body(grid).wall > 0};
 }
 
 void CompositeGrid::cut_background() {
@@ -194,7 +195,9 @@ void CompositeGrid::cut_body(int grid) {
     if (sticks_out || !cutters_.empty()) {
       intervals_.clear();
       for (int i = 0; i < x.layout.n1; ++i) {
-        if (cut_away({x(0, i, j), x(1, i, j)})) intervals_.push_back({i, i + 1});
+        // The ends stand on their wall, and round-off puts them behind it.
+        const bool end = i == 0 || i == x.layout.n1 - 1;
+        if (cut_away({x(0, i, j), x(1, i, j)}, end ? body(grid).wall : 0)) intervals_.push_back({i, i + 1});
       }
       unite(intervals_);
       holes.append(intervals_);
@@ -203,10 +206,12 @@ void CompositeGrid::cut_body(int grid) {
   }
 }
 
-bool CompositeGrid::cut_away(const Vec2& x) const {
+/// Is a position out of the background, or behind a curve other than that of grid `spared`?
+bool CompositeGrid::cut_away(const Vec2& x, int spared) const {
   if (!inside(background_, x[0], x[0], x[1], x[1])) return true;
-  return std::ranges::any_of(
-      cutters_, [&](int other) { return cuts_[static_cast<std::size_t>(other) - 1].behind(background_, x); });
+  return std::ranges::any_of(cutters_, [&](int other) {
+    return other != spared && cuts_[static_cast<std::size_t>(other) - 1].behind(background_, x);
+  });
 }
 
 void CompositeGrid::interpolate(std::span<const FieldView> fields) const {

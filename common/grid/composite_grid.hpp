@@ -37,7 +37,8 @@ struct BodyFittedGrid {
   std::string name = "grid";
   int n1 = 0, n2 = 0;
   Side curve = Side::bottom;   ///< bottom: the domain lies to the left of the curve; top: to its right
-  Curve ends = Curve::closed;  ///< open: both ends on the boundary of the background
+  Curve ends = Curve::closed;  ///< open: both ends on the boundary of the background, or on `wall`
+  int wall = 0;                ///< the grid on whose curve, straight there, both ends stand; 0: none
 };
 
 struct OverlapOptions {
@@ -154,7 +155,7 @@ class CompositeGrid {
   void cut_background();
   void cut_body(int grid);
   bool touches(int grid, int other);
-  bool cut_away(const Vec2& x) const;
+  bool cut_away(const Vec2& x, int spared) const;
   void limit_lines(int grid, int lines);
   void connect_all(bool trim, int most_lines);
   void connect_with_fewer_lines();

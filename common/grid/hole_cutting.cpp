@@ -49,6 +49,16 @@ Vec2 beyond(const CartesianGrid& grid, const Vec2& end, const std::string& name,
   return end + (side < 2 ? Vec2(step, 0) : Vec2(0, step));
 }
 
+/// From the ends of a curve that stands on a wall a little way behind that wall, so that the points of the
+/// wall between the ends are behind the curve.
+Vec2 into_wall(const CartesianGrid& grid, const CuttingCurve& curve) {
+  const Vec2 chord = point(curve, 0) - point(curve, curve.points - 1);
+  const double part = 0.1 * std::min(grid.dx(), grid.dy()) / chord.norm();
+  // The body is to the left of the way along the curve and back over the chord, if the domain is to the
+  // right.
+  return (curve.domain_left ? -part : part) * Vec2(chord[1], -chord[0]);
+}
+
 /// Twice the area inside a closed curve, positive if it runs counter-clockwise.
 double area_of(const CuttingCurve& curve) {
   double area = 0;
@@ -75,11 +85,17 @@ void CurveCut::collect(const CartesianGrid& grid, const CuttingCurve& curve, con
   crossings_.clear();
   flips_.clear();
   const int last = curve.points - 1;
-  if (curve.ends == Curve::open)
-    add_segment(grid, beyond(grid, point(curve, 0), name, t), point(curve, 0), 0, curve.domain_left);
+  const bool open = curve.ends == Curve::open && !curve.on_wall;
+  if (open) add_segment(grid, beyond(grid, point(curve, 0), name, t), point(curve, 0), 0, curve.domain_left);
   for (int k = 0; k < last; ++k)
     add_segment(grid, point(curve, k), point(curve, k + 1), k, curve.domain_left);
-  if (curve.ends == Curve::open) {
+  if (curve.on_wall) {
+    const Vec2 first = point(curve, 0), end = point(curve, last), dip = into_wall(grid, curve);
+    add_segment(grid, end, end + dip, last - 1, curve.domain_left);
+    add_segment(grid, end + dip, first + dip, last - 1, curve.domain_left);
+    add_segment(grid, first + dip, first, 0, curve.domain_left);
+  }
+  if (open) {
     add_segment(grid, point(curve, last), beyond(grid, point(curve, last), name, t), last - 1,
                 curve.domain_left);
   }
@@ -172,7 +188,7 @@ void CurveCut::find_starts(const CuttingCurve& curve, int rows, const std::strin
     if (start(j) == unknown) start(j) = start(j + 1);
   }
   if (start(0) != unknown) return;
-  if (curve.ends == Curve::open) {
+  if (curve.ends == Curve::open && !curve.on_wall) {
     throw NumbersBroke(
         fmt::format("t = {:.6g}, grid \"{}\": its curve meets no line of the background", t, name));
   }

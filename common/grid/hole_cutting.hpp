@@ -24,6 +24,7 @@ struct CuttingCurve {
   int points = 0;
   Curve ends = Curve::closed;  ///< open: both ends lie on the boundary of the Cartesian grid
   bool domain_left = true;     ///< the domain lies to the left of the direction of increasing index
+  bool on_wall = false;        ///< open: its ends stand on another curve; it is closed behind that one
 };
 
 /// Where a row meets the curve: between columns `column` - 1 and `column`.

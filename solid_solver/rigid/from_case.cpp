@@ -120,6 +120,7 @@ BodyFromCase body_of_shape(const SolidSpec& spec, const BodyFittedSpec& fitted) 
     if (fitted.curve.walls && direction_of(side) == 0) {
       const Side wall = (*fitted.curve.walls)[at_upper_end(side) ? 1 : 0];
       if (direction_of(wall) == 0) along = Vec2(0, 1);
+      if (!fitted.curve.on.empty()) along = fitted.curve.along[at_upper_end(side) ? 1 : 0];
     }
     freedom.add(boundary, side, along);
   }

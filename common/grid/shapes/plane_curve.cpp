@@ -105,7 +105,9 @@ std::vector<Pin> pins_of(const std::vector<double>& corners, int n, std::span<co
     pins.push_back({place, index, number});
   }
   pins.push_back({1, static_cast<double>(n - 1), n - 1});
-  if (pins[pins.size() - 2].number < n - 1) return pins;
+  for (std::size_t k = pins.size() - 1; k > 0; --k)
+    pins[k - 1].number = std::min(pins[k - 1].number, pins[k].number - 1);
+  if (pins.front().number == 0) return pins;
   throw UserMistake(fmt::format(
       "{} points on a curve with {} corners are too few for a point at each of them", n, pins.size() - 2));
 }
