@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/case/check_ends.hpp"
 #include "common/case/check_expectations.hpp"
 #include "common/case/check_geometry.hpp"
 #include "common/case/check_meeting.hpp"
@@ -370,6 +371,7 @@ void check_case(const Case& problem, const Node& root) {
   }
   check_reference(problem, root);
   check_interfaces(problem, root);
+  check_held_ends(problem, root);
   check_motion(problem, root);
   check_projection(problem, root);
   check_probes(problem, root);

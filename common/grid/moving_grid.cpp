@@ -104,6 +104,7 @@ MovingGrid::MovingGrid(GridDescription description, double t)
                                   name(), description_.n1, description_.n2));
   }
   if (description_.hyperbolic) march_.emplace(*description_.hyperbolic);
+  if (march_) feet_ = {point_at(description_.curve, 0), point_at(description_.curve, description_.n1 - 1)};
   if (march_) {
     march(t, {});
   } else {
@@ -151,8 +152,32 @@ void MovingGrid::march(double t, std::span<const SideCommand> commands) {
           name_of(command.side), command.x.size(), description_.curve.size(), name_of(march_->grid().curve)));
     }
     std::ranges::copy(command.x, description_.curve.begin());
+    for (const std::size_t end : {0U, 1U}) keep_on_wall(end, t);
   }
   march_->march(description_.curve, x_.view(), t);
+}
+
+/// An end that stands on a wall stays on it. Where the curve is not at right angles to the wall, what moves
+/// its end along its normal takes it off the wall: the curve is led on along itself, or cut, to where it
+/// meets the wall.
+void MovingGrid::keep_on_wall(std::size_t end, double t) {
+  const std::optional<Vec2>& wall = march_->grid().walls[end];
+  if (!wall) return;
+  const int n = description_.n1, k = end == 0 ? 0 : n - 1, inner = end == 0 ? 1 : n - 2;
+  const Vec2 told = point_at(description_.curve, k), across((*wall)[1], -(*wall)[0]);
+  const Vec2 last = told - point_at(description_.curve, inner);
+  const double off = across.dot(feet_[end] - told), slope = across.dot(last) / last.norm();
+  constexpr double round_off = 1e-9, most = 0.5, grazing = 0.1;
+  if (std::abs(off) <= round_off * last.norm()) return;
+  if (std::abs(off) > most * last.norm()) {
+    throw NumbersBroke(
+        fmt::format("t = {:.6g}, grid \"{}\": the end of its curve has left the wall it stands on, by "
+                    "{:.3g}, at ({:.6g}, "
+                    "{:.6g}); let the solid be clamped there, or slide along the wall",
+                    t, name(), std::abs(off), told[0], told[1]));
+  }
+  const Vec2 shift = std::abs(slope) > grazing ? Vec2(off / slope / last.norm() * last) : Vec2(off * across);
+  put(told + shift, k, description_.curve);
 }
 
 /// Two sides with one corner: a command that others have gone before finds it where it belongs.

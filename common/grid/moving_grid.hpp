@@ -1,6 +1,8 @@
 #pragma once
 /// A mapped component grid that may move: vertices at t^n and at t^{n+1}, ghost lines included.
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -81,8 +83,10 @@ class MovingGrid {
   GridDescription description_;
   Field x_mapped_, x_, x_old_;
   std::optional<HyperbolicMarch> march_;
+  std::array<Vec2, 2> feet_;  ///< where the ends of the curve of a marched grid were at first
   std::uint64_t move_count_ = 0;
 
+  void keep_on_wall(std::size_t end, double t);
   void place(double t);
   /// The commanded points of each side, adjacent sides with the same corner.
   std::vector<std::vector<double>> with_common_corners(double t, std::span<const SideCommand> commands) const;
