@@ -1,8 +1,11 @@
 #include "common/case/composite_from_case.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "common/core/failure.hpp"
+#include "common/grid/quality.hpp"
 
 namespace fsi {
 
@@ -14,6 +17,16 @@ grid::Curve ends_of(const BodyFittedSpec& spec) {
 
 Vec2 direction_along(Side wall) {
   return direction_of(wall) == 0 ? Vec2(0, 1) : Vec2(1, 0);
+}
+
+/// Fluxes through the curve need cells on its other side.
+void check_corners(const BodyFittedSpec& spec, ConstFieldView x) {
+  const auto corner = grid::crowded_corner(x, spec.side);
+  if (!corner) return;
+  throw UserMistake(fmt::format(
+      "grid \"{}\": its curve turns too sharply at ({:.4g}, {:.4g}) for the distance of its lines; write "
+      "at most `spacing: {:.2g}` for it",
+      spec.name, corner->x[0], corner->x[1], corner->spacing));
 }
 
 }  // namespace
@@ -79,7 +92,10 @@ std::vector<grid::BodyFittedGrid> bodies_of(const std::vector<BodyFittedSpec>& s
 void connect_once(const GridSpec& background, const std::vector<BodyFittedSpec>& specs) {
   std::vector<grid::MovingGrid> grids;
   std::vector<ConstFieldView> views;
-  for (const BodyFittedSpec& spec : specs) grids.emplace_back(grid_of(spec), 0);
+  for (const BodyFittedSpec& spec : specs) {
+    grids.emplace_back(grid_of(spec), 0);
+    if (!spec.map) check_corners(spec, grids.back().x());
+  }
   for (const grid::MovingGrid& grid : grids) views.push_back(grid.x());
   grid::CompositeGrid composite(background_of(background), bodies_of(specs));
   composite.connect(views, 0);

@@ -102,4 +102,22 @@ void check_cells(ConstFieldView x, const std::string& name, double t) {
   }
 }
 
+std::optional<CrowdedCorner> crowded_corner(ConstFieldView x, Side curve) {
+  const int out = curve == Side::bottom ? -1 : 1, j = curve == Side::bottom ? 0 : x.layout.n2 - 1;
+  const auto at = [x](int i, int line) { return Vec2(x(0, i, line), x(1, i, line)); };
+  constexpr double least = 0.1;
+  double worst = least;
+  std::optional<CrowdedCorner> corner;
+  for (int i = 0; i < x.layout.n1; ++i) {
+    const Vec2 along = at(i + 1, j) - at(i - 1, j), behind = at(i + 1, j + out) - at(i - 1, j + out);
+    const double share = 0.5 * (1 + behind.dot(along) / along.squaredNorm());
+    if (share >= worst) continue;
+    worst = share;
+    // The share falls from 1 in proportion to the distance of the lines.
+    const double distance = (at(i, j - out) - at(i, j)).norm();
+    corner = CrowdedCorner{.point = i, .spacing = distance * (1 - least) / (1 - share), .x = at(i, j)};
+  }
+  return corner;
+}
+
 }  // namespace fsi::grid

@@ -1,9 +1,12 @@
 #pragma once
 /// How good the cells of a grid are.
 
+#include <optional>
 #include <string>
 
 #include "common/core/field.hpp"
+#include "common/core/types.hpp"
+#include "common/grid/interface_geometry.hpp"
 
 namespace fsi::grid {
 
@@ -23,5 +26,17 @@ double cell_quality(ConstFieldView x);
 
 /// @throws NumbersBroke naming grid, cell, position, t and the corner area of the first folded cell
 void check_cells(ConstFieldView x, const std::string& name, double t);
+
+/// Where a grid cannot hold a convex corner of its curve: behind the curve, where its ghost lines continue
+/// it, lines converge by as much as they fan out before it.
+struct CrowdedCorner {
+  int point = 0;       ///< of the curve
+  double spacing = 0;  ///< between the curve and the next line that it would hold
+  Vec2 x = Vec2::Zero();
+};
+
+/// The most crowded point of the curve on side `curve` (bottom or top) at which the line half-way to the
+/// first ghost line is shorter than a tenth of the curve, or runs backwards; the fluxes through it would.
+std::optional<CrowdedCorner> crowded_corner(ConstFieldView x, Side curve);
 
 }  // namespace fsi::grid
