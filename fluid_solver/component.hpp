@@ -85,6 +85,8 @@ class Component {
   void fill(const StateField& initial, double t);
   /// Measures wave rates and the motion of the sides from the initial state.
   void start(double t);
+  /// From the next move on; see MovingGrid::leave_part.
+  void leave_part(std::span<const double> part) { grid_.leave_part(part); }
   void move(double t_new, double dt, std::span<const grid::SideCommand> commands);
   /// One step: state() becomes the predicted state at t, with ghosts out of date. @throws NumbersBroke
   void advance(double t, double dt);

@@ -67,6 +67,11 @@ GasSolver::GasSolver(std::vector<GasPart> parts, std::vector<grid::BodyFittedGri
   require(parts.size() == bodies.size() + 1,
           fmt::format("gas: {} grids for {} curves; write one background and a grid for each curve",
                       parts.size(), bodies.size()));
+  if (bodies.size() > 1) {
+    std::vector<grid::MovingGrid*> curved;
+    for (std::size_t k = 1; k < parts.size(); ++k) curved.push_back(&parts[k].grid);
+    near_ = leave_room(curved, bodies, t0);
+  }
   components_.reserve(parts.size());
   for (GasPart& part : parts) {
     check_periods(part.grid, part.boundaries);
@@ -129,6 +134,7 @@ TimeStep GasSolver::compute_time_step() const {
 
 void GasSolver::move_grids(double t_new, double dt, std::span<const grid::SideCommand> commands) {
   bool moved = false;
+  if (near_) leave_room_between_curves(t_new, commands);
   for (std::size_t k = 0; k < components_.size(); ++k) {
     Component& component = components_[k];
     if (!component.grid().moves()) continue;
@@ -140,6 +146,15 @@ void GasSolver::move_grids(double t_new, double dt, std::span<const grid::SideCo
     moved = true;
   }
   if (composite_ && moved) update_overlapping_grid(t_new);
+}
+
+void GasSolver::leave_room_between_curves(double t_new, std::span<const grid::SideCommand> commands) {
+  for (const grid::SideCommand& command : commands) {
+    if (command.grid > 0) near_->place(static_cast<std::size_t>(command.grid) - 1, command.x);
+  }
+  near_->measure();
+  report_too_near(*near_, *composite_, t_new);
+  for (std::size_t k = 1; k < components_.size(); ++k) components_[k].leave_part(near_->part(k - 1));
 }
 
 void GasSolver::update_overlapping_grid(double t_new) {

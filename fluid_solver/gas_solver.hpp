@@ -16,6 +16,7 @@
 
 #include "common/grid/composite_grid.hpp"
 #include "common/grid/moving_grid.hpp"
+#include "common/grid/near_curves.hpp"
 #include "fluid_solver/component.hpp"
 #include "fluid_solver/gas_options.hpp"
 
@@ -87,7 +88,8 @@ class GasSolver {
   TimeStep compute_time_step() const;
   /// Moves the grids to t_new = t + dt; interface sides go where they are told. Points that were unused
   /// before get values of the present time.
-  /// @throws NumbersBroke at a folded cell, or where a point finds no donor
+  /// @throws NumbersBroke at a folded cell, where a point finds no donor, and where two curves are nearer to
+  /// each other than nearest_curves spacings of the background
   void move_grids(double t_new, double dt, std::span<const grid::SideCommand> commands = {});
   /// Predicted state at t, all points, boundary points included, without interface conditions; the grid was
   /// moved before.
@@ -140,6 +142,7 @@ class GasSolver {
  private:
   GasOptions options_;
   std::vector<Component> components_;
+  std::optional<grid::NearCurves> near_;  ///< where there are several curves
   std::optional<grid::CompositeGrid> composite_;
   std::vector<FieldView> fields_;               ///< work memory: the state of each grid
   std::vector<InterfaceValues> interfaces_;     ///< work memory: those of one grid
@@ -150,6 +153,7 @@ class GasSolver {
   const Component& component(int grid) const { return components_[static_cast<std::size_t>(grid)]; }
   std::span<const FieldView> gather_fields();
   void use_points();
+  void leave_room_between_curves(double t_new, std::span<const grid::SideCommand> commands);
   void update_overlapping_grid(double t_new);
   void keep_interpolated_positive(std::span<const grid::InterpolationList> lists);
 };

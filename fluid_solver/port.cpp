@@ -103,8 +103,13 @@ GasSolver solver_of(const Case& problem, const std::shared_ptr<const exact::Solu
   std::vector<GasPart> parts;
   parts.push_back({grid::MovingGrid(grid_from_case(spec.grid, meets_a_solid(spec.boundary)), 0),
                    boundaries_of(spec.boundary, reference)});
+  const bool bodies_move = std::ranges::any_of(
+      spec.body_fitted, [](const BodyFittedSpec& fitted) { return !fitted.solid.empty(); });
   for (const BodyFittedSpec& fitted : spec.body_fitted) {
-    parts.push_back({grid::MovingGrid(grid_from_case(fitted), 0), boundaries_of(fitted.boundary, reference)});
+    grid::GridDescription description = grid_from_case(fitted);
+    description.follows = bodies_move;  // that of a wall, too: it leaves room for bodies that come near
+    parts.push_back(
+        {grid::MovingGrid(std::move(description), 0), boundaries_of(fitted.boundary, reference)});
   }
   return {std::move(parts), bodies_of(spec.body_fitted), options_of(problem), 0};
 }

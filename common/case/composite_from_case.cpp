@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "common/core/failure.hpp"
+#include "common/grid/near_curves.hpp"
 #include "common/grid/quality.hpp"
 
 namespace fsi {
@@ -84,18 +85,27 @@ std::vector<grid::BodyFittedGrid> bodies_of(const std::vector<BodyFittedSpec>& s
                       .n2 = spec.lines,
                       .curve = spec.side,
                       .ends = ends_of(spec),
-                      .wall = stands ? static_cast<int>(wall - specs.begin()) + 1 : 0});
+                      .wall = stands ? static_cast<int>(wall - specs.begin()) + 1 : 0,
+                      .of = spec.solid.empty() ? "" : fmt::format("body `{}`", spec.solid)});
   }
   return bodies;
 }
 
-void connect_once(const GridSpec& background, const std::vector<BodyFittedSpec>& specs) {
+std::vector<grid::MovingGrid> grids_at_start(const std::vector<BodyFittedSpec>& specs) {
   std::vector<grid::MovingGrid> grids;
-  std::vector<ConstFieldView> views;
+  std::vector<grid::MovingGrid*> pointers;
   for (const BodyFittedSpec& spec : specs) {
     grids.emplace_back(grid_of(spec), 0);
     if (!spec.map) check_corners(spec, grids.back().x());
   }
+  for (grid::MovingGrid& grid : grids) pointers.push_back(&grid);
+  leave_room(pointers, bodies_of(specs), 0);
+  return grids;
+}
+
+void connect_once(const GridSpec& background, const std::vector<BodyFittedSpec>& specs) {
+  const std::vector<grid::MovingGrid> grids = grids_at_start(specs);
+  std::vector<ConstFieldView> views;
   for (const grid::MovingGrid& grid : grids) views.push_back(grid.x());
   grid::CompositeGrid composite(background_of(background), bodies_of(specs));
   composite.connect(views, 0);

@@ -18,6 +18,10 @@ grid::GridDescription grid_of(const BodyFittedSpec& spec);
 /// What the overlap needs to know of body-fitted grids.
 std::vector<grid::BodyFittedGrid> bodies_of(const std::vector<BodyFittedSpec>& specs);
 
+/// The grids of all curves at t = 0, with the room they leave each other.
+/// @throws NumbersBroke for folds
+std::vector<grid::MovingGrid> grids_at_start(const std::vector<BodyFittedSpec>& specs);
+
 /// Marches the grids from their curves and connects them with the background at t = 0, to see whether that
 /// can be done. @throws NumbersBroke for folds and points without donors
 void connect_once(const GridSpec& background, const std::vector<BodyFittedSpec>& specs);

@@ -34,8 +34,7 @@ CellRate rate_of(const Vec2& a, const Vec2& along, const Vec2& across, const std
 }
 
 /// Without the two outermost lines, which are interpolated.
-void append_rates(const BodyFittedSpec& spec, std::vector<CellRate>& rates) {
-  const grid::MovingGrid grid(grid_of(spec), 0);
+void append_rates(const BodyFittedSpec& spec, const grid::MovingGrid& grid, std::vector<CellRate>& rates) {
   const ConstFieldView x = grid.x();
   constexpr int interpolated = 2;
   const int first = spec.side == Side::top ? interpolated : 0;
@@ -68,8 +67,10 @@ template <class Owner>
 StepCost step_of(const std::string& program, const Owner& owner, double speed) {
   std::vector<CellRate> rates;
   double fitted_points = 0;
-  for (const BodyFittedSpec& fitted : owner.body_fitted) {
-    append_rates(fitted, rates);
+  const std::vector<grid::MovingGrid> grids = grids_at_start(owner.body_fitted);
+  for (std::size_t k = 0; k < grids.size(); ++k) {
+    const BodyFittedSpec& fitted = owner.body_fitted[k];
+    append_rates(fitted, grids[k], rates);
     fitted_points += static_cast<double>(fitted.curve.points()) * fitted.lines;
   }
   const std::size_t fitted_cells = rates.size();

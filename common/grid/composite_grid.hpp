@@ -39,6 +39,7 @@ struct BodyFittedGrid {
   Side curve = Side::bottom;   ///< bottom: the domain lies to the left of the curve; top: to its right
   Curve ends = Curve::closed;  ///< open: both ends on the boundary of the background, or on `wall`
   int wall = 0;                ///< the grid on whose curve, straight there, both ends stand; 0: none
+  std::string of = {};         ///< for people: what the curve is the outline of; "": say the grid's name
 };
 
 struct OverlapOptions {

@@ -56,6 +56,10 @@ HyperbolicMarch::HyperbolicMarch(HyperbolicGrid grid)
     throw UserMistake(
         fmt::format("grid \"{}\": smoothing, sweeps and blend must not be negative", grid_.name));
   }
+  if (!grid_.part.empty() && grid_.part.size() != static_cast<std::size_t>(grid_.points)) {
+    throw std::logic_error(fmt::format("grid \"{}\": parts of the depth at {} places for {} points", grid_.name,
+                                       grid_.part.size(), grid_.points));
+  }
   for (std::optional<Vec2>& wall : grid_.walls) {
     if (wall && !(wall->norm() > 0)) {
       throw UserMistake(fmt::format("grid \"{}\": the direction of a wall has no length", grid_.name));
@@ -237,10 +241,10 @@ void HyperbolicMarch::fill_rows(ConstFieldView x, int j, double d) {
       continue;
     }
     const int before = k == 0 ? n - 1 : k - 1;
-    const double arc = arc_[at], smooth = smooth_[at + 1], step = d * smooth / arc;
+    const double arc = arc_[at], smooth = smooth_[at + 1], reach = part(at) * d, step = reach * smooth / arc;
     const bool near_end = !closed() && (k == 1 || k == n - 2);
-    const double eps = (near_end ? grid_.end_smoothing : grid_.smoothing) * std::min(1.0, d / smooth) +
-                       concave_smoothing(at, d);
+    const double eps = (near_end ? grid_.end_smoothing : grid_.smoothing) * std::min(1.0, reach / smooth) +
+                       concave_smoothing(at, reach);
     const Mat2 turn = (0.5 * (1 - here.blend) * step / arc) * here.tangent * here.normal.transpose();
     LineRow& row = solver_.rows()[at];
     row.below = -turn - eps * Mat2::Identity();
@@ -258,7 +262,7 @@ void HyperbolicMarch::fill_end(std::size_t k, double d) {
   row.below = row.above = Mat2::Zero();
   if (!wall) {
     row.diagonal = Mat2::Identity();
-    row.right = d * smooth_[k + 1] / arc_[k] * line_[k].normal;
+    row.right = part(k) * d * smooth_[k + 1] / arc_[k] * line_[k].normal;
     return;
   }
   row.diagonal << -(*wall)[1], (*wall)[0], (*wall)[0], (*wall)[1];

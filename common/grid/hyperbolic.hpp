@@ -40,6 +40,9 @@ struct HyperbolicGrid {
   double concave_onset = 0.75;  ///< depth over concave radius from which on it is added, gradually [-]
   int sweeps = 20;              ///< of the local arclength [-]
   int blend = 5;                ///< points over which normals turn into the wall's direction
+  /// What is left of the depth at each point of the curve, in (0, 1]: of its distances between lines. Empty:
+  /// all of it everywhere.
+  std::vector<double> part = {};
 };
 
 /// Marches grids of one description, in steps no longer than about the distance between points: where lines
@@ -56,6 +59,8 @@ class HyperbolicMarch {
   Layout layout() const { return {grid_.points, grid_.lines}; }
   /// Sum of the nominal distances.
   double depth() const;
+  /// From the next march on, HyperbolicGrid::part.
+  void leave_part(std::span<const double> part) { grid_.part.assign(part.begin(), part.end()); }
 
   /// Fills x (planes x1, x2, ghost lines included) from the points of the curve, 2 n component-major.
   /// Ghosts: periodic or third-order extrapolation. @throws NumbersBroke at a folded cell
@@ -82,6 +87,7 @@ class HyperbolicMarch {
   bool closed() const { return grid_.ends == Curve::closed; }
   int row_of(int line) const { return grid_.curve == Side::bottom ? line : grid_.lines - 1 - line; }
   double mean_distance(ConstFieldView x, int j) const;
+  double part(std::size_t k) const { return grid_.part.empty() ? 1 : grid_.part[k]; }
   void step(FieldView x, int j, int j_next, double d);
   void measure(ConstFieldView x, int j);
   void relax(std::vector<double>& line);

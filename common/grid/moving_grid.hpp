@@ -71,6 +71,13 @@ class MovingGrid {
   /// @throws NumbersBroke at a folded cell, naming grid, point, t and the area; where the two places of a
   /// corner are a cell apart
   void move(double t, std::span<const SideCommand> commands = {});
+  /// Mean distance of the lines of a marched grid, where it has all its depth; 0 of others.
+  double line_distance() const { return march_ ? march_->depth() / (layout().n2 - 1) : 0; }
+  /// From the next move on a marched grid has only these parts of its depth, at each point of its curve, in
+  /// (0, 1]; empty: all of it. Other grids do not care.
+  void leave_part(std::span<const double> part) {
+    if (march_) march_->leave_part(part);
+  }
 
   /// Points of a side, n_d * n component-major.
   std::vector<double> side_points(Side side) const;
