@@ -108,8 +108,7 @@ GasSolver solver_of(const Case& problem, const std::shared_ptr<const exact::Solu
   for (const BodyFittedSpec& fitted : spec.body_fitted) {
     grid::GridDescription description = grid_from_case(fitted);
     description.follows = bodies_move;  // that of a wall, too: it leaves room for bodies that come near
-    parts.push_back(
-        {grid::MovingGrid(std::move(description), 0), boundaries_of(fitted.boundary, reference)});
+    parts.push_back({grid::MovingGrid(std::move(description), 0), boundaries_of(fitted.boundary, reference)});
   }
   return {std::move(parts), bodies_of(spec.body_fitted), options_of(problem), 0};
 }

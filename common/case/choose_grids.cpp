@@ -5,47 +5,22 @@
 #include <algorithm>
 #include <cmath>
 #include <string_view>
-#include <utility>
 
 #include "common/case/build.hpp"
 #include "common/case/build_shape.hpp"
 #include "common/case/fit_grids.hpp"
 #include "common/case/laws.hpp"
+#include "common/case/node_tools.hpp"
 #include "common/case/reader.hpp"
+#include "common/case/wall_strips.hpp"
 
 namespace fsi {
 
 namespace {
 
 using config::Node;
-
-/// A number whose text reads back to the same bits.
-Node number_node(double value, const std::string& place) {
-  Node node{.kind = Node::Kind::scalar, .place = place, .text = fmt::format("{}", value), .entries = {}};
-  node.number = value;
-  return node;
-}
-
-Node word_node(const std::string& text, const std::string& place) {
-  return {.kind = Node::Kind::scalar, .place = place, .text = text, .entries = {}};
-}
-
-void put(Node& section, const char* key, Node value) {
-  section.kind = Node::Kind::map;
-  if (Node* there = section.find(key)) {
-    *there = std::move(value);
-    return;
-  }
-  const std::string place = value.place;
-  section.entries.push_back({.key = key, .place = place, .value = std::move(value)});
-}
-
-/// The section under a key, made where it is missing.
-Node& section_of(Node& owner, const char* key) {
-  if (owner.find(key) == nullptr)
-    put(owner, key, {.kind = Node::Kind::map, .place = owner.place, .entries = {}});
-  return *owner.find(key);
-}
+using config::number_node;
+using config::word_node;
 
 bool lacks(const Node* section, std::initializer_list<std::string_view> keys) {
   return section == nullptr ||
@@ -167,6 +142,15 @@ bool is_background_open(const Node& fluid) {
          fluid.find("body_fitted") != nullptr;
 }
 
+/// Grids along curves of which the file does not say how deep they are.
+std::vector<std::size_t> open_rings(const Node& list) {
+  std::vector<std::size_t> open;
+  for (std::size_t k = 0; k < list.items.size(); ++k) {
+    if (lacks(&list.items[k], {"lines", "spacing", "map"})) open.push_back(k);
+  }
+  return open;
+}
+
 void choose_for_gas(Node& root, const Scope& scope, std::vector<std::string>& said) {
   Node* fluid = root.find("fluid");
   Node* list = fluid == nullptr ? nullptr : fluid->find("body_fitted");
@@ -174,13 +158,11 @@ void choose_for_gas(Node& root, const Scope& scope, std::vector<std::string>& sa
   const bool finer = is_background_open(*fluid);
   Node& background = *fluid->find("grid");
   if (finer) put(background, "spacing", number_node(scope.constants.at("h"), background.place));
-  std::vector<std::size_t> open;
-  for (std::size_t k = 0; k < list->items.size(); ++k) {
-    if (lacks(&list->items[k], {"lines", "spacing", "map"})) open.push_back(k);
-  }
-  if (open.empty()) return;
-  const Case draft = build_case(root, scope);
+  if (open_rings(*list).empty()) return;
+  Case draft = build_case(root, scope);
   if (draft.fluid->grid.kind != GridSpec::Kind::rectangle) return;  // check says what is wrong with it
+  if (add_wall_strips(*list, *draft.fluid, open_rings(*list))) draft = build_case(root, scope);
+  const std::vector<std::size_t> open = open_rings(*list);
   const GasGrids chosen = fit_rings(draft.fluid->grid, draft.fluid->body_fitted, open, finer);
   if (finer) {
     put(background, "spacing", number_node(chosen.background, background.place));

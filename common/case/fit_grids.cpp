@@ -242,7 +242,7 @@ GasGrids fit_rings(const GridSpec& background, const std::vector<BodyFittedSpec>
   for (const double refined : {1.0, 0.85, 0.7, 0.6, 0.5, 0.4, 0.3}) {
     const double h = refined == 1 ? spacing : as_written(refined * spacing);
     const GridSpec grid = refined == 1 ? background : with_spacing(background, h);
-    for (const bool apart : {true, false}) {
+    for (const bool apart : {false, true}) {
       for (const double part : {1.0, 0.85, 0.7, 0.55}) {
         for (const int lines : {usual_lines, 6}) {
           const std::vector<RingGrid> chosen = with_lines(rings, open, rooms, {lines, part, h, apart});

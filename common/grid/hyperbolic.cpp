@@ -57,8 +57,8 @@ HyperbolicMarch::HyperbolicMarch(HyperbolicGrid grid)
         fmt::format("grid \"{}\": smoothing, sweeps and blend must not be negative", grid_.name));
   }
   if (!grid_.part.empty() && grid_.part.size() != static_cast<std::size_t>(grid_.points)) {
-    throw std::logic_error(fmt::format("grid \"{}\": parts of the depth at {} places for {} points", grid_.name,
-                                       grid_.part.size(), grid_.points));
+    throw std::logic_error(fmt::format("grid \"{}\": parts of the depth at {} places for {} points",
+                                       grid_.name, grid_.part.size(), grid_.points));
   }
   for (std::optional<Vec2>& wall : grid_.walls) {
     if (wall && !(wall->norm() > 0)) {

@@ -42,9 +42,7 @@ double at_most_one(double z) {
 }  // namespace
 
 NearCurves::NearCurves(std::vector<FittedCurve> curves)
-    : curves_(std::move(curves)),
-      parts_(curves_.size()),
-      touching_(curves_.size() * curves_.size(), false) {
+    : curves_(std::move(curves)), parts_(curves_.size()), touching_(curves_.size() * curves_.size(), false) {
   constexpr double round_off = 1e-6;  // of a line's distance
   for (std::size_t a = 0; a < curves_.size(); ++a) {
     for (std::size_t b = 0; b < curves_.size(); ++b) {
@@ -97,7 +95,8 @@ void report_too_near(const NearCurves& near, const CompositeGrid& composite, dou
   };
   throw NumbersBroke(fmt::format(
       "t = {:.6g}: {} and {} are {:.3g} apart at ({:.4g}, {:.4g}), less than {} of a cell of the gas's "
-      "background ({:.3g}): gas is not computed between bodies so near to each other, nor is contact; let the run "
+      "background ({:.3g}): gas is not computed between bodies so near to each other, nor is contact; let "
+      "the run "
       "end before, or let them come nearer with a greater grid.factor",
       t, called(nearest.a), called(nearest.b), nearest.gap.distance, nearest.gap.x[0], nearest.gap.x[1],
       NearCurves::fewest_cells, cell));
