@@ -227,6 +227,7 @@ void GasSolver::archive(Archive& archive) {
     archive.inside(fmt::format("grid{}", k), [&] { components_[k].archive(archive); });
   }
   archive.number("t", t_);
+  if (composite_) archive.inside("overlap", [&] { composite_->archive(archive); });
   if (!archive.loading() || !composite_) return;
   std::vector<ConstFieldView> x;
   for (int k = 1; k < grids(); ++k) x.push_back(grid(k).x());

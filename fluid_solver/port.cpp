@@ -103,13 +103,9 @@ GasSolver solver_of(const Case& problem, const std::shared_ptr<const exact::Solu
   std::vector<GasPart> parts;
   parts.push_back({grid::MovingGrid(grid_from_case(spec.grid, meets_a_solid(spec.boundary)), 0),
                    boundaries_of(spec.boundary, reference)});
-  const bool bodies_move = std::ranges::any_of(
-      spec.body_fitted, [](const BodyFittedSpec& fitted) { return !fitted.solid.empty(); });
-  for (const BodyFittedSpec& fitted : spec.body_fitted) {
-    grid::GridDescription description = grid_from_case(fitted);
-    description.follows = bodies_move;  // that of a wall, too: it leaves room for bodies that come near
-    parts.push_back({grid::MovingGrid(std::move(description), 0), boundaries_of(fitted.boundary, reference)});
-  }
+  const std::vector<grid::GridDescription> fitted = grids_from_case(spec.body_fitted);
+  for (std::size_t k = 0; k < fitted.size(); ++k)
+    parts.push_back({grid::MovingGrid(fitted[k], 0), boundaries_of(spec.body_fitted[k].boundary, reference)});
   return {std::move(parts), bodies_of(spec.body_fitted), options_of(problem), 0};
 }
 
@@ -364,6 +360,7 @@ void FluidParticipant::report(double t, io::Part& part) const {
   part.counters["positive_fluxes"] = static_cast<double>(health.positive_fluxes);
   part.counters["positive_values"] = static_cast<double>(health.positive_values);
   part.counters["floors"] = static_cast<double>(health.floors);
+  part.overlap = overlap_of(solver_.composite());
   part.health["min_rho"] = health.min_rho;
   part.health["min_p"] = health.min_p;
   part.health["min_cell_quality"] = worst_cells_;

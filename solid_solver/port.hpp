@@ -173,6 +173,7 @@ class SolidParticipant final : public Participant {
 
   void report(double t, io::Part& part) const override {
     const Health health = solver_.health();
+    part.overlap = overlap_of(solver_.composite());
     part.health["min_det_F"] = health.min_det_F;
     if (health.settled > 0) part.counters["settled_ghost_points"] = health.settled;
     const Totals now = solver_.totals();

@@ -109,6 +109,14 @@ void connect_once(const GridSpec& background, const std::vector<BodyFittedSpec>&
   for (const grid::MovingGrid& grid : grids) views.push_back(grid.x());
   grid::CompositeGrid composite(background_of(background), bodies_of(specs));
   composite.connect(views, 0);
+  const grid::OverlapRecord& worst = composite.record();
+  if (worst.amplification <= grid::CompositeGrid::sound_amplification) return;
+  throw NumbersBroke(fmt::format(
+      "t = 0, grid \"{}\", point ({}, {}) at ({:.6g}, {:.6g}): it and points of other grids interpolate from "
+      "each "
+      "other so that errors arrive {:.3g} times as large (up to {:.3g} is sound): the overlap is too small",
+      composite.name(worst.grid), worst.i, worst.j, worst.x[0], worst.x[1], worst.amplification,
+      grid::CompositeGrid::sound_amplification));
 }
 
 bool connects(const GridSpec& background, const std::vector<BodyFittedSpec>& specs) {

@@ -139,6 +139,7 @@ void CompositeGrid::connect_now(double t) {
     if (list.width == 2) counts_.width_2 += list.size();
     if (list.implicit) counts_.implicit += list.size();
   }
+  note_worst(t);
 }
 
 CuttingCurve CompositeGrid::curve_of(int grid) const {

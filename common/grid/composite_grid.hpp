@@ -20,6 +20,7 @@
 #include <string>
 #include <vector>
 
+#include "common/core/archive.hpp"
 #include "common/core/field.hpp"
 #include "common/core/types.hpp"
 #include "common/grid/cartesian_grid.hpp"
@@ -62,6 +63,17 @@ struct OverlapCounts {
   bool operator==(const OverlapCounts&) const = default;
 };
 
+/// The worst of all connections since the start.
+struct OverlapRecord {
+  /// Implicit points: how much larger than its cause an error may arrive, and where and when; 1 where there
+  /// are none to speak of.
+  double amplification = 1;
+  int grid = 0, i = 0, j = 0;
+  Vec2 x = Vec2::Zero();
+  double t = 0;
+  std::size_t implicit = 0, narrowed = 0, lines_left_out = 0;  ///< most at a time, see OverlapCounts
+};
+
 /// Vertices of a body-fitted grid after and before a step (fields of n1 x n2 points, planes x1, x2).
 struct GridPositions {
   ConstFieldView x, x_old;
@@ -102,6 +114,13 @@ class CompositeGrid {
   std::span<const InterpolationList> interpolation() const { return interpolation_; }
   std::span<const InterpolationList> exposed() const { return exposed_; }
   const OverlapCounts& counts() const { return counts_; }
+  const OverlapRecord& record() const { return record_; }
+  /// The record, to be written or read back; all else is found again by connecting.
+  void archive(Archive& archive);
+
+  /// More than that, and errors of implicit points would be felt: twice what three donors per direction that
+  /// are known have at most next to the stencil's ends, (25/16) each.
+  static constexpr double sound_amplification = 3.125;
 
  private:
   struct Part {
@@ -139,6 +158,7 @@ class CompositeGrid {
   std::vector<InterpolationList> interpolation_, exposed_;
   std::optional<ImplicitSystem> implicit_;  ///< where points are donors of each other
   OverlapCounts counts_;
+  OverlapRecord record_;
   Orphans orphans_;
   std::vector<Interval> intervals_, runs_;  ///< work memory
   std::vector<int> cutters_;
@@ -166,11 +186,18 @@ class CompositeGrid {
   void connect_run(int grid, int j, Interval run, const Level& level, std::vector<InterpolationList>& lists);
   std::optional<Stencil> stencil_for(int grid, const Vec2& x, Start& start, const Level& level) const;
   void solve_for_implicit(double t);
+  void note_worst(double t);
   void narrow(std::span<const ImplicitPoint> points);
   void count_exposed(const Stencil& stencil);
   Start nearest_start(int i, int j) const;
   std::optional<Stencil> donor_in(Start& start, const Vec2& x, const Level& level) const;
   std::optional<Stencil> donor_anywhere(int target, const Vec2& x, const Level& level) const;
+  /// A point of a grid, and where it is.
+  struct GridPoint {
+    int grid = 0, i = 0, j = 0;
+    Vec2 x = Vec2::Zero();
+  };
+  GridPoint point_of(const ImplicitPoint& point) const;
   void orphan(int grid, int i, int j, const Vec2& x);
   void report_orphans(double t, const char* what) const;
   std::string nearest_curves(const Vec2& x) const;

@@ -18,9 +18,8 @@ void CompositeGrid::solve_for_implicit(double t) {
     return std::ranges::any_of(interpolation_,
                                [](const auto& list) { return list.implicit && list.size() > 0; });
   };
-  // Three donors per direction that are known have weights that add up to 25/16 in size at most, next to the
-  // stencil's ends. Twice that is sound; a step of the solver does not feed on it more than once.
-  constexpr double sound = 3.125;
+  // A step of the solver does not feed on an amplification more than once.
+  constexpr double sound = sound_amplification;
   // Then all points that depend on others for more than half of their value, then all.
   constexpr int neighbourhoods = 4;
   for (int round = 0;; ++round) {
@@ -67,16 +66,45 @@ void CompositeGrid::narrow(std::span<const ImplicitPoint> points) {
   }
 }
 
-void CompositeGrid::report_unsolved(const ImplicitPoint& point, double t) const {
+CompositeGrid::GridPoint CompositeGrid::point_of(const ImplicitPoint& point) const {
   const InterpolationList& list = interpolation_[point.list];
   const Layout& layout = part(list.target_grid).layout;
   const int from_lead = list.target[point.point] - Layout::lead + Layout::ghosts;
-  const int j = from_lead / layout.stride - Layout::ghosts, i = from_lead % layout.stride - Layout::ghosts;
+  return {.grid = list.target_grid,
+          .i = from_lead % layout.stride - Layout::ghosts,
+          .j = from_lead / layout.stride - Layout::ghosts,
+          .x = {list.x[point.point][0], list.x[point.point][1]}};
+}
+
+void CompositeGrid::note_worst(double t) {
+  record_.implicit = std::max(record_.implicit, counts_.implicit);
+  record_.narrowed = std::max(record_.narrowed, counts_.narrowed);
+  record_.lines_left_out = std::max(record_.lines_left_out, counts_.lines_left_out);
+  if (!implicit_ || implicit_->amplification() <= record_.amplification) return;
+  const auto [grid, i, j, x] = point_of(implicit_->worst());
+  record_.amplification = implicit_->amplification();
+  record_.grid = grid, record_.i = i, record_.j = j, record_.x = x, record_.t = t;
+}
+
+void CompositeGrid::archive(Archive& archive) {
+  archive.number("amplification", record_.amplification);
+  archive.number("grid", record_.grid);
+  archive.number("i", record_.i);
+  archive.number("j", record_.j);
+  archive.number("x1", record_.x[0]);
+  archive.number("x2", record_.x[1]);
+  archive.number("t", record_.t);
+  archive.number("implicit", record_.implicit);
+  archive.number("narrowed", record_.narrowed);
+  archive.number("lines_left_out", record_.lines_left_out);
+}
+
+void CompositeGrid::report_unsolved(const ImplicitPoint& point, double t) const {
+  const auto [grid, i, j, x] = point_of(point);
   throw NumbersBroke(fmt::format(
       "t = {:.6g}, grid \"{}\", point ({}, {}) at ({:.6g}, {:.6g}): it and points of grid \"{}\" take their "
       "values from nothing but each other: the overlap is too small",
-      t, name(list.target_grid), i, j, list.x[point.point][0], list.x[point.point][1],
-      name(list.donor_grid)));
+      t, name(grid), i, j, x[0], x[1], name(interpolation_[point.list].donor_grid)));
 }
 
 }  // namespace fsi::grid

@@ -6,6 +6,23 @@
 
 namespace fsi::io {
 
+namespace {
+
+nlohmann::ordered_json overlap_json(const Overlap& overlap) {
+  nlohmann::ordered_json json{{"amplification", overlap.amplification},
+                              {"implicit", overlap.implicit},
+                              {"narrowed", overlap.narrowed},
+                              {"lines_left_out", overlap.lines_left_out}};
+  if (overlap.grid.empty()) return json;
+  json["grid"] = overlap.grid;
+  json["point"] = overlap.point;
+  json["place"] = overlap.place;
+  json["t"] = overlap.t;
+  return json;
+}
+
+}  // namespace
+
 std::string to_json(const Part& part) {
   nlohmann::ordered_json times = nlohmann::ordered_json::object();
   for (std::size_t k = 0; k < work_names.size(); ++k) {
@@ -41,6 +58,7 @@ std::string to_json(const Part& part) {
                          {"velocity_scale", part.interface->velocity_scale},
                          {"traction_scale", part.interface->traction_scale}};
   }
+  if (part.overlap) json["overlap"] = overlap_json(*part.overlap);
   if (const auto& noise = part.noise) {
     json["noise"] = {{"value", noise->size}, {"noisy", noise->noisy}, {"field", noise->field},
                      {"grid", noise->grid},  {"point", noise->point}, {"place", noise->place},

@@ -39,6 +39,18 @@ struct Noise {
   std::string words;
 };
 
+/// How component grids exchanged values, the worst since the start (common/grid/composite_grid.hpp).
+struct Overlap {
+  double amplification = 1;  ///< of errors by points that interpolate from each other
+  std::string grid;          ///< where and when that was; "" where nothing was amplified
+  std::array<int, 2> point = {};
+  std::array<double, 2> place = {};  ///< reference position in a solid
+  double t = 0;
+  std::uint64_t implicit = 0;        ///< points that interpolate from each other, most at a time
+  std::uint64_t narrowed = 0;        ///< of these with fewer donors, so that they do not amplify
+  std::uint64_t lines_left_out = 0;  ///< of grids whose curves came near others
+};
+
 struct Part {
   std::string participant;           ///< "fluid", "coupler" or the solid's name
   std::string role;                  ///< "fluid", "solid", "coupler"
@@ -60,6 +72,7 @@ struct Part {
   std::map<std::string, double> health;        ///< min_rho, min_p, min_det_F
   std::map<std::string, double> conservation;  ///< drifts of mass, energy, momentum, angular momentum
   std::optional<InterfaceExtremes> interface;  ///< coupler only
+  std::optional<Overlap> overlap;              ///< of programs with overlapping grids
   std::optional<Noise> noise;                  ///< the worst since the start, of programs with fields
 };
 

@@ -45,6 +45,33 @@ grid::GridDescription grid_from_case(const BodyFittedSpec& spec) {
   return description;
 }
 
+std::vector<grid::GridDescription> grids_from_case(const std::vector<BodyFittedSpec>& specs) {
+  const bool bodies_move =
+      std::ranges::any_of(specs, [](const BodyFittedSpec& spec) { return !spec.solid.empty(); });
+  std::vector<grid::GridDescription> grids;
+  for (const BodyFittedSpec& spec : specs) {
+    grids.push_back(grid_of(spec));
+    grids.back().follows = bodies_move;  // that of a wall, too: it leaves room for bodies that come near
+  }
+  return grids;
+}
+
+std::optional<io::Overlap> overlap_of(const grid::CompositeGrid* composite) {
+  if (composite == nullptr) return std::nullopt;
+  const grid::OverlapRecord& record = composite->record();
+  io::Overlap overlap{.amplification = record.amplification,
+                      .grid = {},
+                      .t = record.t,
+                      .implicit = record.implicit,
+                      .narrowed = record.narrowed,
+                      .lines_left_out = record.lines_left_out};
+  if (record.amplification <= 1) return overlap;
+  overlap.grid = composite->name(record.grid);
+  overlap.point = {record.i, record.j};
+  overlap.place = {record.x[0], record.x[1]};
+  return overlap;
+}
+
 std::vector<std::uint8_t> kinds_of(const grid::CompositeGrid* composite, int grid) {
   std::vector<std::uint8_t> kinds;
   if (composite == nullptr) return kinds;

@@ -2,11 +2,13 @@
 /// Turns the grid of a case file into a component grid.
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "common/case/case.hpp"
 #include "common/grid/composite_grid.hpp"
 #include "common/grid/moving_grid.hpp"
+#include "common/io/part.hpp"
 
 namespace fsi {
 
@@ -15,6 +17,12 @@ grid::GridDescription grid_from_case(const GridSpec& spec, bool follows);
 
 /// Description of a grid marched from a curve.
 grid::GridDescription grid_from_case(const BodyFittedSpec& spec);
+
+/// Descriptions of grids of the gas along curves. Where bodies move, those of walls follow too.
+std::vector<grid::GridDescription> grids_from_case(const std::vector<BodyFittedSpec>& specs);
+
+/// How the grids overlapped since the start, for the report; nothing where there is one grid only.
+std::optional<io::Overlap> overlap_of(const grid::CompositeGrid* composite);
 
 /// What the points of a component grid are, for output: 0 unused, 1 discretised, 2 interpolated, row by row;
 /// empty where all are discretised (no composite grid).

@@ -73,6 +73,8 @@ def merge(parts, case, status, reason, wall_s):
             key: part[key] for key in PARTICIPANT_KEYS if key in part}
     if noise := _noise(parts):
         summary["noise"] = noise
+    if overlap := {name: part["overlap"] for name, part in parts.items() if part.get("overlap")}:
+        summary["overlap"] = overlap
     conservation = {name: part["conservation"] for name, part in parts.items() if part.get("conservation")}
     if conservation:
         summary["conservation"] = conservation
@@ -230,6 +232,27 @@ def _error_lines(errors, width):
     return lines
 
 
+SOUND_AMPLIFICATION = 3.125  # of errors by points that interpolate from each other (common/grid/composite_grid.hpp)
+
+
+def overlap_lines(summary):
+    """Where grids overlapped less well than they should, one line for each program."""
+    lines = []
+    for name, overlap in summary.get("overlap", {}).items():
+        said = []
+        if (amplification := overlap.get("amplification")) is None or amplification > SOUND_AMPLIFICATION:
+            point, place = (", ".join(f"{value:.4g}" for value in overlap[key]) for key in ("point", "place"))
+            said.append(f"interpolation amplified errors {_number(amplification, '{:.3g}')} times (sound: {SOUND_AMPLIFICATION:g}), "
+                        f"grid \"{overlap['grid']}\", point ({point}) at ({place}), t = {overlap['t']:.4g}")
+        if narrowed := overlap["narrowed"]:
+            said.append(f"{narrowed} points with fewer donors")
+        if left_out := overlap["lines_left_out"]:
+            said.append(f"{left_out} grid lines left out")
+        if said:
+            lines.append(f"  overlap of {name}'s grids: {'; '.join(said)}")
+    return lines
+
+
 def describe(summary, directory, width=None):
     """The end of a run as lines of text, for a terminal of `width` columns or for none."""
     dt = summary["dt"]
@@ -246,6 +269,7 @@ def describe(summary, directory, width=None):
     if any(summary["counters"].values()):
         lines.append("  counters: " + ", ".join(f"{key.replace('_', ' ')} {value:g}"
                                                 for key, value in summary["counters"].items()))
+    lines += overlap_lines(summary)
     if noise := noise_in_words(summary):
         lines.append(f"  warning: {noise}")
     if summary.get("expectations"):
