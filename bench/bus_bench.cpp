@@ -1,5 +1,5 @@
-/// Round trip of one coupled step over the bus: gas, solid and coupler as three processes that compute
-/// nothing.
+/// Round trip of one coupled step over the bus: gas, solid
+/// and coupler as three processes that compute nothing.
 ///
 /// Reports per number of interface points: time from the gas's `publish` to its answer (mean; p50_us and
 /// p99_us) and the sizes of the largest messages. The aim is 1.3 times what bare Cyclone DDS takes for
@@ -20,8 +20,8 @@
 #include <utility>
 #include <vector>
 
-#include "common/bus/coupler_session.hpp"
-#include "common/bus/solver_session.hpp"
+#include "common/bus/sessions/coupler_session.hpp"
+#include "common/bus/sessions/solver_session.hpp"
 
 namespace {
 

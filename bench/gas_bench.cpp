@@ -1,5 +1,5 @@
-/// Points the gas solver advances per second and core: one step of the sweep, and a whole step of the time
-/// loop.
+/// Points the gas solver advances per second and core: one
+/// step of the sweep, and a whole step of the time loop.
 
 #include <benchmark/benchmark.h>
 

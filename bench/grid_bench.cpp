@@ -1,5 +1,5 @@
-/// Cost per step of moving grids: marching a body-fitted grid, connecting it to the background,
-/// interpolating.
+/// Cost per step of moving grids: marching a body-fitted
+/// grid, connecting it to the background, interpolating.
 
 #include <benchmark/benchmark.h>
 
@@ -9,8 +9,8 @@
 #include <numbers>
 #include <vector>
 
-#include "common/grid/composite_grid.hpp"
-#include "common/grid/hyperbolic.hpp"
+#include "common/grid/marching/hyperbolic.hpp"
+#include "common/grid/overlap/composite_grid.hpp"
 
 namespace fsi::grid {
 namespace {

@@ -13,7 +13,7 @@
 
 #include "common/core/archive.hpp"
 #include "common/wire/messages.hpp"
-#include "coupler/interface_exchange.hpp"
+#include "coupler/exchange/interface_exchange.hpp"
 #include "coupler/time_step.hpp"
 
 namespace fsi::coupler {

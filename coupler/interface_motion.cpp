@@ -121,8 +121,8 @@ void PrescribedMotion::acceleration(double t, std::span<double> a) const {
 }
 
 void InterfaceMotion::take(std::span<const double> v, double dt) {
-  // The mean acceleration of the last step belongs to its middle; the trend of the last two brings it to the
-  // end.
+  // The mean acceleration of the last step belongs to its middle;
+  // the trend of the last two brings it to the end.
   const double reach = steps_ > 0 ? dt / (dt + dt_) : 0.0;
   for (std::size_t k = 0; k < v_.size(); ++k) {
     const double mean = dt > 0 ? (v[k] - v_[k]) / dt : 0.0;

@@ -1,16 +1,16 @@
 #pragma once
-/// The coupler's port: the case turned into options, the exchanges turned into tables, progress and
-/// telemetry.
+/// The coupler's port: the case turned into options, the
+/// exchanges turned into tables, progress and telemetry.
 
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "common/bus/coupler_session.hpp"
+#include "common/bus/sessions/coupler_session.hpp"
 #include "common/io/csv_writer.hpp"
-#include "common/program/checkpoints.hpp"
-#include "common/program/session.hpp"
+#include "common/program/run/checkpoints.hpp"
+#include "common/program/run/session.hpp"
 #include "coupler/coupler.hpp"
 
 namespace fsi::coupler {

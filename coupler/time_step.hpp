@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "common/core/time_schedule.hpp"
+#include "common/core/time/time_schedule.hpp"
 
 namespace fsi::coupler {
 

@@ -8,10 +8,10 @@
 #include <utility>
 
 #include "common/core/failure.hpp"
-#include "fluid_solver/ghost_lines.hpp"
+#include "fluid_solver/boundary/ghost_lines.hpp"
 #include "fluid_solver/kernels/rates.hpp"
+#include "fluid_solver/measures/shocks.hpp"
 #include "fluid_solver/positivity.hpp"
-#include "fluid_solver/shocks.hpp"
 
 namespace fsi::fluid {
 

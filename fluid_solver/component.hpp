@@ -13,10 +13,10 @@
 #include "common/core/types.hpp"
 #include "common/grid/intervals.hpp"
 #include "common/grid/moving_grid.hpp"
+#include "fluid_solver/boundary/wall_motion.hpp"
 #include "fluid_solver/forcing.hpp"
 #include "fluid_solver/gas_options.hpp"
 #include "fluid_solver/kernels/sweep.hpp"
-#include "fluid_solver/wall_motion.hpp"
 
 namespace fsi::fluid {
 
@@ -53,8 +53,8 @@ class Component {
   /// All points are advanced and valid.
   Component(grid::MovingGrid grid, const GasOptions& options, std::array<Boundary, 4> boundaries);
 
-  /// From now on the source terms of an exact state act, and conditions on the sides hold for the difference
-  /// to it.
+  /// From now on the source terms of an exact state act, and
+  /// conditions on the sides hold for the difference to it.
   void force(const StateField& exact);
   const Forcing* forcing() const { return forcing_ ? &*forcing_ : nullptr; }
   /// From now on only these points are advanced, and only these have a value.

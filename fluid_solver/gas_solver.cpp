@@ -7,9 +7,9 @@
 #include <utility>
 
 #include "common/core/failure.hpp"
-#include "fluid_solver/boundary_conditions.hpp"
+#include "fluid_solver/boundary/boundary_conditions.hpp"
+#include "fluid_solver/boundary/side_points.hpp"
 #include "fluid_solver/positivity.hpp"
-#include "fluid_solver/side_points.hpp"
 
 namespace fsi::fluid {
 

@@ -14,9 +14,9 @@
 #include <string>
 #include <vector>
 
-#include "common/grid/composite_grid.hpp"
+#include "common/grid/geometry/near_curves.hpp"
 #include "common/grid/moving_grid.hpp"
-#include "common/grid/near_curves.hpp"
+#include "common/grid/overlap/composite_grid.hpp"
 #include "fluid_solver/component.hpp"
 #include "fluid_solver/gas_options.hpp"
 
@@ -28,8 +28,8 @@ struct TimeStep {
   std::string reason;  ///< for people: which grid, point and position
 };
 
-/// The gas along an interface side, n points; vectors component-major (component c of point k at [c * n +
-/// k]).
+/// The gas along an interface side, n points; vectors component-major
+/// (component c of point k at [c * n + k]).
 struct GasInterface {
   std::vector<double> x;    ///< positions, 2 n
   std::vector<double> v;    ///< velocity, 2 n
@@ -78,11 +78,11 @@ class GasSolver {
   GasSolver(grid::MovingGrid grid, const GasOptions& options, std::array<Boundary, 4> boundaries, double t0);
 
   /// Makes a state an exact solution by source terms; initial and boundary data are to be given from it.
-  /// Conditions that say zero, or n.v of a wall, then hold for the difference to it. Before the initial
-  /// conditions.
+  /// Conditions that say zero, or n.v of a wall, then hold for
+  /// the difference to it. Before the initial conditions.
   void force(const StateField& exact);
-  /// Sets every valid point, ghosts included. @throws UserMistake at a density or pressure that is not
-  /// positive
+  /// Sets every valid point, ghosts included. @throws UserMistake
+  /// at a density or pressure that is not positive
   void assign_initial_conditions(const StateField& initial);
   /// Works on the projected as on the predicted state. (44), (45)
   TimeStep compute_time_step() const;
@@ -91,8 +91,8 @@ class GasSolver {
   /// @throws NumbersBroke at a folded cell, where a point finds no donor, and where two curves are nearer to
   /// each other than nearest_curves spacings of the background
   void move_grids(double t_new, double dt, std::span<const grid::SideCommand> commands = {});
-  /// Predicted state at t, all points, boundary points included, without interface conditions; the grid was
-  /// moved before.
+  /// Predicted state at t, all points, boundary points included,
+  /// without interface conditions; the grid was moved before.
   /// @throws NumbersBroke at a density or pressure that is no longer a number or not positive
   void advance_fluid(double t, double dt);
   /// The gas along a side, for the projection.

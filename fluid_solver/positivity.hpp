@@ -14,7 +14,7 @@
 #include <span>
 #include <vector>
 
-#include "common/grid/interpolation.hpp"
+#include "common/grid/overlap/interpolation.hpp"
 #include "fluid_solver/kernels/sweep.hpp"
 
 namespace fsi::fluid {

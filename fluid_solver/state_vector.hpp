@@ -4,8 +4,8 @@
 #include <Eigen/Core>
 
 #include "common/core/field.hpp"
+#include "fluid_solver/boundary/side_points.hpp"
 #include "fluid_solver/gas_options.hpp"
-#include "fluid_solver/side_points.hpp"
 
 namespace fsi::fluid {
 

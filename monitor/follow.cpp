@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "monitor/json.hpp"
-#include "monitor/screen.hpp"
-#include "monitor/terminal.hpp"
+#include "monitor/terminal/screen.hpp"
+#include "monitor/terminal/terminal.hpp"
 
 namespace fsi::monitor {
 

@@ -11,8 +11,8 @@
 namespace fsi::monitor {
 
 /// A quantity over a growing abscissa, at most `capacity` points. When it is full, every second point goes,
-/// the smaller one of a pair by size, so that peaks stay; from then on only every second newcomer counts, and
-/// so on.
+/// the smaller one of a pair by size, so that peaks stay; from
+/// then on only every second newcomer counts, and so on.
 class Series {
  public:
   struct Point {
@@ -39,8 +39,8 @@ class History {
   void add(const wire::Telemetry& leader);
   /// Under a name "dt", "INTERFACE.gap" ...; what lies before the last point of that name is left out.
   void add(const std::string& name, double t, double value) { series_[name].add(t, value); }
-  /// Steps taken before anybody watched, from the coupler's table in the folder of the run. Unreadable:
-  /// nothing.
+  /// Steps taken before anybody watched, from the coupler's
+  /// table in the folder of the run. Unreadable: nothing.
   void read_table(const std::string& path);
   /// By name; empty before there was anything.
   const Series& of(const std::string& name) const;

@@ -10,7 +10,7 @@
 #include <thread>
 #include <utility>
 
-#include "common/bus/peer.hpp"
+#include "common/bus/peers/peer.hpp"
 #include "common/core/failure.hpp"
 
 namespace fsi::monitor {

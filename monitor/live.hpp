@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "common/bus/listener.hpp"
-#include "monitor/recording.hpp"
+#include "common/bus/sessions/listener.hpp"
+#include "monitor/recording/recording.hpp"
 #include "monitor/source.hpp"
 
 namespace fsi::monitor {

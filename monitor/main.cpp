@@ -13,16 +13,16 @@
 #include <string>
 #include <string_view>
 
-#include "common/bus/listener.hpp"
+#include "common/bus/sessions/listener.hpp"
 #include "common/core/command_line.hpp"
 #include "common/core/failure.hpp"
 #include "monitor/follow.hpp"
 #include "monitor/json.hpp"
 #include "monitor/live.hpp"
+#include "monitor/recording/replay.hpp"
 #include "monitor/registry.hpp"
-#include "monitor/replay.hpp"
-#include "monitor/screen.hpp"
 #include "monitor/state.hpp"
+#include "monitor/terminal/screen.hpp"
 
 namespace {
 

@@ -13,7 +13,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "common/bus/peer.hpp"
+#include "common/bus/peers/peer.hpp"
 
 namespace fsi::monitor {
 

@@ -20,8 +20,8 @@ struct RunEntry {
 
 /// Where the launcher puts the entries: amp-fsi in $XDG_RUNTIME_DIR or /run/user/UID when it can write there,
 /// else
-/// ~/.cache/amp-fsi/HOST, else /tmp/amp-fsi-UID. A folder in which others may make a name first is the last
-/// resort.
+/// ~/.cache/amp-fsi/HOST, else /tmp/amp-fsi-UID. A folder in
+/// which others may make a name first is the last resort.
 std::filesystem::path registry_folder();
 
 /// Entries in this folder whose launcher lives, in the order of their names. Unreadable files are passed

@@ -46,8 +46,8 @@ class RunState {
   const RunEntry& run() const { return run_; }
   /// Latest telemetry by participant.
   const std::map<std::string, wire::Telemetry>& programs() const { return programs_; }
-  /// The program that speaks for the whole run: the coupler, or the only solver; null before anything was
-  /// heard.
+  /// The program that speaks for the whole run: the coupler,
+  /// or the only solver; null before anything was heard.
   const wire::Telemetry* leader() const;
   /// Interfaces in the order the coupler has them.
   const std::vector<wire::Telemetry::Interface>& interfaces() const;

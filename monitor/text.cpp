@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "monitor/screen.hpp"
+#include "monitor/terminal/screen.hpp"
 
 namespace fsi::monitor {
 

@@ -1,6 +1,6 @@
 #pragma once
-/// What the one-dimensional references share: the laws, values at masses from springs, differences of two
-/// runs.
+/// What the one-dimensional references share: the laws, values
+/// at masses from springs, differences of two runs.
 
 #include <map>
 #include <span>

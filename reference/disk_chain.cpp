@@ -21,8 +21,8 @@ constexpr double safety = 0.9;
 constexpr int block = 32;
 
 /// The ring at the interface: a solid ring that turns and half a shell of gas that slips along it, so that
-/// its mass along the radius differs from the one across it. Its free flight is therefore in polar
-/// coordinates.
+/// its mass along the radius differs from the one across it.
+/// Its free flight is therefore in polar coordinates.
 struct Rim {
   double a = 1, phi = 0;    // radius and angle, paper's 1 + u_r and u_theta at r_bar = 1
   double v_a = 0, l = 0;    // radial velocity; angular momentum per mass of solid

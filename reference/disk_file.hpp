@@ -16,8 +16,8 @@ DiskDifference largest(const std::vector<DiskDifference>& all);
 std::vector<DiskDifference> estimated_errors(const std::vector<DiskOutput>& fine,
                                              const std::vector<DiskOutput>& half);
 
-/// Writes a group per output: fields, conserved totals and estimated errors; and why the run ended early, if
-/// it did.
+/// Writes a group per output: fields, conserved totals and estimated
+/// errors; and why the run ended early, if it did.
 /// @throws OutputFailed when the file cannot be written
 void write_disk_table(const std::string& path, const DiskRun& run, const std::vector<DiskDifference>& errors);
 

@@ -48,8 +48,8 @@ void write_table(const std::string& path, const PistonRun& run, const PistonDiff
   io::rename_into_place(path);
 }
 
-/// A second-order scheme with half the points is four times as wrong, so the difference is three times the
-/// error.
+/// A second-order scheme with half the points is four times
+/// as wrong, so the difference is three times the error.
 PistonDifference error_from(PistonDifference difference) {
   for (double* value : {&difference.rho, &difference.v, &difference.p, &difference.u_bar, &difference.v_bar,
                         &difference.P_bar}) {
@@ -58,8 +58,8 @@ PistonDifference error_from(PistonDifference difference) {
   return difference;
 }
 
-/// Order of accuracy seen in three runs, each with half the points of the one before. Below 1.5 the motion is
-/// not smooth.
+/// Order of accuracy seen in three runs, each with half the points
+/// of the one before. Below 1.5 the motion is not smooth.
 double observed_rate(const PistonDifference& fine, const PistonDifference& coarse) {
   return std::log2(coarse.P_bar / fine.P_bar);
 }

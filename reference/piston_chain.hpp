@@ -1,6 +1,6 @@
 #pragma once
-/// One-dimensional piston as a chain of masses and springs: solid and gas in Lagrangian coordinates, one
-/// system.
+/// One-dimensional piston as a chain of masses and springs:
+/// solid and gas in Lagrangian coordinates, one system.
 ///
 ///   u(t) |--o--o--o--o--o==o==o==o==o==o==|  wall, or gas at rest far away
 ///            solid springs   gas springs
@@ -22,7 +22,7 @@ namespace fsi::reference {
 struct PistonProblem {
   std::string law = "linear_elastic";
   double rho_bar = 1, lambda = 1, mu = 1;  ///< of the solid
-  std::map<std::string, double> own;  ///< numbers of the law besides lambda and mu
+  std::map<std::string, double> own;       ///< numbers of the law besides lambda and mu
   double x_a = -1, x_b = 0;                ///< reference domain of the solid
   double x_end = 1.5;                      ///< where the gas ends at t = 0
   double gamma = 1.4, p_e = 0;

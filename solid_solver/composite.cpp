@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "common/core/failure.hpp"
-#include "common/grid/partition.hpp"
-#include "solid_solver/reference_metrics.hpp"
+#include "common/grid/geometry/partition.hpp"
+#include "solid_solver/kernels/reference_metrics.hpp"
 
 namespace fsi::solid {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "common/core/field.hpp"
-#include "common/grid/composite_grid.hpp"
+#include "common/grid/overlap/composite_grid.hpp"
 #include "solid_solver/solid_component.hpp"
 
 namespace fsi::solid {

@@ -9,9 +9,9 @@
 #include <optional>
 
 #include "common/grid/moving_grid.hpp"
-#include "solid_solver/dissipation.hpp"
-#include "solid_solver/godunov_sweep.hpp"
-#include "solid_solver/solid_boundary.hpp"
+#include "solid_solver/boundary/solid_boundary.hpp"
+#include "solid_solver/kernels/dissipation.hpp"
+#include "solid_solver/kernels/godunov_sweep.hpp"
 #include "solid_solver/solid_points.hpp"
 
 namespace fsi::solid {
@@ -50,8 +50,8 @@ class SolidComponent {
   void predict(double t, double dt);
   /// The present state without that half of the source (to round-off), when a grid of the body broke.
   void give_back();
-  /// Paper eq. (39) to paper eq. (41): what was predicted becomes the state at t + dt, boundary conditions
-  /// not applied.
+  /// Paper eq. (39) to paper eq. (41): what was predicted becomes
+  /// the state at t + dt, boundary conditions not applied.
   void complete(double t, double dt);
   void apply_boundary(double t, std::span<const InterfaceValues> projected) {
     boundary_.apply(q_.view(), t, projected);
@@ -63,8 +63,8 @@ class SolidComponent {
   const SweepResult& measured() const { return measured_; }
   /// Ghost points of all steps so far that took the acoustic matrix of the body beside them.
   double settled() const { return settled_; }
-  /// F at a point by central differences of u inside, one-sided ones of second order at the sides (no ghost
-  /// points).
+  /// F at a point by central differences of u inside, one-sided
+  /// ones of second order at the sides (no ghost points).
   Tensor2 deformation_gradient(int i, int j) const;
   /// Everything the next steps depend on.
   void archive(Archive& archive);
@@ -357,7 +357,8 @@ std::string SolidComponent<L>::trouble_at(int i, int j, double dt) const {
   const double phi_s = std::min(wave_eigenvalues(acoustic_matrix(K, m.r1.normalized())).y,
                                 wave_eigenvalues(acoustic_matrix(K, m.r2.normalized())).y);
   if constexpr (requires { L::end_of_law; }) {
-    if (std::isnan(J) || (J > 0 && std::isnan(law_.psi(F)))) return fmt::format("det F = {:.4g}: {}", J, L::end_of_law);
+    if (std::isnan(J) || (J > 0 && std::isnan(law_.psi(F))))
+      return fmt::format("det F = {:.4g}: {}", J, L::end_of_law);
   }
   if (!(J > 0)) return fmt::format("det F = {:.4g}", J);
   if (!(phi_s > 0)) return fmt::format("no longer hyperbolic, phi_s = {:.4g}", phi_s);

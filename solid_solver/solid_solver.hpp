@@ -17,14 +17,14 @@
 
 #include "common/core/archive.hpp"
 #include "common/core/field.hpp"
-#include "common/grid/composite_grid.hpp"
 #include "common/grid/moving_grid.hpp"
-#include "solid_solver/body_integrals.hpp"
+#include "common/grid/overlap/composite_grid.hpp"
+#include "solid_solver/boundary/interface.hpp"
 #include "solid_solver/composite.hpp"
-#include "solid_solver/interface.hpp"
+#include "solid_solver/measures/body_integrals.hpp"
+#include "solid_solver/measures/pose.hpp"
+#include "solid_solver/measures/probe.hpp"
 #include "solid_solver/options.hpp"
-#include "solid_solver/pose.hpp"
-#include "solid_solver/probe.hpp"
 #include "solid_solver/solid_component.hpp"
 #include "solid_solver/time_step.hpp"
 
@@ -98,8 +98,8 @@ class SolidSolver {
 
   /// Makes chosen fields exact; half of a step's sources act before it, half after it. Conditions on the
   /// sides then hold for the difference to the fields, and so does what an interface shows and is told: it
-  /// lies where the reference configuration has it, but for the difference in u. Before the initial
-  /// conditions.
+  /// lies where the reference configuration has it, but for
+  /// the difference in u. Before the initial conditions.
   void choose(const ChosenSolution& solution) {
     for (SolidComponent<L>& component : components_) component.choose(solution);
   }

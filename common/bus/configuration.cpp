@@ -11,8 +11,8 @@ namespace fsi::bus {
 
 namespace {
 
-/// Domains whose ports lie below Linux's ephemeral range (32768 and up): nobody's outgoing connection takes
-/// them.
+/// Domains whose ports lie below Linux's ephemeral range (32768
+/// and up): nobody's outgoing connection takes them.
 constexpr std::uint32_t domains = 100;
 /// Smaller receive buffers lose packets of samples of about 1 MB.
 constexpr long comfortable_rmem = 1 << 20;

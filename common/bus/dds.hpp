@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "amp_fsi.h"
-#include "common/bus/credentials.hpp"
+#include "common/bus/peers/credentials.hpp"
 
 namespace fsi::bus {
 
@@ -114,8 +114,8 @@ class Writer {
     checked(dds_get_publication_matched_status(writer_.get(), &status), "matched readers");
     return static_cast<int>(status.current_count);
   }
-  /// From now on a new or lost reader wakes the waitset until `matched` is asked; no longer after
-  /// `ignore_matches`.
+  /// From now on a new or lost reader wakes the waitset until
+  /// `matched` is asked; no longer after `ignore_matches`.
   void announce_matches(Waitset& waitset) const {
     checked(dds_set_status_mask(writer_.get(), DDS_PUBLICATION_MATCHED_STATUS), "status mask");
     waitset.attach(writer_);
@@ -165,8 +165,8 @@ class Reader {
     checked(dds_get_subscription_matched_status(reader_.get(), &status), "matched writers");
     return static_cast<int>(status.current_count);
   }
-  /// From now on a new or lost writer wakes the waitset until `matched` is asked; no longer after
-  /// `ignore_matches`.
+  /// From now on a new or lost writer wakes the waitset until
+  /// `matched` is asked; no longer after `ignore_matches`.
   void announce_matches(Waitset& waitset) const {
     checked(dds_set_status_mask(reader_.get(), DDS_SUBSCRIPTION_MATCHED_STATUS), "status mask");
     waitset.attach(reader_);

@@ -1,6 +1,6 @@
 #pragma once
-/// Whether the arrays of a message have the lengths its interface asks for. Nobody indexes an array
-/// unchecked.
+/// Whether the arrays of a message have the lengths its interface
+/// asks for. Nobody indexes an array unchecked.
 
 #include <cstddef>
 #include <cstdint>

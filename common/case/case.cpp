@@ -6,18 +6,18 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "common/case/build.hpp"
-#include "common/case/build_shape.hpp"
-#include "common/case/check.hpp"
-#include "common/case/choose_grids.hpp"
-#include "common/case/memory.hpp"
-#include "common/case/restart.hpp"
-#include "common/case/schema.hpp"
-#include "common/case/scope.hpp"
-#include "common/case/validate.hpp"
-#include "common/core/config.hpp"
-#include "common/core/suggest.hpp"
-#include "common/core/text_file.hpp"
+#include "common/case/check/check.hpp"
+#include "common/case/document/scope.hpp"
+#include "common/case/document/validate.hpp"
+#include "common/case/grids/choose_grids.hpp"
+#include "common/case/read/build.hpp"
+#include "common/case/read/build_shape.hpp"
+#include "common/case/read/restart.hpp"
+#include "common/case/report/memory.hpp"
+#include "common/case/schema/schema.hpp"
+#include "common/core/input/config.hpp"
+#include "common/core/input/suggest.hpp"
+#include "common/core/input/text_file.hpp"
 
 namespace fsi {
 
@@ -63,8 +63,8 @@ std::pair<std::string, std::string> split_at_equals(const std::string& text, con
   return {text.substr(0, equals), text.substr(equals + 1)};
 }
 
-/// Words of a dotted key. The names in `expect` have dots of their own: expect.errors.rho.max is expect,
-/// errors.rho, max.
+/// Words of a dotted key. The names in `expect` have dots of their
+/// own: expect.errors.rho.max is expect, errors.rho, max.
 std::vector<std::string> words_of(const std::string& key) {
   std::vector<std::string> words;
   std::size_t begin = 0;

@@ -1,7 +1,7 @@
 #pragma once
 /// The typed form of a case file: what `configs/*.yaml` says after expressions of the parameters are
-/// evaluated, overrides applied and everything checked. docs/case_file.md is generated from the same
-/// description.
+/// evaluated, overrides applied and everything checked. docs/case_file.md
+/// is generated from the same description.
 
 #include <array>
 #include <cstdint>
@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "common/core/choices.hpp"
-#include "common/core/expression.hpp"
+#include "common/core/input/expression.hpp"
 #include "common/core/types.hpp"
 
 namespace fsi {
@@ -227,8 +227,8 @@ struct Case {
   std::vector<Expectation> expect;
 };
 
-/// Reads, checks and resolves a case. `overrides` are "key=value" texts of --set, `laws` "NAME=LAW" of
-/// --solid.
+/// Reads, checks and resolves a case. `overrides` are "key=value"
+/// texts of --set, `laws` "NAME=LAW" of --solid.
 /// @throws UserMistake with file:line:column
 Case load_case(const std::string& path, const std::vector<std::string>& overrides = {},
                const std::vector<std::string>& laws = {});

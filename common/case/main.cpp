@@ -8,12 +8,12 @@
 #include <string_view>
 
 #include "common/case/case.hpp"
-#include "common/case/cost.hpp"
-#include "common/case/document.hpp"
-#include "common/case/json_schema.hpp"
-#include "common/case/memory.hpp"
-#include "common/case/restart.hpp"
-#include "common/case/summary.hpp"
+#include "common/case/document/document.hpp"
+#include "common/case/read/restart.hpp"
+#include "common/case/report/cost.hpp"
+#include "common/case/report/memory.hpp"
+#include "common/case/report/summary.hpp"
+#include "common/case/schema/json_schema.hpp"
 #include "common/core/command_line.hpp"
 #include "common/core/failure.hpp"
 

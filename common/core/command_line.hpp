@@ -39,8 +39,8 @@ class CommandLine {
   CommandLine(const CommandLine&) = delete;
   CommandLine& operator=(const CommandLine&) = delete;
 
-  /// An option with a value; a name without dashes is a word in its place. Without it `value` stays what it
-  /// is.
+  /// An option with a value; a name without dashes is a word
+  /// in its place. Without it `value` stays what it is.
   Option add_option(const std::string& name, std::string& value, const std::string& help);
   Option add_option(const std::string& name, int& value, const std::string& help);
   Option add_option(const std::string& name, double& value, const std::string& help);

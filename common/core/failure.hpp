@@ -27,8 +27,8 @@ class Failure : public std::runtime_error {
   ExitCode code_;
 };
 
-/// The user's mistake: one line with file:line:column (where there is one), what is wrong and what to write.
-/// Exit 2.
+/// The user's mistake: one line with file:line:column (where
+/// there is one), what is wrong and what to write. Exit 2.
 class UserMistake : public Failure {
  public:
   explicit UserMistake(const std::string& message) : Failure(ExitCode::user_mistake, message) {}

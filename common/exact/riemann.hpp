@@ -36,8 +36,8 @@ class Riemann {
   TubeState sample_side(const TubeState& outer, double speed, double direction) const;
 };
 
-/// The tube problem as a solution: the jump stands at x = x_0 at t = 0; the same for every y. It knows no
-/// solid.
+/// The tube problem as a solution: the jump stands at x =
+/// x_0 at t = 0; the same for every y. It knows no solid.
 class RiemannTube final : public Solution {
  public:
   RiemannTube(const Riemann& riemann, const TubeState& left, const TubeState& right, double x_0)

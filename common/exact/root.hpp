@@ -7,8 +7,8 @@
 namespace fsi::exact {
 
 /// Root of `f` between `a` and `b`, where f(a) and f(b) have opposite signs (or one is zero): Newton steps,
-/// and a bisection wherever Newton would leave the bracket or gains too little. `f` returns the pair (value,
-/// derivative).
+/// and a bisection wherever Newton would leave the bracket or gains
+/// too little. `f` returns the pair (value, derivative).
 template <class Function>
 double root_between(Function f, double a, double b, double guess) {
   const bool rising = f(b).first > 0;

@@ -8,12 +8,12 @@
 
 namespace fsi::exact {
 
-/// Interpolates columns of values over strictly increasing abscissae by cubics through the four nearest
-/// points.
+/// Interpolates columns of values over strictly increasing
+/// abscissae by cubics through the four nearest points.
 class CubicTable {
  public:
-  /// `columns` of the same length as `x`. @throws std::invalid_argument for fewer than four points or x not
-  /// increasing
+  /// `columns` of the same length as `x`. @throws std::invalid_argument
+  /// for fewer than four points or x not increasing
   CubicTable(std::vector<double> x, std::vector<std::vector<double>> columns);
 
   /// All columns at x; outside the table the nearest cubic continues.

@@ -55,8 +55,8 @@ void put(const Vec2& point, int k, std::vector<double>& x) {
   x[x.size() / 2 + at] = point[1];
 }
 
-/// Cross product of the edges from (i, j) to its neighbours at (i + a, j) and (i, j + b), positive when
-/// unfolded.
+/// Cross product of the edges from (i, j) to its neighbours
+/// at (i + a, j) and (i, j + b), positive when unfolded.
 double corner_area(ConstFieldView x, int i, int j, int a, int b) {
   const double e1 = x(0, i + a, j) - x(0, i, j), e2 = x(1, i + a, j) - x(1, i, j);
   const double f1 = x(0, i, j + b) - x(0, i, j), f2 = x(1, i, j + b) - x(1, i, j);

@@ -14,7 +14,7 @@
 #include "common/core/field.hpp"
 #include "common/core/types.hpp"
 #include "common/grid/cartesian_grid.hpp"
-#include "common/grid/hyperbolic.hpp"
+#include "common/grid/marching/hyperbolic.hpp"
 
 namespace fsi::grid {
 
@@ -32,8 +32,8 @@ struct GridDescription {
   bool follows = false;  ///< one of its sides is moved by commands
   double shake = 0;      ///< random displacement of every inner point at every step, in cells (tests)
   std::uint64_t shake_seed = 1;
-  /// Marched from `curve` in place of a mapping, and again at every move from the commanded points of its
-  /// side.
+  /// Marched from `curve` in place of a mapping, and again
+  /// at every move from the commanded points of its side.
   std::optional<HyperbolicGrid> hyperbolic = {};
   std::vector<double> curve = {};  ///< 2 points, component-major
 };
@@ -104,8 +104,8 @@ class MovingGrid {
   void check(double t) const;
 };
 
-/// A grid whose points form a rectangle along x and y, evenly spaced (for the caller to know), as a
-/// background.
+/// A grid whose points form a rectangle along x and y, evenly
+/// spaced (for the caller to know), as a background.
 CartesianGrid background_of(const MovingGrid& grid);
 
 }  // namespace fsi::grid

@@ -1,7 +1,7 @@
 #pragma once
 /// The equations of common/interface/modal.hpp solved step by step for bodies with many modes: what depends on
-/// the places of the entries alone (their order, the fill of the factors) is found once and kept until the
-/// places change.
+/// the places of the entries alone (their order, the fill of the
+/// factors) is found once and kept until the places change.
 
 #include <Eigen/Core>
 #include <Eigen/SparseCholesky>
@@ -43,8 +43,8 @@ class ModalSolver {
 
   /// @param S symmetric, its lower triangle counts  @return empty where S is singular
   Eigen::VectorXd solve(const Eigen::SparseMatrix<double>& S, const Eigen::VectorXd& right);
-  Eigen::VectorXd project(const Eigen::SparseMatrix<double>& S, const Eigen::VectorXd& g, const ModalLoad& load,
-                          double dt);
+  Eigen::VectorXd project(const Eigen::SparseMatrix<double>& S, const Eigen::VectorXd& g,
+                          const ModalLoad& load, double dt);
 
  private:
   using Factors = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>;

@@ -90,8 +90,8 @@ NormalSide simplified_side(const SolidPoint<D>& solid, const Vector<D>& n) {
 /// The state between two characteristics: paper eq. (28), or paper eq. (29) with the simplified solid side.
 ///
 /// It satisfies the matching conditions of paper eq. (12) and paper eq. (24): one normal velocity, one normal
-/// traction. Written as a correction of the solid's velocity, so that two equal sides stay equal to the last
-/// bit.
+/// traction. Written as a correction of the solid's velocity,
+/// so that two equal sides stay equal to the last bit.
 inline NormalState between(const NormalSide& solid, const NormalSide& gas) {
   const double jump = gas.w_n - solid.w_n + gas.z * (gas.v_n - solid.v_n);
   const double v_n = solid.v_n + jump / (solid.z + gas.z);
@@ -103,8 +103,8 @@ inline NormalState at_wall(double v_n, const NormalSide& gas) {
   return {.v_n = v_n, .w_n = gas.w_n - gas.z * (v_n - gas.v_n)};
 }
 
-/// Projected normal velocity and traction of one interface point. `n` is the unit normal from the solid to
-/// the gas.
+/// Projected normal velocity and traction of one interface point.
+/// `n` is the unit normal from the solid to the gas.
 template <int D>
 NormalState project(const SolidPoint<D>& solid, const NormalSide& gas, const Vector<D>& n, Projection how) {
   if (how == Projection::traditional) return {.v_n = n.dot(solid.v), .w_n = gas.w_n};

@@ -14,8 +14,8 @@ std::string aside(const std::string& path);
 /// Syncs `aside(path)` to disk and gives it the name `path`, replacing what was there. @throws OutputFailed
 void rename_into_place(const std::string& path);
 
-/// Replaces the file `path` by `text`: a kill at any moment leaves the old file or the new one. @throws
-/// OutputFailed
+/// Replaces the file `path` by `text`: a kill at any moment
+/// leaves the old file or the new one. @throws OutputFailed
 void write_atomically(const std::string& path, const std::string& text);
 
 }  // namespace fsi::io

@@ -25,8 +25,8 @@ std::string file_of(const std::string& folder, const std::string& participant) {
   return fmt::format("{}/{}.h5", folder, participant);
 }
 
-/// Name of the file a participant left in a set: of ours, or of a program with a format of its own. Empty:
-/// none.
+/// Name of the file a participant left in a set: of ours,
+/// or of a program with a format of its own. Empty: none.
 std::string name_of_file(const std::string& folder, const std::string& participant) {
   for (const char* suffix : {".h5", ".state"}) {
     if (files::exists(files::path(folder) / (participant + suffix))) return participant + suffix;

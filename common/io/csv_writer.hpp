@@ -36,11 +36,11 @@ class CsvWriter {
   void row(std::initializer_list<double> values) {
     row(std::span<const double>(values.begin(), values.size()));
   }
-  /// Hands all lines to the operating system; after a failure the file ends with the last whole batch.
-  /// @throws OutputFailed
+  /// Hands all lines to the operating system; after a failure the
+  /// file ends with the last whole batch. @throws OutputFailed
   void flush();
-  /// Brings all lines to the disk and notes the length of the file; on loading, cuts off what came after.
-  /// @throws OutputFailed
+  /// Brings all lines to the disk and notes the length of the file;
+  /// on loading, cuts off what came after. @throws OutputFailed
   void archive(Archive& archive);
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
-/// HDF5 with owners for its handles and exceptions for its errors. The only code that includes hdf5.h is
-/// hdf5.cpp.
+/// HDF5 with owners for its handles and exceptions for its
+/// errors. The only code that includes hdf5.h is hdf5.cpp.
 
 #include <cstdint>
 #include <span>

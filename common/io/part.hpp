@@ -18,8 +18,8 @@ enum class Work { advance, time_step, boundary, grids, messages, output, waiting
 inline constexpr std::array work_names{"advance",  "time_step", "boundary", "grids",
                                        "messages", "output",    "waiting"};
 
-/// Largest jumps over an interface in a whole run, before the projection, and what they are to be compared
-/// with.
+/// Largest jumps over an interface in a whole run, before
+/// the projection, and what they are to be compared with.
 struct InterfaceExtremes {
   double max_velocity_jump = 0;
   double max_traction_jump = 0;
@@ -39,7 +39,7 @@ struct Noise {
   std::string words;
 };
 
-/// How component grids exchanged values, the worst since the start (common/grid/composite_grid.hpp).
+/// How component grids exchanged values, the worst since the start (common/grid/overlap/composite_grid.hpp).
 struct Overlap {
   double amplification = 1;  ///< of errors by points that interpolate from each other
   std::string grid;          ///< where and when that was; "" where nothing was amplified

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "common/case/composite_from_case.hpp"
+#include "common/case/grids/composite_from_case.hpp"
 
 namespace fsi {
 

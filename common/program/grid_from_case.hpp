@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "common/case/case.hpp"
-#include "common/grid/composite_grid.hpp"
 #include "common/grid/moving_grid.hpp"
+#include "common/grid/overlap/composite_grid.hpp"
 #include "common/io/part.hpp"
 
 namespace fsi {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "common/case/case.hpp"
-#include "common/case/composite_from_case.hpp"
+#include "common/case/grids/composite_from_case.hpp"
 #include "common/core/command_line.hpp"
 #include "common/core/failure.hpp"
 #include "common/io/grid_writer.hpp"

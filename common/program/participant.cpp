@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "common/program/driver.hpp"
 #include "common/program/picture.hpp"
+#include "common/program/run/driver.hpp"
 
 namespace fsi {
 

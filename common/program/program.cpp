@@ -18,8 +18,8 @@
 
 #include "common/bus/options.hpp"
 #include "common/core/command_line.hpp"
+#include "common/core/input/suggest.hpp"
 #include "common/core/log.hpp"
-#include "common/core/suggest.hpp"
 #include "common/io/atomic_file.hpp"
 
 namespace fsi {

@@ -1,6 +1,6 @@
 #pragma once
-/// The shell every program of a run lives in: command line, signals, log, exit code and the report it leaves
-/// behind.
+/// The shell every program of a run lives in: command line,
+/// signals, log, exit code and the report it leaves behind.
 
 #include <chrono>
 #include <cstdint>
@@ -47,8 +47,8 @@ int run_program(int argc, char** argv, const std::string& default_name, const st
 /// Counter of the report: results that could not be written.
 inline constexpr const char* lost_outputs = "lost_outputs";
 
-/// Writes results. Where that fails and the case says to go on without them, the loss is told and counted.
-/// @throws OutputFailed
+/// Writes results. Where that fails and the case says to go on without
+/// them, the loss is told and counted. @throws OutputFailed
 void write_results(const Setup& setup, io::Part& part, const std::function<void()>& write);
 
 /// Ends the program when a signal asks for it: SIGINT (exit 130), and SIGTERM (exit 143) until

@@ -96,8 +96,8 @@ struct PredictedInterface {
   double wait_s = 0;
 };
 
-/// Coupler -> solver, one per step and interface: projected state at t, and everything needed for the next
-/// step.
+/// Coupler -> solver, one per step and interface: projected
+/// state at t, and everything needed for the next step.
 struct ProjectedInterface {
   std::string run;
   std::string to;  ///< participant's name

@@ -17,11 +17,11 @@
 #include <utility>
 #include <vector>
 
-#include "common/case/grid_points.hpp"
+#include "common/case/grids/grid_points.hpp"
 #include "common/core/archive.hpp"
-#include "common/core/backward_difference.hpp"
 #include "common/core/failure.hpp"
-#include "common/grid/interface_geometry.hpp"
+#include "common/core/time/backward_difference.hpp"
+#include "common/grid/geometry/interface_geometry.hpp"
 #include "common/io/csv_writer.hpp"
 #include "common/program/participant.hpp"
 #include "common/program/program.hpp"

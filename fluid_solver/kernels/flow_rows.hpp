@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "fluid_solver/kernels/face_state.hpp"
 #include "fluid_solver/kernels/geometry_rows.hpp"
 #include "fluid_solver/kernels/limiter.hpp"
+#include "fluid_solver/kernels/riemann/face_state.hpp"
 
 namespace fsi::fluid {
 
@@ -54,8 +54,8 @@ struct PredictedRows {
 inline constexpr double smallest_part = 1e-8;
 
 /// Half a time step of the quasi-linear form of (31) from limited slopes, then out to the faces. Where a face
-/// state would have no positive density or pressure, the point keeps its present state on all faces (first
-/// order).
+/// state would have no positive density or pressure, the point
+/// keeps its present state on all faces (first order).
 template <class Limiter, class Metric>
 [[gnu::noinline]] void predict_row(const StateRows& rows, Metric metric, double gamma,
                                    const PredictedRows& out, Range range) {
@@ -102,8 +102,8 @@ template <class Limiter, class Metric>
   }
 }
 
-/// Fluxes through faces at rest whose normal is the direction of v1; `area` is dt / (spacing along the
-/// normal).
+/// Fluxes through faces at rest whose normal is the direction
+/// of v1; `area` is dt / (spacing along the normal).
 template <class Riemann>
 [[gnu::noinline]] void flux_row(StateRow<const double> L, StateRow<const double> R, Riemann solve,
                                 double area, FluxRow out, Range range) {

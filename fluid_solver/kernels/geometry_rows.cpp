@@ -37,8 +37,8 @@ void corner_row(PointRow lower, PointRow upper, double* x, double* y, Range rang
 
 namespace {
 
-/// Normal, area and speed of the face from corner a to corner b, seen with the larger r on the right of a ->
-/// b.
+/// Normal, area and speed of the face from corner a to corner
+/// b, seen with the larger r on the right of a -> b.
 struct Face {
   double n1, n2, area, speed;
 };

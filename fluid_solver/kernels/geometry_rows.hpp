@@ -16,8 +16,8 @@
 
 namespace fsi::fluid {
 
-/// Transformation at the vertices of a row, at half time: dt times the metrics J_g dr_k/dx_j of (30) over
-/// J_g.
+/// Transformation at the vertices of a row, at half time:
+/// dt times the metrics J_g dr_k/dx_j of (30) over J_g.
 struct MetricRow {
   double *r1_x, *r1_y, *r2_x, *r2_y;  ///< dt dr_k/dx_j
   double *drift1, *drift2;            ///< dt g_dot . grad r_k

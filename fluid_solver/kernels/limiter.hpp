@@ -2,8 +2,8 @@
 /// Slope limiters. One more limiter is one struct here, its name in `AnyLimiter` and in `Limiter`.
 ///
 /// Each gives *half* the slope of a quantity over one cell from the differences a (to the neighbour before)
-/// and b (to the neighbour after): the face values are q - half_slope and q + half_slope. Selects only, no
-/// branches.
+/// and b (to the neighbour after): the face values are q - half_slope
+/// and q + half_slope. Selects only, no branches.
 
 #include <variant>
 

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "fluid_solver/kernels/rates.hpp"
-#include "fluid_solver/kernels/riemann_split.hpp"
+#include "fluid_solver/kernels/riemann/riemann_split.hpp"
 
 namespace fsi::fluid {
 

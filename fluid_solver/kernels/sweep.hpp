@@ -12,8 +12,8 @@
 #include <span>
 #include <vector>
 
-#include "fluid_solver/kernels/any_riemann.hpp"
 #include "fluid_solver/kernels/limiter.hpp"
+#include "fluid_solver/kernels/riemann/any_riemann.hpp"
 #include "fluid_solver/kernels/rows.hpp"
 #include "fluid_solver/kernels/sweep_runs.hpp"
 #include "fluid_solver/kernels/viscous_rows.hpp"

@@ -5,8 +5,8 @@
 
 namespace fsi::fluid {
 
-/// Time-stepping eigenvalue Lambda = -damping + i waves; the gas has no part proportional to 1/dt. paper eq.
-/// (44)
+/// Time-stepping eigenvalue Lambda = -damping + i waves; the
+/// gas has no part proportional to 1/dt. paper eq. (44)
 struct Eigenvalue {
   double damping = 0;  ///< -Lambda_r, not negative [1/time]
   double waves = 0;    ///< Lambda_i, positive [1/time]

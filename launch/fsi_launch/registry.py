@@ -45,7 +45,7 @@ def _make_folder(path):
 
 class Entry:
     """A run's entry; exists while the context is open. `key`: what programs and monitors of the run share
-    (common/bus/credentials.hpp). `protection`: "off", "sign" or "encrypt". `participants`: names of those who will speak."""
+    (common/bus/peers/credentials.hpp). `protection`: "off", "sign" or "encrypt". `participants`: names of those who will speak."""
 
     def __init__(self, run, directory, case, protection, participants):
         self.path = folder() / f"{run}.json"

@@ -232,7 +232,7 @@ def _error_lines(errors, width):
     return lines
 
 
-SOUND_AMPLIFICATION = 3.125  # of errors by points that interpolate from each other (common/grid/composite_grid.hpp)
+SOUND_AMPLIFICATION = 3.125  # of errors by points that interpolate from each other (common/grid/overlap/composite_grid.hpp)
 
 
 def overlap_lines(summary):

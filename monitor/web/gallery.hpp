@@ -17,8 +17,8 @@ namespace fsi::monitor {
 
 /// Pictures one after the other, and how new the newest is. Each is the length of its header (4 bytes, little
 /// endian), the header (JSON: from, role, quantity, step, t, low, high, grids: [{name, n1, n2, straight}]),
-/// and for each grid its positions (32-bit floats), its levels (16 bit); header and levels filled to whole 4
-/// bytes.
+/// and for each grid its positions (32-bit floats), its levels
+/// (16 bit); header and levels filled to whole 4 bytes.
 struct Hanging {
   std::uint64_t version = 0;
   std::string bytes;

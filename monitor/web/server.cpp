@@ -143,8 +143,8 @@ struct WebServer::Implementation {
     });
   }
 
-  /// What is newer than the last picture the browser has, as soon as there is something; else, after a while,
-  /// nothing.
+  /// What is newer than the last picture the browser has, as soon
+  /// as there is something; else, after a while, nothing.
   void pictures(const httplib::Request& request, httplib::Response& response) {
     if (!options.pictures) {
       response.status = 404;

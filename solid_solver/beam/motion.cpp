@@ -18,8 +18,8 @@ namespace {
 constexpr int most_iterations = 30;
 /// Displacements over the length, and rotations, are exact to this: the next correction would be its square.
 constexpr double converged = 1e-9;
-/// Below this, corrections that no longer become smaller are round-off, which the stretch of a thin beam
-/// magnifies.
+/// Below this, corrections that no longer become smaller are
+/// round-off, which the stretch of a thin beam magnifies.
 constexpr double almost = 1e-6;
 
 }  // namespace

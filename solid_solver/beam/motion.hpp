@@ -1,8 +1,8 @@
 #pragma once
 /// A beam that moves: supports, and implicit steps by second-order backward differences.
 ///
-/// With b the leading weight and h the past (common/core/backward_difference.hpp), for the free velocities
-/// q':
+/// With b the leading weight and h the past (common/core/time/backward_difference.hpp),
+/// for the free velocities q':
 ///
 ///     M (b q' - h_v) = dt (f + f_int(u)),   u = (dt q' + h_u) / b
 ///
@@ -28,8 +28,8 @@
 #include <vector>
 
 #include "common/core/archive.hpp"
-#include "common/core/backward_difference.hpp"
 #include "common/core/choices.hpp"
+#include "common/core/time/backward_difference.hpp"
 #include "common/interface/modal_system.hpp"
 #include "solid_solver/beam/model.hpp"
 
@@ -90,8 +90,8 @@ class BeamMotion {
   void assemble(const std::vector<Resultants>& stress, Response& into) const;
 
   BeamModel model_;
-  Eigen::SparseMatrix<double> B_;  ///< free motions
-  std::vector<FreeMotion> free_;   ///< of every degree of freedom
+  Eigen::SparseMatrix<double> B_;            ///< free motions
+  std::vector<FreeMotion> free_;             ///< of every degree of freedom
   std::vector<std::array<int, 36>> places_;  ///< of the elements' stiffness in the lower triangle; -1: none
   std::vector<int> diagonal_;                ///< places of the diagonal there
   Response own_response_;                    ///< lower triangle; used again in every iteration

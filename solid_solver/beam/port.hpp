@@ -1,6 +1,6 @@
 #pragma once
-/// The beam's port: a case file turned into a BeamMotion with its outline, its state turned into messages and
-/// files.
+/// The beam's port: a case file turned into a BeamMotion with
+/// its outline, its state turned into messages and files.
 
 #include <array>
 #include <cstddef>

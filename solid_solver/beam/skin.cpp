@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "common/grid/interface_geometry.hpp"
+#include "common/grid/geometry/interface_geometry.hpp"
 #include "common/wire/messages.hpp"
 
 namespace fsi::beam {
@@ -162,8 +162,8 @@ Eigen::SparseMatrix<double> Skin::mode_vectors(const BeamMotion& beam,
     starts.push_back(static_cast<int>(rows.size()));
   }
   return Eigen::Map<const Eigen::SparseMatrix<double>>(beam.modes(), static_cast<Eigen::Index>(n),
-                                                       static_cast<Eigen::Index>(values.size()), starts.data(),
-                                                       rows.data(), values.data());
+                                                       static_cast<Eigen::Index>(values.size()),
+                                                       starts.data(), rows.data(), values.data());
 }
 
 }  // namespace fsi::beam

@@ -50,8 +50,8 @@ class Skin {
   const Attached& place(std::size_t k) const { return places_[k]; }
   std::vector<double> positions(const BeamMotion& beam) const;
   std::vector<double> velocities(const BeamMotion& beam) const;
-  /// Outward unit normals of the outline at these positions. An end whose section cannot turn keeps that of
-  /// rest.
+  /// Outward unit normals of the outline at these positions.
+  /// An end whose section cannot turn keeps that of rest.
   std::vector<double> normals(const std::vector<double>& x) const;
   /// Marks of such ends, as in wire::Freedom.
   std::vector<std::uint8_t> freedom() const;

@@ -10,8 +10,8 @@
 
 namespace fsi::solid {
 
-/// psi = -mu J_m / 2 ln(1 - (I1 - 3) / J_m) - mu ln J + (lambda / 2 - mu / J_m) (ln J)^2, I1 - 3 = tr C - 2 in
-/// plane strain.
+/// psi = -mu J_m / 2 ln(1 - (I1 - 3) / J_m) - mu ln J + (lambda
+/// / 2 - mu / J_m) (ln J)^2, I1 - 3 = tr C - 2 in plane strain.
 ///
 /// The locking resists a change of area too, with 2 mu / J_m at rest, which the coefficient of (ln J)^2 takes
 /// off again: lambda and mu are the Lame constants of the rest state. Needs J_m >= 2 mu / lambda; otherwise the
@@ -21,10 +21,11 @@ struct Gent {
   static constexpr std::string_view name = "gent";
   static constexpr bool objective = true;
   /// What a failed run says where the stress is not a number.
-  static constexpr std::string_view end_of_law = "no stress, as where I1 - 3 reaches J_m and the law `gent` locks";
+  static constexpr std::string_view end_of_law =
+      "no stress, as where I1 - 3 reaches J_m and the law `gent` locks";
 
-  double lambda = 0;  ///< Lame constant of the rest state [pressure]
-  double mu = 0;      ///< shear modulus of the rest state [pressure]
+  double lambda = 0;                                ///< Lame constant of the rest state [pressure]
+  double mu = 0;                                    ///< shear modulus of the rest state [pressure]
   double J_m = std::numeric_limits<double>::max();  ///< largest I1 - 3 [-]
 
   static constexpr std::array<OwnNumber<Gent>, 1> own_numbers{
@@ -33,7 +34,8 @@ struct Gent {
   /// Energy per unit reference volume.
   double psi(const Tensor2& F) const {
     const double log_J = logarithm(F.a11 * F.a22 - F.a12 * F.a21);
-    return -0.5 * mu * J_m * logarithm(1.0 / stiffening(F)) - mu * log_J + 0.5 * area_modulus() * log_J * log_J;
+    return -0.5 * mu * J_m * logarithm(1.0 / stiffening(F)) - mu * log_J +
+           0.5 * area_modulus() * log_J * log_J;
   }
 
   /// Nominal stress, paper eq. (7): mu g F^T + (l ln J - mu) F^-1, g = J_m / (J_m - (I1 - 3)),
@@ -79,8 +81,8 @@ struct Gent {
   /// What (ln J)^2 / 2 is multiplied with.
   [[gnu::always_inline]] double area_modulus() const { return lambda - 2.0 * (mu / J_m); }
 
-  /// g = J_m / (J_m - (I1 - 3)), by which the law is stiffer than the neo-Hookean one; not-a-number where it
-  /// locks.
+  /// g = J_m / (J_m - (I1 - 3)), by which the law is stiffer
+  /// than the neo-Hookean one; not-a-number where it locks.
   [[gnu::always_inline]] double stiffening(const Tensor2& F) const {
     const double stretch = F.a11 * F.a11 + F.a12 * F.a12 + F.a21 * F.a21 + F.a22 * F.a22 - 2.0;
     const double reserve = 1.0 - stretch / J_m;

@@ -1,6 +1,6 @@
 #pragma once
-/// What a constitutive law is to the solid solver: three pure functions of the deformation gradient F (plane
-/// strain).
+/// What a constitutive law is to the solid solver: three pure
+/// functions of the deformation gradient F (plane strain).
 
 #include <concepts>
 #include <map>
@@ -45,12 +45,13 @@ concept Law = requires(const L law, const Tensor2 F) {
 };
 
 /// The law with the Lame constants and with its own numbers by their keys. Whether they are there and in their
-/// range is checked where a case is read (common/case/build_material.hpp).
+/// range is checked where a case is read (common/case/read/build_material.hpp).
 template <Law L>
 L law_with(double lambda, double mu, const std::map<std::string, double>& numbers) {
   L law{.lambda = lambda, .mu = mu};
   if constexpr (requires { L::own_numbers; }) {
-    for (const OwnNumber<L>& own : L::own_numbers) law.*own.member = numbers.find(std::string(own.key))->second;
+    for (const OwnNumber<L>& own : L::own_numbers)
+      law.*own.member = numbers.find(std::string(own.key))->second;
   }
   return law;
 }

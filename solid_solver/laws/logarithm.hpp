@@ -8,12 +8,12 @@
 
 namespace fsi::solid {
 
-/// ln x for positive normal x; not-a-number for x <= 0 and for not-a-number. Error below 2 units in the last
-/// place.
+/// ln x for positive normal x; not-a-number for x <= 0 and for
+/// not-a-number. Error below 2 units in the last place.
 ///
 /// x = 2^k m with sqrt(1/2) <= m < sqrt(2), and ln m = 2 artanh s with s = (m - 1) / (m + 1), |s| < 0.172:
-/// eleven terms of the power series of artanh leave less than 1e-18. Near x = 1 (k = 0) the result keeps full
-/// relative accuracy.
+/// eleven terms of the power series of artanh leave less than 1e-18.
+/// Near x = 1 (k = 0) the result keeps full relative accuracy.
 [[gnu::always_inline]] inline double logarithm(double x) {
   constexpr std::uint64_t bits_of_sqrt_half = 0x3fe6a09e667f3bcd;
   constexpr std::uint64_t mantissa = 0x000fffffffffffff;

@@ -1,6 +1,6 @@
 #pragma once
-/// The compressible neo-Hookean law in plane strain. Objective; the energy grows without bound as J goes to
-/// zero.
+/// The compressible neo-Hookean law in plane strain. Objective;
+/// the energy grows without bound as J goes to zero.
 
 #include "solid_solver/laws/law.hpp"
 #include "solid_solver/laws/logarithm.hpp"

@@ -14,9 +14,9 @@
 #include <vector>
 
 #include "common/core/archive.hpp"
-#include "common/core/backward_difference.hpp"
+#include "common/core/time/backward_difference.hpp"
 #include "common/core/types.hpp"
-#include "common/grid/interface_geometry.hpp"
+#include "common/grid/geometry/interface_geometry.hpp"
 #include "solid_solver/rigid/inertia.hpp"
 
 namespace fsi::rigid {

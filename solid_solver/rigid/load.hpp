@@ -17,8 +17,8 @@ struct GasLoad {
   void archive(Archive& archive);
 };
 
-/// Sum over the points `x` of an outline (2 n) of the normal traction w_n along n, each on the half of its
-/// adjoining segments.
+/// Sum over the points `x` of an outline (2 n) of the normal traction
+/// w_n along n, each on the half of its adjoining segments.
 GasLoad load_of_gas(std::span<const double> x, std::span<const double> n, std::span<const double> w_n,
                     std::span<const double> v_n);
 

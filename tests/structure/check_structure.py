@@ -124,8 +124,8 @@ def forbidden(path, target, generated):
         return "only common/bus knows DDS and the types generated from idl/"
     if not where.startswith("common/io/") and re.match(r"(hdf5|H5)\w*\.h|highfive/", target):
         return "only common/io knows HDF5"
-    if target.startswith("yaml-cpp/") and not where.startswith(("common/case/", "common/core/config.")):
-        return "only common/core/config.* and common/case read YAML"
+    if target.startswith("yaml-cpp/") and not where.startswith(("common/case/", "common/core/input/config.")):
+        return "only common/core/input/config.* and common/case read YAML"
     return None
 
 
@@ -140,11 +140,8 @@ def check_includes(root):
 
 # --- kernels -------------------------------------------------------------------------------------------------------
 
-KERNEL_FOLDERS = ("fluid_solver/kernels", "solid_solver/laws")
-# Kernels of the solid that have no folder yet, and what they know besides: the runs of points they pass over, and the
-# limiter's name.
-SOLID_KERNELS = tuple(f"solid_solver/{name}.hpp" for name in (
-    "dissipation", "godunov_sweep", "sweep_rows", "metrics_rows", "reference_metrics", "riemann", "impedance", "state"))
+KERNEL_FOLDERS = ("fluid_solver/kernels", "fluid_solver/kernels/riemann", "solid_solver/kernels", "solid_solver/laws")
+# What those of the solid know besides: the runs of points they pass over, and the limiter's name.
 BESIDE_SOLID_KERNELS = ("solid_solver/solid_points.hpp", "solid_solver/options.hpp")
 # Of common/core, what logs, reads a case or throws.
 NOT_FOR_KERNELS = tuple(f"common/core/{name}.hpp" for name in ("log", "config", "failure", "expression", "suggest", "archive"))
@@ -152,20 +149,19 @@ EFFECTS = re.compile(r"\bthrow\b|\bspdlog::|\bstd::c(?:out|err)\b|\bf?printf\s*\
 
 
 def is_kernel(where):
-    return where in SOLID_KERNELS or Path(where).parent.as_posix() in KERNEL_FOLDERS
+    return Path(where).parent.as_posix() in KERNEL_FOLDERS
 
 
 def known_to_kernels(where, target):
     if target.startswith("common/core/"):
         return target not in NOT_FOR_KERNELS
     same_program = top(target) == top(where)
-    return same_program and (is_kernel(target) or (where in SOLID_KERNELS and target in BESIDE_SOLID_KERNELS))
+    return same_program and (is_kernel(target) or (where.startswith("solid_solver/kernels/") and target in BESIDE_SOLID_KERNELS))
 
 
 def check_kernels(root):
     kernels = [path for path in files(root, CXX, PROGRAM_FOLDERS) if is_kernel(path.as_posix())]
-    found = {path.as_posix() for path in kernels} | {path.parent.as_posix() for path in kernels}
-    for missing in sorted({*SOLID_KERNELS, *KERNEL_FOLDERS} - found):
+    for missing in sorted({*KERNEL_FOLDERS} - {path.parent.as_posix() for path in kernels}):
         yield f"{missing}: the rule for kernels speaks of it, and it is not there"
     for path in kernels:
         for number, quoted, target in includes_of(root, path):

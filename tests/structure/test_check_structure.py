@@ -92,24 +92,24 @@ class Equations(Copy):
 
 class Includes(Copy):
     def test_programs_must_not_include_each_other(self):
-        self.assert_bites("includes", "coupler/matching.cpp", '#include "fluid_solver/gas_options.hpp"')
+        self.assert_bites("includes", "coupler/exchange/matching.cpp", '#include "fluid_solver/gas_options.hpp"')
         self.assert_bites("includes", "monitor/main.cpp", '#include "solid_solver/laws/law.hpp"')
 
     def test_what_a_program_must_not_know(self):
-        self.assert_bites("includes", "coupler/transfer.cpp", '#include "common/grid/moving_grid.hpp"')
+        self.assert_bites("includes", "coupler/exchange/transfer.cpp", '#include "common/grid/moving_grid.hpp"')
         self.assert_bites("includes", "monitor/main.cpp", '#include "common/interface/riemann.hpp"')
 
     def test_common_and_examples_know_no_program(self):
-        self.assert_bites("includes", "common/interface/riemann.hpp", '#include "solid_solver/impedance.hpp"')
+        self.assert_bites("includes", "common/interface/riemann.hpp", '#include "solid_solver/kernels/impedance.hpp"')
         self.assert_bites("includes", "examples/spring_piston/main.cpp", '#include "coupler/coupler.hpp"')
 
     def test_only_reference_solutions_borrow_the_laws(self):
         self.assert_allows("includes", "common/exact/solution.cpp", '#include "solid_solver/laws/law.hpp"')
-        self.assert_bites("includes", "common/case/build.cpp", '#include "solid_solver/laws/law.hpp"')
+        self.assert_bites("includes", "common/case/read/build.cpp", '#include "solid_solver/laws/law.hpp"')
 
     def test_grids_know_no_bus_and_no_case(self):
         self.assert_bites("includes", "common/grid/moving_grid.hpp", '#include "common/wire/messages.hpp"')
-        self.assert_bites("includes", "common/grid/hyperbolic.cpp", '#include "common/case/case.hpp"')
+        self.assert_bites("includes", "common/grid/marching/hyperbolic.cpp", '#include "common/case/case.hpp"')
 
     def test_dds_and_the_generated_types_stay_in_the_bus(self):
         generated = next((self.root / "idl").glob("*.idl")).stem + ".h"
@@ -118,7 +118,7 @@ class Includes(Copy):
         self.assert_allows("includes", "common/bus/dds.cpp", f'#include "{generated}"')
 
     def test_hdf5_and_yaml_have_one_home(self):
-        self.assert_bites("includes", "common/case/restart.cpp", "#include <hdf5.h>")
+        self.assert_bites("includes", "common/case/read/restart.cpp", "#include <hdf5.h>")
         self.assert_allows("includes", "common/io/part.cpp", "#include <hdf5.h>")
         self.assert_bites("includes", "common/io/part.cpp", "#include <yaml-cpp/yaml.h>")
 
@@ -133,8 +133,8 @@ class Kernels(Copy):
         self.assert_allows("kernels", where, '#include "fluid_solver/kernels/limiter.hpp"')
 
     def test_of_the_solid_too_without_a_folder(self):
-        self.assert_bites("kernels", "solid_solver/godunov_sweep.hpp", '#include "solid_solver/solid_boundary.hpp"')
-        self.assert_bites("kernels", "solid_solver/dissipation.hpp", '#include "common/grid/moving_grid.hpp"')
+        self.assert_bites("kernels", "solid_solver/kernels/godunov_sweep.hpp", '#include "solid_solver/boundary/solid_boundary.hpp"')
+        self.assert_bites("kernels", "solid_solver/kernels/dissipation.hpp", '#include "common/grid/moving_grid.hpp"')
         self.assert_bites("kernels", "solid_solver/laws/neo_hookean.hpp", '#include "solid_solver/options.hpp"')
 
     def test_do_not_throw_or_write(self):
@@ -144,11 +144,11 @@ class Kernels(Copy):
         self.assert_allows("kernels", where, "// nothing here can throw")
 
     def test_that_are_gone_are_missed(self):
-        where = self.root / "solid_solver/riemann.hpp"
+        where = self.root / "solid_solver/kernels/riemann.hpp"
         where.rename(where.with_suffix(".moved"))
         self.addCleanup(where.with_suffix(".moved").rename, where)
         found = offences("kernels", self.root)
-        self.assertIn("solid_solver/riemann.hpp: the rule for kernels speaks of it, and it is not there", found)
+        self.assertIn("solid_solver/kernels/riemann.hpp: the rule for kernels speaks of it, and it is not there", found)
 
 
 class Headers(Copy):

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "common/core/types.hpp"
-#include "common/grid/interface_geometry.hpp"
+#include "common/grid/geometry/interface_geometry.hpp"
 
 namespace fsi::grid {
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/grid/hyperbolic.hpp"
+#include "common/grid/marching/hyperbolic.hpp"
 #include "common/grid/shapes/circle.hpp"
 #include "tests/unit/fluid/gas_runs.hpp"
 

@@ -81,8 +81,8 @@ TEST_P(Eq31MovingPiston, FollowsTheSimpleWaveToSecondOrder) {
   EXPECT_LT(study.errors.back(), finest);
 }
 
-// The one-dimensional study program has 7e-6 (rho) and 1.3e-5 (v) at h = 1/80; measured here 6.4e-6,
-// limited 2.2e-5.
+// The one-dimensional study program has 7e-6 (rho) and 1.3e-5
+// (v) at h = 1/80; measured here 6.4e-6, limited 2.2e-5.
 INSTANTIATE_TEST_SUITE_P(Limiters, Eq31MovingPiston,
                          testing::Values(PistonCase{"centred", Limiter::none, 0, 1e-5},
                                          PistonCase{"centred_turned_30_degrees", Limiter::none, pi / 6, 1e-5},

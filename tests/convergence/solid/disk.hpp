@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "common/grid/composite_grid.hpp"
-#include "common/grid/hyperbolic.hpp"
+#include "common/grid/marching/hyperbolic.hpp"
+#include "common/grid/overlap/composite_grid.hpp"
 #include "common/grid/shapes/circle.hpp"
 #include "solid_solver/solid_component.hpp"
 

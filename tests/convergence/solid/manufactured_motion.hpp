@@ -1,11 +1,11 @@
 #pragma once
-/// A smooth motion written down in closed form, its exact stress, and the body force that makes it a
-/// solution.
+/// A smooth motion written down in closed form, its exact
+/// stress, and the body force that makes it a solution.
 
 #include <cmath>
 
+#include "solid_solver/kernels/state.hpp"
 #include "solid_solver/options.hpp"
-#include "solid_solver/state.hpp"
 
 namespace fsi::solid::test {
 

@@ -56,8 +56,8 @@ inline double deviation(ConstFieldView q, const Tensor2& P) {
   return largest;
 }
 
-/// Adds noise of the size 1e-9 in strain, velocity and stress, far above round-off and far below what a law
-/// would notice.
+/// Adds noise of the size 1e-9 in strain, velocity and stress,
+/// far above round-off and far below what a law would notice.
 inline void add_noise(FieldView q, double h) {
   std::mt19937_64 random(7);
   const auto draw = [&] { return 1e-9 * (2.0 * static_cast<double>(random() >> 11) * 0x1p-53 - 1.0); };

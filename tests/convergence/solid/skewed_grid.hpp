@@ -53,8 +53,8 @@ inline grid::MovingGrid unit_square(int cells) {
           0};
 }
 
-/// Outward normal of a domain at the point (x, y) of a side: r and s by Newton's method from the middle of
-/// the side.
+/// Outward normal of a domain at the point (x, y) of a side:
+/// r and s by Newton's method from the middle of the side.
 inline Vec2 normal_of(Shape shape, Side side, double x, double y) {
   const bool across_r = direction_of(side) == 0;
   double r = across_r ? (at_upper_end(side) ? 1.0 : 0.0) : 0.5,

@@ -113,8 +113,8 @@ TEST(ClampedBeam, SwingsAtTheFrequencyOfBeamTheoryAndConvergesAtSecondOrder) {
   EXPECT_LT(std::abs(fine.energy_drift), 0.5 * std::abs(middle.energy_drift));  // second order: 0.44
 }
 
-/// Deflection of the elastica's end for load L^2 / (E' I) = alpha, by shooting for the curvature at the
-/// clamp.
+/// Deflection of the elastica's end for load L^2 / (E' I)
+/// = alpha, by shooting for the curvature at the clamp.
 Vec2 elastica(double alpha) {
   constexpr int steps = 2000;
   Vec2 end = Vec2::Zero();

@@ -1,5 +1,5 @@
-// Manufactured motions of a skewed block: second order in the maximum norm with every boundary condition and
-// law.
+// Manufactured motions of a skewed block: second order in
+// the maximum norm with every boundary condition and law.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 #include <string>
 #include <type_traits>
 
-#include "solid_solver/manufactured.hpp"
+#include "solid_solver/measures/manufactured.hpp"
 #include "tests/convergence/solid/manufactured_motion.hpp"
 #include "tests/convergence/solid/skewed_grid.hpp"
 #include "tests/convergence/solid/solvers.hpp"
@@ -77,7 +77,8 @@ Errors run(const Setup& setup, int cells) {
   Errors largest;
   for (const double t_check : {0.25, 0.5, 0.75, 1.0}) {
     while (t < t_check * setup.t_end - 1e-12) {
-      const double left = t_check * setup.t_end - t, dt = left / std::ceil(left / solver.compute_time_step().dt);
+      const double left = t_check * setup.t_end - t,
+                   dt = left / std::ceil(left / solver.compute_time_step().dt);
       solver.advance_solid(t, dt);
       t += dt;
       solver.apply_solid_bcs(t);
@@ -125,8 +126,8 @@ TYPED_TEST(Eq32ManufacturedMotion, Eq43IsSecondOrderWithGivenTraction) {
 // Where two kinds of condition meet at more than a certain angle, the solution of the equations of elasticity
 // for general data, and with it the error of order h^2, has infinite stress at the corner: u ~ r^a, a < 1.
 // The stress of every second-order scheme is then of order 1 + a at that corner. Limits: 56.5 degrees for
-// traction against displacement (with this lambda / mu), 90 for either against slip. See
-// docs/theory_solid.md.
+// traction against displacement (with this lambda / mu),
+// 90 for either against slip. See docs/theory_solid.md.
 TYPED_TEST(Eq32ManufacturedMotion, IsSecondOrderWhereTractionMeetsDisplacement) {
   expect_second_order<TypeParam>({.sides = "ttdt", .shape = trapezoid});
 }

@@ -1,5 +1,5 @@
-// Round-off does not grow: neither relaxation nor tangential dissipation makes waves unstable on cells of any
-// aspect ratio.
+// Round-off does not grow: neither relaxation nor tangential dissipation
+// makes waves unstable on cells of any aspect ratio.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

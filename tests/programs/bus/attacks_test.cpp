@@ -10,8 +10,8 @@
 #include <mutex>
 
 #include "common/bus/convert.hpp"
-#include "common/bus/link.hpp"
-#include "common/bus/listener.hpp"
+#include "common/bus/sessions/link.hpp"
+#include "common/bus/sessions/listener.hpp"
 #include "tests/programs/bus/forger.hpp"
 #include "tests/programs/bus/trio.hpp"
 
@@ -269,8 +269,8 @@ TEST(Overheard, DamagedPacketsFalsifyNothing) {
   EXPECT_TRUE(flawless || (one_died && says(reasons, "has died"))) << reasons;
 }
 
-/// Programs that do not exist introduce themselves in the words of one that does (SPDP), and one that does
-/// takes leave.
+/// Programs that do not exist introduce themselves in the words
+/// of one that does (SPDP), and one that does takes leave.
 TEST(Overheard, IntroductionsOfOthersChangeNothing) {
   const BusOptions options = attacked(test_key);
   OverheardTrio run(options, record_file(), 1000);

@@ -11,7 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "common/bus/solo_session.hpp"
+#include "common/bus/sessions/solo_session.hpp"
 #include "tests/programs/bus/trio.hpp"
 
 namespace fsi::bus::test {

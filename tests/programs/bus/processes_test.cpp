@@ -1,5 +1,5 @@
-/// Three processes at the bus: they exchange, and when one is killed, stopped or watched the others know what
-/// to do.
+/// Three processes at the bus: they exchange, and when one is
+/// killed, stopped or watched the others know what to do.
 
 #include <netinet/in.h>
 #include <sys/socket.h>
@@ -8,7 +8,7 @@
 #include <memory>
 #include <random>
 
-#include "common/bus/listener.hpp"
+#include "common/bus/sessions/listener.hpp"
 #include "tests/programs/bus/trio.hpp"
 
 namespace fsi::bus::test {

@@ -9,7 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "common/program/driver.hpp"
+#include "common/program/run/driver.hpp"
 #include "tests/programs/bus/processes.hpp"
 
 namespace fsi {
@@ -101,8 +101,8 @@ TEST_F(ALoneSolver, ThatIsStoppedOrWaitsGoesOn) {
   EXPECT_EQ(solver_->end(), 0) << solver_->hear();
 }
 
-/// It shares one processor with others, and its step takes longer than the limit on the clock whatever they
-/// leave it.
+/// It shares one processor with others, and its step takes longer
+/// than the limit on the clock whatever they leave it.
 TEST_F(ALoneSolver, OnABusyMachineIsNotLost) {
   cpu_set_t before, one;
   ASSERT_EQ(sched_getaffinity(0, sizeof before, &before), 0);

@@ -90,8 +90,8 @@ TEST(BeamSkin, APressureActsWithItsForceAndItsMoment) {
 }
 
 TEST(BeamSkin, BetweenTheNodesItHasNoCorners) {
-  // The direction of a bent outline between points closer than the nodes, by fourth-order smoothness of the
-  // cubics.
+  // The direction of a bent outline between points closer than
+  // the nodes, by fourth-order smoothness of the cubics.
   const BeamMotion motion = bent(cantilever);
   rigid::Outline line{.x = {}, .ends = grid::Curve::open};
   constexpr std::size_t points = 97;

@@ -1,6 +1,6 @@
 /// Who may take part: the key of a run, and what follows from it.
 
-#include "common/bus/credentials.hpp"
+#include "common/bus/peers/credentials.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,9 +4,9 @@
 
 #include "common/bus/convert.hpp"
 #include "common/bus/dds.hpp"
-#include "common/bus/link.hpp"
-#include "common/bus/listener.hpp"
-#include "common/bus/solo_session.hpp"
+#include "common/bus/sessions/link.hpp"
+#include "common/bus/sessions/listener.hpp"
+#include "common/bus/sessions/solo_session.hpp"
 #include "tests/unit/bus/seats.hpp"
 
 namespace fsi::bus::test {

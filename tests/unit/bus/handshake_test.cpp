@@ -4,7 +4,7 @@
 
 #include "common/bus/convert.hpp"
 #include "common/bus/dds.hpp"
-#include "common/bus/link.hpp"
+#include "common/bus/sessions/link.hpp"
 #include "tests/unit/bus/seats.hpp"
 #include "tests/waiting.hpp"
 

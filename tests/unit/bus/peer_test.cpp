@@ -1,6 +1,6 @@
 /// What the system tells of a program that the bus does not hear.
 
-#include "common/bus/peer.hpp"
+#include "common/bus/peers/peer.hpp"
 
 #include <gtest/gtest.h>
 #include <signal.h>  // NOLINT(modernize-deprecated-headers): kill

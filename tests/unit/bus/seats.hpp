@@ -9,8 +9,8 @@
 #include <string>
 #include <utility>
 
-#include "common/bus/coupler_session.hpp"
-#include "common/bus/solver_session.hpp"
+#include "common/bus/sessions/coupler_session.hpp"
+#include "common/bus/sessions/solver_session.hpp"
 
 namespace fsi::bus::test {
 
@@ -20,8 +20,8 @@ inline std::string own_run() {
   return fmt::format("{}.{}.{}", info->test_suite_name(), info->name(), getpid());
 }
 
-/// Of a run in the tests that is protected, as runs are by default. Within one process there is nothing to
-/// protect.
+/// Of a run in the tests that is protected, as runs are by default.
+/// Within one process there is nothing to protect.
 inline constexpr const char* test_key = "sign:0123456789abcdef0123456789abcdef";
 
 inline BusOptions options(const std::string& run) {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "common/case/case.hpp"
-#include "common/case/summary.hpp"
+#include "common/case/report/summary.hpp"
 #include "common/core/failure.hpp"
 #include "tests/unit/case/cases.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "common/core/config.hpp"
+#include "common/core/input/config.hpp"
 
 namespace fsi::config {
 namespace {

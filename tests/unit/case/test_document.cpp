@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "common/case/document.hpp"
-#include "common/case/laws.hpp"
-#include "common/case/schema.hpp"
+#include "common/case/document/document.hpp"
+#include "common/case/schema/laws.hpp"
+#include "common/case/schema/schema.hpp"
 #include "tests/unit/case/cases.hpp"
 
 namespace fsi {

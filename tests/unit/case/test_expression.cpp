@@ -7,7 +7,7 @@
 #include <thread>
 #include <vector>
 
-#include "common/core/expression.hpp"
+#include "common/core/input/expression.hpp"
 
 namespace fsi {
 namespace {

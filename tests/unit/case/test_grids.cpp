@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "common/case/composite_from_case.hpp"
-#include "common/case/cost.hpp"
+#include "common/case/grids/composite_from_case.hpp"
+#include "common/case/report/cost.hpp"
 #include "tests/unit/case/cases.hpp"
 
 namespace fsi {

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "common/case/memory.hpp"
+#include "common/case/report/memory.hpp"
 #include "common/core/failure.hpp"
-#include "common/core/text_file.hpp"
+#include "common/core/input/text_file.hpp"
 #include "tests/unit/case/cases.hpp"
 #include "tests/unit/case/odd_files.hpp"
 

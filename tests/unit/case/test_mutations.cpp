@@ -10,7 +10,7 @@
 #include <regex>
 #include <string>
 
-#include "common/case/memory.hpp"
+#include "common/case/report/memory.hpp"
 #include "common/core/failure.hpp"
 #include "tests/unit/case/cases.hpp"
 #include "tests/unit/case/odd_files.hpp"

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "common/case/case.hpp"
-#include "common/case/restart.hpp"
+#include "common/case/read/restart.hpp"
 #include "common/core/failure.hpp"
 #include "tests/unit/case/cases.hpp"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "common/case/composite_from_case.hpp"
+#include "common/case/grids/composite_from_case.hpp"
 #include "tests/unit/case/cases.hpp"
 
 namespace fsi {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "common/core/suggest.hpp"
+#include "common/core/input/suggest.hpp"
 
 namespace fsi {
 namespace {

@@ -16,8 +16,8 @@ struct Medium {
 
 /// Velocity v and stress s at the distances 0, h, 2h, ... from the interface; `side` is +1 for the gas (to
 /// the right of the interface) and -1 for the solid. s + side z v travels to the interface, s - side z v away
-/// from it. Second-order upwind scheme without limiter; at the interface it predicts without any interface
-/// condition.
+/// from it. Second-order upwind scheme without limiter; at the
+/// interface it predicts without any interface condition.
 class HalfSpace {
  public:
   HalfSpace(Medium medium, int side, std::size_t points, double h)

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/core/backward_difference.hpp"
+#include "common/core/time/backward_difference.hpp"
 #include "common/wire/messages.hpp"
 
 namespace fsi::coupler::testing {

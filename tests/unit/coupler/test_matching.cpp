@@ -6,7 +6,7 @@
 #include <span>
 
 #include "common/core/failure.hpp"
-#include "coupler/matching.hpp"
+#include "coupler/exchange/matching.hpp"
 #include "messages.hpp"
 
 namespace fsi::coupler {

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "common/core/backward_difference.hpp"
+#include "common/core/time/backward_difference.hpp"
 #include "common/interface/modal_system.hpp"
 #include "common/wire/sparse.hpp"
 

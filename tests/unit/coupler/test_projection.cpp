@@ -108,8 +108,8 @@ TYPED_TEST(RiemannProblem, Eq20Eq24LiesOnEveryCharacteristicOfTheSolidAndMovesWi
 
 TYPED_TEST(RiemannProblem, Eq12WavesThatLeaveCarryThePowerOfTheWavesThatCame) {
   // A wave of amplitude r on a characteristic of impedance z carries the power r^2 / (4 z). With equal normal
-  // velocity and traction on both sides, and no tangential traction, the interface neither stores nor makes
-  // any.
+  // velocity and traction on both sides, and no tangential
+  // traction, the interface neither stores nor makes any.
   for (const auto& s : this->samples()) {
     const NormalState state = s.projected(Projection::full);
     const auto v = this->solid_velocity(s, state);
@@ -282,8 +282,8 @@ TEST_F(InAngles, Eq28EqualsTheFormulasOfThePaper) {
 }
 
 TEST_F(InAngles, Eq21Eq22Eq23RelationsOfTheReferenceFrameHoldAfterTheTurnToTheDeformedFrame) {
-  // A point described in the reference frame (n0, t0): waves y_j, z_j of unit reference area, components of v
-  // and P.
+  // A point described in the reference frame (n0, t0): waves
+  // y_j, z_j of unit reference area, components of v and P.
   const double eta = 0.7;
   for (int k = 0; k < 50; ++k) {
     const Matrix<2> reference = rotation();  // columns n0, t0

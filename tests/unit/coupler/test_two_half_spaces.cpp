@@ -39,15 +39,15 @@ std::vector<double> interface_at(double u) {
   return x;
 }
 
-/// Incoming gas characteristic w + z_f v at distance x from the interface at t = 0; four times
-/// differentiable.
+/// Incoming gas characteristic w + z_f v at distance x from
+/// the interface at t = 0; four times differentiable.
 double pulse(double x) {
   const double s = (x - 0.5) / 0.4;
   return std::abs(s) < 1 ? -amplitude * std::pow(1 - s * s, 5) : 0.0;
 }
 
-/// Incoming solid characteristic w - z_s v at distance x; its traction has half the size, whatever the
-/// densities are.
+/// Incoming solid characteristic w - z_s v at distance x; its
+/// traction has half the size, whatever the densities are.
 double solid_pulse(double x, double c) {
   return -0.5 * pulse(x / c + 0.05);
 }
@@ -184,8 +184,8 @@ CouplerOptions with(Projection projection, bool multirate, int robin_order = 2) 
   return options;
 }
 
-/// Twice the error of the upwind scheme itself on these pulses at 80 cells per length, whatever the
-/// densities.
+/// Twice the error of the upwind scheme itself on these pulses
+/// at 80 cells per length, whatever the densities.
 constexpr double error_at_80 = 1.5e-3;
 
 class DensityRatio : public ::testing::TestWithParam<double> {};

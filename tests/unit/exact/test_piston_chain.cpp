@@ -62,8 +62,8 @@ TEST_P(PistonChainOfRatio, ConvergesToTheExactElasticPistonAtSecondOrder) {
 INSTANTIATE_TEST_SUITE_P(DensityRatios, PistonChainOfRatio, testing::Values(0.01, 0.1, 1.0, 100.0));
 
 TEST(PistonChain, OpenEndSendsNothingBack) {
-  // The wave has left [0, 1.5] at t = 2; what came back from the end would be seen against the exact
-  // solution.
+  // The wave has left [0, 1.5] at t = 2; what came back from
+  // the end would be seen against the exact solution.
   const exact::ElasticPiston piston{{.density_ratio = 1, .amplitude = 0.02}};
   EXPECT_LT(error_against_exact(piston, 300, 2.0), 1e-5);
 }

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fluid_solver/budget.hpp"
+#include "fluid_solver/measures/budget.hpp"
 #include "tests/unit/fluid/gas_runs.hpp"
 
 namespace fsi::fluid {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "fluid_solver/far_field.hpp"
+#include "fluid_solver/boundary/far_field.hpp"
 #include "tests/unit/fluid/gas_runs.hpp"
 
 namespace fsi::fluid {
@@ -52,8 +52,8 @@ TEST(FarField, KeepsUniformFlowOfAnyDirectionAndSpeed) {
   }
 }
 
-/// A simple wave (2% of the pressure) that runs out of a tube to the left, against a stream that comes in
-/// there.
+/// A simple wave (2% of the pressure) that runs out of a tube
+/// to the left, against a stream that comes in there.
 struct Tube {
   GasSolver gas;
 

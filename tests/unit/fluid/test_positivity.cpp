@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "fluid_solver/kernels/riemann_split.hpp"
+#include "fluid_solver/kernels/riemann/riemann_split.hpp"
 #include "fluid_solver/positivity.hpp"
 #include "tests/unit/fluid/gas_runs.hpp"
 

@@ -57,8 +57,8 @@ struct Prediction {
 };
 
 TEST(Eq1Prediction, PointsThatGoWithTheGasSeeItsVolumeEntropyAndForces) {
-  // A grid that moves with the gas at point i: there only compression and the gradient of p act (Lagrange's
-  // view).
+  // A grid that moves with the gas at point i: there only compression
+  // and the gradient of p act (Lagrange's view).
   for (const int i : {2, 5}) {
     LinearGas gas;
     ShearedGrid grid;

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "fluid_solver/kernels/any_riemann.hpp"
+#include "fluid_solver/kernels/riemann/any_riemann.hpp"
 
 namespace fsi::fluid {
 namespace {
@@ -41,8 +41,8 @@ void expect_equal(const FaceFlux& a, const FaceFlux& b, double tolerance) {
   EXPECT_NEAR(a.energy, b.energy, tolerance);
 }
 
-/// States on both sides of a shock that moves with `speed` through gas `ahead` on its right, at Mach number
-/// M.
+/// States on both sides of a shock that moves with `speed`
+/// through gas `ahead` on its right, at Mach number M.
 struct Shock {
   FaceState behind, ahead;
   double speed;

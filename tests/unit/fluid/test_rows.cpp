@@ -1,5 +1,5 @@
-/// The row kernels one by one: limiters, metrics, faces, artificial viscosity. Prediction and update:
-/// test_prediction.cpp.
+/// The row kernels one by one: limiters, metrics, faces, artificial
+/// viscosity. Prediction and update: test_prediction.cpp.
 
 #include <gtest/gtest.h>
 
@@ -208,8 +208,8 @@ TEST(ShockViscosity, IsOffInExpansionsAndInFlowThatKeepsItsVolume) {
 }
 
 TEST(ShockViscosity, GrowsWithTheRateAtWhichTheGasIsCompressedAndNothingElse) {
-  // In a step dt the volume V loses dt * rate of itself: that much of it, times the coefficient, is
-  // exchanged.
+  // In a step dt the volume V loses dt * rate of itself: that
+  // much of it, times the coefficient, is exchanged.
   for (const double rate : {0.2, 1.0, 5.0}) {
     const Mat2 squeeze = -0.5 * rate * Mat2::Identity(), along_x{{-rate, 0}, {0, 0}},
                along_y{{0, 0}, {0, -rate}};

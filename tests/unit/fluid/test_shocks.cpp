@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "fluid_solver/shocks.hpp"
+#include "fluid_solver/measures/shocks.hpp"
 #include "tests/unit/fluid/gas_runs.hpp"
 
 namespace fsi::fluid {

@@ -58,8 +58,8 @@ TEST(Eq44GasEigenvalue, IsTheSameOnATurnedGrid) {
 }
 
 TEST(Eq44GasEigenvalue, CountsDiffusionAsItsRealPart) {
-  // -Lambda_r = 8 * 50 from undivided differences, Lambda_i = 30: the ellipse gives dt = 1 / sqrt(200^2 +
-  // 30^2)
+  // -Lambda_r = 8 * 50 from undivided differences, Lambda_i
+  // = 30: the ellipse gives dt = 1 / sqrt(200^2 + 30^2)
   const GasOptions options{.gamma = 1.6, .linear_diffusion = 50, .cfl = 1};
   EXPECT_NEAR(box(options, {1, 0, 0, 2.5}, {1, 2}).compute_time_step().dt, 1 / std::hypot(200.0, 30.0),
               1e-14);

@@ -21,8 +21,8 @@ grid::GridDescription parallelogram(const Vec2& along_r1, const Vec2& along_r2) 
           }};
 }
 
-/// One step of gas that goes apart at `rate` (towards a point where that is negative), its density a parabola
-/// of x.
+/// One step of gas that goes apart at `rate` (towards a point
+/// where that is negative), its density a parabola of x.
 GasSolver stepped(const grid::GridDescription& grid, double rate, const GasOptions& options) {
   const StateField flow = [=](double x, double y, double) {
     return State{1 + bend * x * x, 0.5 * rate * x - turn * y, 0.5 * rate * y + turn * x, 1};

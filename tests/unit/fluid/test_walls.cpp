@@ -65,8 +65,8 @@ TEST(Eq31Interface, ReportsAPressureThatIsNotPositiveByPlace) {
 }
 
 TEST(Eq31WallGhosts, ContinueThePressureOfAnAcceleratedColumnOfGas) {
-  // In a column accelerated with a, gas of constant density has dp/dx = -rho a: the ghosts lie on the same
-  // line.
+  // In a column accelerated with a, gas of constant density
+  // has dp/dx = -rho a: the ghosts lie on the same line.
   const double a = 0.7, rho = 1.3;
   const StateField column = [=](double x, double, double) { return State{rho, 0, 0, 2 - rho * a * x}; };
   for (const Limiter limiter : {Limiter::none, Limiter::minmod}) {

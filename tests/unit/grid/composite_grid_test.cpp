@@ -1,4 +1,4 @@
-#include "common/grid/composite_grid.hpp"
+#include "common/grid/overlap/composite_grid.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <string>
 
 #include "common/core/failure.hpp"
-#include "common/grid/hyperbolic.hpp"
+#include "common/grid/marching/hyperbolic.hpp"
 #include "common/grid/shapes/circle.hpp"
 #include "tests/unit/grid/overlap_checks.hpp"
 #include "tests/unit/grid/shapes_of_cases.hpp"

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "common/core/failure.hpp"
-#include "common/grid/composite_grid.hpp"
-#include "common/grid/hyperbolic.hpp"
+#include "common/grid/marching/hyperbolic.hpp"
+#include "common/grid/overlap/composite_grid.hpp"
 #include "tests/unit/grid/overlap_checks.hpp"
 
 namespace fsi::grid {
@@ -209,8 +209,8 @@ TEST(CompositeMotion, BodiesPulledThroughEachOthersGridsConnectOrSayWhatFailed) 
       cut += std::ranges::count(before[1], PointKind::unused) > 0 ? 1 : 0;
     } catch (const NumbersBroke& broke) {
       const std::string words = broke.what();
-      // Bodies come too close, even into each other; points uncovered by a small motion always have old
-      // values.
+      // Bodies come too close, even into each other; points
+      // uncovered by a small motion always have old values.
       EXPECT_EQ(words.find("uncovered"), std::string::npos) << words;
       EXPECT_NE(words.find("point ("), std::string::npos) << words;
       EXPECT_NE(words.find("such points)"), std::string::npos) << words;

@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include "common/core/failure.hpp"
-#include "common/grid/hyperbolic.hpp"
-#include "common/grid/quality.hpp"
+#include "common/grid/geometry/quality.hpp"
+#include "common/grid/marching/hyperbolic.hpp"
 #include "common/grid/shapes/circle.hpp"
 #include "tests/unit/grid/marched.hpp"
 #include "tests/unit/grid/shapes_of_cases.hpp"
@@ -138,8 +138,8 @@ TEST(ConcaveSmoothing, FlattensAValleyByAsMuchWhateverTheNumberOfLines) {
 }
 
 TEST(ConcaveSmoothing, GridsMoveWithoutJumpsAsACurveGrowsConcave) {
-  // Second differences over steps of the amplitude: as the step where a velocity jumps, as its square where
-  // not.
+  // Second differences over steps of the amplitude: as the
+  // step where a velocity jumps, as its square where not.
   const auto roughest = [](int steps) {
     HyperbolicGrid grid = deep_grid(wave(0.2), 9, Side::bottom, 1);
     grid.smoothing = grid.end_smoothing = 0;  // follows the smaller of two distances, which does jump

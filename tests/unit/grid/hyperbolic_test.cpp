@@ -1,4 +1,4 @@
-#include "common/grid/hyperbolic.hpp"
+#include "common/grid/marching/hyperbolic.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <string>
 
 #include "common/core/failure.hpp"
-#include "common/grid/line_solver.hpp"
-#include "common/grid/quality.hpp"
+#include "common/grid/geometry/quality.hpp"
+#include "common/grid/marching/line_solver.hpp"
 #include "common/grid/shapes/circle.hpp"
 #include "tests/unit/grid/marched.hpp"
 #include "tests/unit/grid/shapes_of_cases.hpp"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "common/core/field.hpp"
-#include "common/grid/implicit_system.hpp"
+#include "common/grid/overlap/implicit_system.hpp"
 
 namespace fsi::grid {
 namespace {
@@ -66,8 +66,8 @@ TEST(ImplicitInterpolation, FindsTheCommonSolutionBySweepsOrByElimination) {
 }
 
 TEST(ImplicitInterpolation, KnowsHowMuchErrorsGrow) {
-  // a = (1 - w) f + w b, b = (1 - w) g + w a, so a = ((1 - w) f + w (1 - w) g) / (1 - w^2) = (f + w g) / (1 +
-  // w).
+  // a = (1 - w) f + w b, b = (1 - w) g + w a, so a = ((1 -
+  // w) f + w (1 - w) g) / (1 - w^2) = (f + w g) / (1 + w).
   for (const double w : {0.6, 1.5, -0.6, -0.9}) {
     const ImplicitSystem system(mutual_donors(w), layouts);
     EXPECT_NEAR(system.amplification(), (1 + std::abs(w)) / std::abs(1 + w), 1e-12) << w;

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "common/core/field.hpp"
-#include "common/grid/hyperbolic.hpp"
+#include "common/grid/marching/hyperbolic.hpp"
 #include "common/grid/shapes/plane_curve.hpp"
 
 namespace fsi::grid {

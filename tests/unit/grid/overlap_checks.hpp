@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "common/grid/composite_grid.hpp"
+#include "common/grid/overlap/composite_grid.hpp"
 
 namespace fsi::grid {
 

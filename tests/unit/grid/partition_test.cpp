@@ -1,6 +1,6 @@
 // Integrals over composite grids.
 
-#include "common/grid/partition.hpp"
+#include "common/grid/geometry/partition.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <functional>
 #include <numbers>
 
-#include "common/grid/hyperbolic.hpp"
+#include "common/grid/marching/hyperbolic.hpp"
 #include "common/grid/shapes/circle.hpp"
 #include "common/grid/shapes/ellipse.hpp"
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "common/core/failure.hpp"
-#include "common/grid/outline.hpp"
+#include "common/grid/geometry/outline.hpp"
 #include "common/grid/shapes/circle.hpp"
 #include "common/grid/shapes/ellipse.hpp"
 #include "common/grid/shapes/rounded_polygon.hpp"

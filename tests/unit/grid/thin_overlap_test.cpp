@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "common/core/failure.hpp"
-#include "common/grid/composite_grid.hpp"
-#include "common/grid/hyperbolic.hpp"
+#include "common/grid/marching/hyperbolic.hpp"
+#include "common/grid/overlap/composite_grid.hpp"
 #include "common/grid/shapes/circle.hpp"
 
 namespace fsi::grid {
@@ -70,8 +70,8 @@ TEST(ThinOverlap, DoesNotAmplifyErrors) {
     }
     implicit += grids.counts().implicit;
     narrowed += grids.counts().narrowed;
-    // 25/8 is what the grids settle for, as a bound on weights; 25/16 what three known donors per direction
-    // have.
+    // 25/8 is what the grids settle for, as a bound on weights;
+    // 25/16 what three known donors per direction have.
     EXPECT_LE(largest_interpolated(grids, views[0]), 25.0 / 8) << part;
   }
   EXPECT_GT(implicit, 0U);

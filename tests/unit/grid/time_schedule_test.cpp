@@ -1,4 +1,4 @@
-#include "common/core/time_schedule.hpp"
+#include "common/core/time/time_schedule.hpp"
 
 #include <gtest/gtest.h>
 

@@ -152,8 +152,8 @@ TEST_F(GridSeries, XdmfOfAnEmptyDirectoryHasNoTimes) {
   EXPECT_EQ(write_xdmf(dir), 0U);
 }
 
-/// What the child of the kill campaign does until it is killed: outputs in which every value is the output's
-/// number.
+/// What the child of the kill campaign does until it is killed:
+/// outputs in which every value is the output's number.
 [[noreturn]] void write_until_killed(const std::string& dir, int points) {
   Field x(Layout(points, points), 2), q(Layout(points, points), 1);
   GridWriter writer(dir, "fluid");

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "deformations.hpp"
-#include "solid_solver/impedance.hpp"
+#include "solid_solver/kernels/impedance.hpp"
 #include "solid_solver/laws/gent.hpp"
 #include "solid_solver/laws/linear_elastic.hpp"
 #include "solid_solver/laws/mooney_rivlin.hpp"
@@ -103,7 +103,8 @@ TEST(MooneyRivlinLaw, EnergyIsThatOfItsInvariantsInSpace) {
   for (const Mat2& F : deformations()) {
     Eigen::Matrix3d C = Eigen::Matrix3d::Identity();
     C.topLeftCorner<2, 2>() = F.transpose() * F;
-    const double I1 = C.trace(), I2 = 0.5 * (I1 * I1 - (C * C).trace()), log_J = 0.5 * std::log(C.determinant());
+    const double I1 = C.trace(), I2 = 0.5 * (I1 * I1 - (C * C).trace()),
+                 log_J = 0.5 * std::log(C.determinant());
     const double shape = c10 * (I1 - 3) + c01 * (I2 - 3);
     const double area = -(2 * c10 + 4 * c01) * log_J + 0.5 * (lambda - 4 * c01) * log_J * log_J;
     EXPECT_NEAR(law.psi(plain(F)), shape + area, 1e-13);

@@ -1,5 +1,5 @@
-/// What every constitutive law must do, whatever it is. The list of laws is made when the build is
-/// configured.
+/// What every constitutive law must do, whatever it is. The
+/// list of laws is made when the build is configured.
 
 #include <gtest/gtest.h>
 

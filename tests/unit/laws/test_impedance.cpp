@@ -8,7 +8,7 @@
 
 #include "deformations.hpp"
 #include "every_law.hpp"
-#include "solid_solver/impedance.hpp"
+#include "solid_solver/kernels/impedance.hpp"
 
 namespace fsi::solid::testing {
 namespace {

@@ -1,6 +1,6 @@
 /// What is recorded comes back the same.
 
-#include "monitor/recording.hpp"
+#include "monitor/recording/recording.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -14,7 +14,7 @@
 
 #include "common/core/failure.hpp"
 #include "monitor/json.hpp"
-#include "monitor/replay.hpp"
+#include "monitor/recording/replay.hpp"
 #include "tests/unit/monitor/telemetry.hpp"
 
 namespace fsi::monitor {

@@ -1,6 +1,6 @@
 /// The picture of a run on a terminal.
 
-#include "monitor/screen.hpp"
+#include "monitor/terminal/screen.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "monitor/plot.hpp"
+#include "monitor/terminal/plot.hpp"
 #include "tests/unit/monitor/telemetry.hpp"
 
 namespace fsi::monitor {

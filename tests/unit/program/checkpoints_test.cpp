@@ -1,4 +1,4 @@
-#include "common/program/checkpoints.hpp"
+#include "common/program/run/checkpoints.hpp"
 
 #include <gtest/gtest.h>
 

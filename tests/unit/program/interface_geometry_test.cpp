@@ -1,4 +1,4 @@
-#include "common/grid/interface_geometry.hpp"
+#include "common/grid/geometry/interface_geometry.hpp"
 
 #include <gtest/gtest.h>
 

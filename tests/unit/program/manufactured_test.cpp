@@ -1,4 +1,4 @@
-#include "solid_solver/manufactured.hpp"
+#include "solid_solver/measures/manufactured.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "solid_solver/pose.hpp"
+#include "solid_solver/measures/pose.hpp"
 
 #include <gtest/gtest.h>
 

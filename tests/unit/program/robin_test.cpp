@@ -1,4 +1,4 @@
-#include "solid_solver/robin.hpp"
+#include "solid_solver/boundary/robin.hpp"
 
 #include <gtest/gtest.h>
 
@@ -41,8 +41,8 @@ TEST_F(RobinPoint, KeepsAGivenMotion) {
 }
 
 TEST_F(RobinPoint, Eq23IsSatisfiedWithNoTangentialTraction) {
-  // Some velocity with the closed normal component satisfies w_n n - Z v = w0 - Z v0: solve for it and look
-  // at n.v.
+  // Some velocity with the closed normal component satisfies
+  // w_n n - Z v = w0 - Z v0: solve for it and look at n.v.
   const double b1 = w[0] - (Z[0] * v[0] + Z[1] * v[1]) - closed.w_n[0] * normal[0];
   const double b2 = w[1] - (Z[1] * v[0] + Z[2] * v[1]) - closed.w_n[0] * normal[1];
   const double det = Z[0] * Z[2] - Z[1] * Z[1];

@@ -13,7 +13,7 @@
 #include "common/grid/shapes/ellipse.hpp"
 #include "common/interface/modal.hpp"
 #include "common/wire/sparse.hpp"
-#include "coupler/interface_exchange.hpp"
+#include "coupler/exchange/interface_exchange.hpp"
 #include "solid_solver/rigid/body.hpp"
 #include "solid_solver/rigid/load.hpp"
 

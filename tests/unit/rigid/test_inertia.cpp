@@ -50,8 +50,8 @@ TEST(Inertia, OfAnEllipseIsOfSecondOrderInTheSpacingOfItsPoints) {
 }
 
 TEST(Inertia, TheSeamOfARingCancels) {
-  // A square of side 3 with a square hole of side 1: once around outside, along the seam, back around the
-  // hole.
+  // A square of side 3 with a square hole of side 1: once
+  // around outside, along the seam, back around the hole.
   const std::vector<double> x{0, 3, 3, 0, 0, 1, 1, 2, 2, 1, /**/ 0, 0, 3, 3, 0, 1, 2, 2, 1, 1};
   const Inertia ring = inertia_of(x);
   EXPECT_NEAR(ring.area, 9 - 1, 1e-14);

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <utility>
 
-#include "solid_solver/dissipation.hpp"
-#include "solid_solver/ghost_lines.hpp"
+#include "solid_solver/boundary/ghost_lines.hpp"
+#include "solid_solver/kernels/dissipation.hpp"
 #include "solid_solver/laws/neo_hookean.hpp"
 #include "tests/convergence/solid/skewed_grid.hpp"
 
@@ -112,8 +112,8 @@ TEST(BulkDiffusion, LeavesLinearFieldsAlone) {
   for (int i = 0; i < 8; ++i) EXPECT_EQ(next(plane::v1, i, 3), 0);
 }
 
-/// Largest ratio of what is left of a sawtooth of v or P after a step of bulk diffusion, over all interior
-/// points.
+/// Largest ratio of what is left of a sawtooth of v or P after
+/// a step of bulk diffusion, over all interior points.
 double left_of(const Field& q, double factor) {
   const Layout& layout = q.layout();
   Field next(layout, plane::count);

@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "solid_solver/body_integrals.hpp"
-#include "solid_solver/dissipation.hpp"
+#include "solid_solver/kernels/dissipation.hpp"
 #include "solid_solver/laws/neo_hookean.hpp"
+#include "solid_solver/measures/body_integrals.hpp"
 #include "tests/convergence/solid/skewed_grid.hpp"
 
 namespace fsi::solid {

@@ -1,5 +1,5 @@
-// One step of the sweep, without a solver around it: fields whose next values the equations of motion give
-// exactly.
+// One step of the sweep, without a solver around it: fields
+// whose next values the equations of motion give exactly.
 
 #include <gtest/gtest.h>
 
@@ -10,8 +10,8 @@
 #include <numbers>
 #include <utility>
 
-#include "solid_solver/ghost_lines.hpp"
-#include "solid_solver/godunov_sweep.hpp"
+#include "solid_solver/boundary/ghost_lines.hpp"
+#include "solid_solver/kernels/godunov_sweep.hpp"
 #include "solid_solver/laws/neo_hookean.hpp"
 #include "tests/convergence/solid/skewed_grid.hpp"
 
@@ -196,8 +196,8 @@ TEST(Eq44Sweep, RateIsThatOfThePWaveOverBothSpacings) {
 }
 
 TEST(Eq35Sweep, APlaneWaveMovesOnWithItsOwnSpeedInEveryDirection) {
-  // Small plane p-waves u = a n f(n.x - c t) obey the linear equations; the error of one step is that of the
-  // scheme.
+  // Small plane p-waves u = a n f(n.x - c t) obey the linear
+  // equations; the error of one step is that of the scheme.
   const double wave_number = 2 * std::numbers::pi, size = 1e-7, dt = 0.004;
   const double c_p = std::sqrt((law.lambda + 2 * law.mu) / rho);
   for (const double angle : {0.0, 0.9, 2.2, 4.0}) {
@@ -215,8 +215,8 @@ TEST(Eq35Sweep, APlaneWaveMovesOnWithItsOwnSpeedInEveryDirection) {
       v_error = std::max(v_error, (s.v - wave(x, dt).v).norm());
       P_error = std::max(P_error, distance(s.P, wave(x, dt).P));
     });
-    // The step changes v by k c_p dt = 0.03 of its size; two per cent of that are missed at 40 points a
-    // wavelength.
+    // The step changes v by k c_p dt = 0.03 of its size; two
+    // per cent of that are missed at 40 points a wavelength.
     const double change = size * wave_number * c_p * dt;
     EXPECT_LT(v_error, 0.03 * change * c_p) << angle;
     EXPECT_LT(P_error, 0.03 * change * (law.lambda + 2 * law.mu)) << angle;

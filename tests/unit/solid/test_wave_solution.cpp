@@ -4,7 +4,7 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "solid_solver/riemann.hpp"
+#include "solid_solver/kernels/riemann.hpp"
 
 namespace fsi::solid {
 namespace {

@@ -1,0 +1,258 @@
+#include "common/case/check/check_geometry.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "common/case/schema/laws.hpp"
+#include "common/grid/geometry/outline.hpp"
+
+namespace fsi {
+
+namespace {
+
+using config::fail;
+using config::Node;
+
+/// A curve of the case, and where the file describes it.
+struct Outline {
+  const CurveSpec& curve;
+  std::string name;  ///< "solid `disk`"
+  const Node& node;
+  std::string path;
+  Side side;              ///< of the grid fitted to it; bottom: the domain is to the left of the curve
+  std::string grid = {};  ///< of the gas
+
+  grid::Curve ends() const { return curve.closed() ? grid::Curve::closed : grid::Curve::open; }
+  Vec2 point(std::size_t k) const { return {curve.x[k], curve.x[curve.x.size() / 2 + k]}; }
+  /// Is a position on the other side of the curve than the domain? Known of closed curves.
+  bool behind(const Vec2& x) const {
+    return curve.closed() && grid::encloses(curve.x, x) == (side == Side::top);
+  }
+};
+
+Outline outline_of(const SolidSpec& solid, const Node& root) {
+  return {.curve = solid.body_fitted.front().curve,
+          .name = fmt::format("solid `{}`", solid.name),
+          .node = *root.find("solids")->find(solid.name)->find("shape"),
+          .path = fmt::format("solids.{}.shape", solid.name),
+          .side = Side::bottom};
+}
+
+/// The curves that bound the gas within its rectangle.
+std::vector<Outline> outlines_in_gas(const Case& problem, const Node& root) {
+  std::vector<Outline> outlines;
+  const std::vector<BodyFittedSpec>& grids = problem.fluid->body_fitted;
+  for (std::size_t k = 0; k < grids.size(); ++k) {
+    const auto solid = std::ranges::find(problem.solids, grids[k].solid, &SolidSpec::name);
+    if (solid != problem.solids.end() && !solid->body_fitted.empty()) {
+      const Outline own = outline_of(*solid, root);
+      outlines.push_back({grids[k].curve, own.name, own.node, own.path, grids[k].side, grids[k].name});
+      continue;
+    }
+    const Node& node = root.find("fluid")->find("body_fitted")->items[k];
+    const Node* shape = node.find("shape");
+    const std::string path = fmt::format("fluid.body_fitted[{}]", k);
+    outlines.push_back({.curve = grids[k].curve,
+                        .name = grids[k].solid.empty() ? fmt::format("grid `{}`", grids[k].name)
+                                                       : fmt::format("solid `{}`", grids[k].solid),
+                        .node = shape != nullptr ? *shape : node,
+                        .path = shape != nullptr ? path + ".shape" : path,
+                        .side = grids[k].side,
+                        .grid = grids[k].name});
+  }
+  return outlines;
+}
+
+/// A position for messages, its round-off taken away.
+Vec2 rounded(const Vec2& x) {
+  constexpr double unit = 1e-9;
+  return (unit * (x / unit).array().round() + 0.0).matrix();  // + 0: no -0
+}
+
+/// The pair of lines between the listed points of a shape that cross; "" where none do.
+std::string crossing_in_list(const Outline& outline) {
+  const Node* list = outline.node.find("corners");
+  if (list == nullptr) list = outline.node.find("through");
+  if (list == nullptr) return "";
+  const bool closed = outline.curve.closed();
+  const std::size_t count = list->items.size(), n = count + (closed ? 1 : 0);
+  std::vector<double> x(2 * n);
+  for (std::size_t k = 0; k < n; ++k) {
+    const Node& pair = list->items[k % count];
+    x[k] = *pair.items[0].number;
+    x[n + k] = *pair.items[1].number;
+  }
+  const auto crossing = grid::self_crossing(x, outline.ends());
+  if (!crossing) return "";
+  const auto line = [&](std::size_t k) {
+    const std::size_t next = (k + 1) % count;
+    return fmt::format("from its point {} ({:.4g}, {:.4g}) to {} ({:.4g}, {:.4g})", k + 1, x[k], x[n + k],
+                       next + 1, x[next], x[n + next]);
+  };
+  return fmt::format(", where the line {} meets that {}", line(crossing->a), line(crossing->b));
+}
+
+void check_crossing_itself(const Outline& outline) {
+  const auto crossing = grid::self_crossing(outline.curve.x, outline.ends());
+  if (!crossing) return;
+  const Vec2 x = rounded(crossing->x);
+  fail(outline.node.place, outline.path,
+       fmt::format("the outline crosses itself near ({:.4g}, {:.4g}){}; list the points in their order along "
+                   "the outline, once around",
+                   x[0], x[1], crossing_in_list(outline)));
+}
+
+/// How far a curve goes beyond one side of a rectangle.
+struct Excess {
+  double distance = 0;
+  Side side = Side::left;
+  Vec2 x = Vec2::Zero();
+};
+
+double end_of(const GridSpec& grid, Side side) {
+  if (direction_of(side) == 0) return at_upper_end(side) ? grid.x_b : grid.x_a;
+  return at_upper_end(side) ? grid.y_b : grid.y_a;
+}
+
+Excess largest_excess(const Outline& outline, const GridSpec& grid) {
+  Excess worst;
+  const auto n = static_cast<std::size_t>(outline.curve.points());
+  for (const Side side : all_sides) {
+    for (std::size_t k = 0; k < n; ++k) {
+      const Vec2 x = outline.point(k);
+      const double beyond = (x[direction_of(side)] - end_of(grid, side)) * (at_upper_end(side) ? 1 : -1);
+      if (beyond > worst.distance) worst = {beyond, side, rounded(x)};
+    }
+  }
+  return worst;
+}
+
+bool is_upright(const GridSpec& grid) {
+  return grid.kind == GridSpec::Kind::rectangle && grid.rotation == 0;
+}
+
+/// Round-off of points that stand on a wall.
+double tolerance(const GridSpec& grid) {
+  constexpr double part = 1e-6;  // of a cell
+  return part * std::min((grid.x_b - grid.x_a) / grid.n1, (grid.y_b - grid.y_a) / grid.n2);
+}
+
+void check_within_gas(const Outline& outline, const GridSpec& gas) {
+  const Excess excess = largest_excess(outline, gas);
+  if (excess.distance <= tolerance(gas)) return;
+  fail(
+      outline.node.place, outline.path,
+      fmt::format("the outline of {} reaches ({:.4g}, {:.4g}), {:.4g} beyond the {} side of fluid.grid, {} = "
+                  "{:.4g}; make it smaller, move it, or let the rectangle of fluid.grid hold it",
+                  outline.name, excess.x[0], excess.x[1], excess.distance, name_of(excess.side),
+                  direction_of(excess.side) == 0 ? "x" : "y", end_of(gas, excess.side)));
+}
+
+/// The ends of an open curve stand on the sides it names.
+void check_ends(const Outline& outline, const GridSpec& gas) {
+  if (outline.curve.closed() || !outline.curve.on.empty()) return;
+  const auto last = static_cast<std::size_t>(outline.curve.points()) - 1;
+  for (const std::size_t end : {0U, 1U}) {
+    const Side wall = (*outline.curve.walls)[end];
+    const Vec2 x = outline.point(end == 0 ? 0 : last);
+    const double distance = std::abs(x[direction_of(wall)] - end_of(gas, wall));
+    if (distance <= tolerance(gas)) continue;
+    fail(outline.node.place, outline.path,
+         fmt::format(
+             "an end of the outline of {}, ({:.4g}, {:.4g}), is {:.4g} from the {} side of fluid.grid, {} = "
+             "{:.4g}, on which `walls` has it stand; let it end there, or write the "
+             "name of the grid along the wall on which it stands",
+             outline.name, x[0], x[1], distance, name_of(wall), direction_of(wall) == 0 ? "x" : "y",
+             end_of(gas, wall)));
+  }
+}
+
+/// The outline's bounds, rounded outwards.
+std::array<double, 2> bounds(const Outline& outline, int direction) {
+  const std::vector<double>& x = outline.curve.x;
+  const std::ptrdiff_t points = outline.curve.points();
+  const auto first = x.begin() + direction * points;
+  const auto [low, high] = std::minmax_element(first, first + points);
+  const double unit = std::pow(10, std::floor(std::log10(*high - *low)) - 2);
+  constexpr double round_off = 1e-6;
+  return {std::floor(*low / unit + round_off) * unit, std::ceil(*high / unit - round_off) * unit};
+}
+
+void check_core(const SolidSpec& solid, const Node& root) {
+  const Outline outline = outline_of(solid, root);
+  const Excess excess = largest_excess(outline, solid.grid);
+  if (excess.distance <= tolerance(solid.grid)) return;
+  const auto [x_a, x_b] = bounds(outline, 0);
+  const auto [y_a, y_b] = bounds(outline, 1);
+  const Node& grid = *root.find("solids")->find(solid.name)->find("grid");
+  fail(
+      grid.place, fmt::format("solids.{}.grid", solid.name),
+      fmt::format("this box does not hold the outline of the solid: `shape` reaches ({:.4g}, {:.4g}), {:.4g} "
+                  "beyond its {} side; write at least x: [{:.4g}, {:.4g}], y: [{:.4g}, {:.4g}]",
+                  excess.x[0], excess.x[1], excess.distance, name_of(excess.side), x_a, x_b, y_a, y_b));
+}
+
+/// How deep the points of a curve are behind another one, and where.
+Excess deepest(const Outline& outline, const Outline& other) {
+  Excess worst;
+  const auto n = static_cast<std::size_t>(outline.curve.points());
+  for (std::size_t k = 0; k < n; ++k) {
+    const Vec2 x = outline.point(k);
+    if (!other.behind(x)) continue;
+    const double depth = grid::distance_to(other.curve.x, x);
+    if (depth > worst.distance) worst = {.distance = depth, .x = rounded(x)};
+  }
+  return worst;
+}
+
+/// The points of a curve without its ends, which may stand on the other one.
+std::vector<double> between_ends(const Outline& outline, const Outline& other) {
+  std::vector<double> x = outline.curve.x;
+  if (outline.curve.on.empty() || outline.curve.on != other.grid) return x;
+  const auto n = static_cast<std::ptrdiff_t>(x.size() / 2);
+  for (const std::ptrdiff_t end : {2 * n - 1, n, n - 1, std::ptrdiff_t{0}}) x.erase(x.begin() + end);
+  return x;
+}
+
+void check_apart(const Outline& outline, const Outline& other) {
+  const auto crossing = grid::crossing_of(between_ends(outline, other), between_ends(other, outline));
+  const bool within = outline.behind(other.point(0)) || other.behind(outline.point(0));
+  if (!crossing && !within) return;
+  Excess overlap = deepest(outline, other);
+  if (const Excess back = deepest(other, outline); back.distance > overlap.distance) overlap = back;
+  if (overlap.distance == 0) overlap.x = crossing->x;
+  fail(outline.node.place, outline.path,
+       fmt::format("the outline of {} overlaps that of {} by {:.3g} at ({:.4g}, {:.4g}); move them apart, by "
+                   "this and the depth of the grids of the gas around them",
+                   outline.name, other.name, overlap.distance, overlap.x[0], overlap.x[1]));
+}
+
+}  // namespace
+
+void check_geometry(const Case& problem, const Node& root) {
+  for (const SolidSpec& solid : problem.solids) {
+    if (solid.body_fitted.empty()) continue;
+    check_crossing_itself(outline_of(solid, root));
+    const bool has_core = is_continuum(solid.law);
+    if (has_core && is_upright(solid.grid)) check_core(solid, root);
+  }
+  if (!problem.fluid) return;
+  const std::vector<Outline> outlines = outlines_in_gas(problem, root);
+  for (const Outline& outline : outlines) {
+    check_crossing_itself(outline);
+    if (!is_upright(problem.fluid->grid)) continue;
+    check_within_gas(outline, problem.fluid->grid);
+    check_ends(outline, problem.fluid->grid);
+  }
+  for (std::size_t k = 1; k < outlines.size(); ++k) {
+    for (std::size_t l = 0; l < k; ++l) check_apart(outlines[k], outlines[l]);
+  }
+}
+
+}  // namespace fsi

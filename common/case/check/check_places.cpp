@@ -1,0 +1,172 @@
+#include "common/case/check/check_places.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "common/case/grids/composite_from_case.hpp"
+#include "common/case/grids/grid_points.hpp"
+#include "common/case/schema/laws.hpp"
+#include "common/grid/geometry/outline.hpp"
+#include "common/grid/overlap/hole_cutting.hpp"
+
+namespace fsi {
+
+namespace {
+
+using config::fail;
+using config::Node;
+
+/// All points of the rim of a grid at t = 0, the first one again at the end.
+std::vector<double> rim_of(const GridSpec& grid) {
+  std::vector<Vec2> points;
+  const auto append = [&](Side side, bool backwards) {
+    const int n = points_along(grid, side);
+    for (int k = 0; k < n; ++k) points.push_back(side_point(grid, side, backwards ? n - 1 - k : k));
+  };
+  append(Side::bottom, false);
+  append(Side::right, false);
+  append(Side::top, true);
+  append(Side::left, true);
+  std::vector<double> rim(2 * points.size());
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    rim[k] = points[k][0];
+    rim[points.size() + k] = points[k][1];
+  }
+  return rim;
+}
+
+bool within_rim(const GridSpec& grid, const Vec2& x) {
+  const std::vector<double> rim = rim_of(grid);
+  constexpr double round_off = 1e-9;
+  return grid::encloses(rim, x) || grid::distance_to(rim, x) <= round_off * (1 + x.norm());
+}
+
+/// Is a position on the other side of the curve than the domain?
+bool behind(const BodyFittedSpec& spec, const GridSpec& background, const Vec2& x) {
+  constexpr double round_off = 1e-9;
+  if (grid::distance_to(spec.curve.x, x) <= round_off * (1 + x.norm())) return false;
+  if (spec.curve.closed()) return grid::encloses(spec.curve.x, x) == (spec.side == Side::top);
+  const std::size_t n = spec.curve.x.size() / 2;
+  const grid::CartesianGrid cartesian = background_of(background);
+  grid::CurveCut cut;
+  cut.cut(cartesian,
+          {.x = spec.curve.x.data(),
+           .y = spec.curve.x.data() + n,
+           .points = spec.curve.points(),
+           .ends = spec.curve.closed() ? grid::Curve::closed : grid::Curve::open,
+           .domain_left = spec.side == Side::bottom,
+           .on_wall = !spec.curve.on.empty()},
+          spec.name, 0);
+  return cut.behind(cartesian, x);
+}
+
+void check_probe_in_gas(const FluidSpec& fluid, const Vec2& x, const Node& node, const std::string& path) {
+  const std::string remedy = "; it would have no value there: move it into the gas";
+  if (!within_rim(fluid.grid, x)) {
+    fail(node.place, path,
+         fmt::format("({:.6g}, {:.6g}) lies outside fluid.grid at t = 0{}", x[0], x[1], remedy));
+  }
+  for (const BodyFittedSpec& spec : fluid.body_fitted) {
+    if (!behind(spec, fluid.grid, x)) continue;
+    const std::string body = spec.solid.empty() ? fmt::format("behind the wall of grid `{}`", spec.name)
+                                                : fmt::format("in solid `{}`", spec.solid);
+    const std::string other = spec.solid.empty() ? "" : fmt::format(", or write `in: {}`", spec.solid);
+    fail(node.place, path,
+         fmt::format("({:.6g}, {:.6g}) lies {} at t = 0{}{}", x[0], x[1], body, remedy, other));
+  }
+}
+
+void check_probe_in_solid(const SolidSpec& solid, const Vec2& x, const Node& node, const std::string& path) {
+  if (!is_continuum(solid.law)) return;  // their motion is known everywhere
+  bool outside = !within_rim(solid.grid, x);
+  for (const BodyFittedSpec& spec : solid.body_fitted) outside = outside || behind(spec, solid.grid, x);
+  if (!outside) return;
+  fail(node.place, path,
+       fmt::format(
+           "({:.6g}, {:.6g}) lies outside solid `{}` in its reference configuration; move it into the "
+           "body{}",
+           x[0], x[1], solid.name,
+           solid.body_fitted.empty() ? "" : ", within its `shape` as the points of the outline draw it"));
+}
+
+/// Is there a load on a side?
+bool loaded(const BoundarySpec& spec) {
+  if (spec.from_reference || !spec.vector) return spec.from_reference;
+  const auto acts = [](const Expression& load) {
+    const bool varies = load.uses("x") || load.uses("y") || load.uses("r") || load.uses("t");
+    return varies || load(0, 0, 0) != 0;
+  };
+  return acts(spec.vector->c1) || acts(spec.vector->c2);
+}
+
+void check_rigid_side(const BoundarySpec& spec, const Node& node, const std::string& path) {
+  const bool held = spec.kind == BoundaryKind::displacement || spec.kind == BoundaryKind::dirichlet;
+  if (held) {
+    fail(node.place, path,
+         "a rigid solid cannot have its motion given (or be clamped): it moves as a whole; write free, or "
+         "take "
+         "a law that deforms");
+  }
+  if (spec.kind == BoundaryKind::traction && loaded(spec)) {
+    fail(node.place, path,
+         "a rigid solid cannot carry a load on a side of its own; write free, and the load as body_force");
+  }
+}
+
+/// Neither a rigid body nor a beam.
+void check_initial(const SolidSpec& solid, const Node& node) {
+  if (!solid.initial_from_reference && !solid.initial_u) return;
+  fail(node.find("initial")->place, fmt::format("solids.{}.initial", solid.name),
+       fmt::format("a {} may begin with `v`, and nothing else; leave the rest out",
+                   solid.law == beam_law ? "beam" : "rigid solid"));
+}
+
+void check_rigid(const SolidSpec& solid, const Node& node) {
+  const std::string path = "solids." + solid.name;
+  const Node* boundary = node.find("boundary");
+  if (boundary == nullptr) return;
+  for (const Side side : all_sides) {
+    // Of a solid with a shape only the walls on which its ends stand are sides of the body.
+    if (!solid.body_fitted.empty()) {
+      const auto& walls = solid.body_fitted.front().curve.walls;
+      if (!walls || std::ranges::find(*walls, side) == walls->end()) continue;
+    }
+    check_rigid_side(solid.boundary[static_cast<std::size_t>(side)], *boundary->find(name_of(side)),
+                     fmt::format("{}.boundary.{}", path, name_of(side)));
+  }
+}
+
+}  // namespace
+
+void check_probe_places(const Case& problem, const Node& root) {
+  for (std::size_t k = 0; k < problem.output.probes.size(); ++k) {
+    const ProbeSpec& probe = problem.output.probes[k];
+    const Node& node = *root.find("output")->find("probes")->items[k].find("x");
+    const std::string path = fmt::format("output.probes[{}]", k);
+    const Vec2 x(probe.x, probe.y);
+    if (probe.in == "fluid") {
+      check_probe_in_gas(*problem.fluid, x, node, path);
+    } else {
+      check_probe_in_solid(*std::ranges::find(problem.solids, probe.in, &SolidSpec::name), x, node, path);
+    }
+  }
+}
+
+void check_laws(const Case& problem, const Node& root) {
+  const std::string& kind = problem.reference.kind;
+  const bool computed = kind == "piston_1d" || kind == "rotating_disk";
+  for (const SolidSpec& solid : problem.solids) {
+    const Node& node = *root.find("solids")->find(solid.name);
+    if (solid.law == rigid_law || solid.law == beam_law) check_initial(solid, node);
+    if (solid.law == rigid_law) check_rigid(solid, node);
+    if (!computed || is_continuum(solid.law)) continue;
+    fail(node.find("law")->place, fmt::format("solids.{}.law", solid.name),
+         fmt::format(
+             "reference `{}` is computed with a law of deformation, not with `{}`; write another law, or "
+             "reference.kind: none, and leave out the errors in `expect`",
+             kind, solid.law));
+  }
+}
+
+}  // namespace fsi

@@ -1,0 +1,25 @@
+#pragma once
+/// The names that numbers and formulas of a case may use.
+
+#include <map>
+#include <string>
+
+#include "common/core/input/config.hpp"
+
+namespace fsi {
+
+/// Parameters and definitions of one case.
+struct Scope {
+  std::map<std::string, double> constants;  ///< parameters, pi, j (grid.factor), h = 1 / (10 j)
+  std::map<std::string, std::string> definitions;
+
+  /// Value of a number node. @throws UserMistake
+  double number(const config::Node& node, const std::string& key) const;
+};
+
+/// Evaluates the parameters and grid.factor, which may use each other, and collects the definitions. Replaces
+/// the parameters in the tree by their values.
+/// @throws UserMistake
+Scope evaluate_scope(config::Node& root);
+
+}  // namespace fsi

@@ -1,0 +1,190 @@
+#include "common/case/grids/choose_grids.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+#include "common/case/document/reader.hpp"
+#include "common/case/grids/fit_grids.hpp"
+#include "common/case/grids/node_tools.hpp"
+#include "common/case/grids/wall_strips.hpp"
+#include "common/case/read/build.hpp"
+#include "common/case/read/build_shape.hpp"
+#include "common/case/schema/laws.hpp"
+
+namespace fsi {
+
+namespace {
+
+using config::Node;
+using config::number_node;
+using config::word_node;
+
+bool lacks(const Node* section, std::initializer_list<std::string_view> keys) {
+  return section == nullptr ||
+         std::ranges::none_of(keys, [&](std::string_view key) { return section->find(key) != nullptr; });
+}
+
+/// Does the file leave the grids of a solid open?
+bool is_open(const Node& solid) {
+  return solid.find("shape") != nullptr && lacks(solid.find("grid"), {"points", "spacing"});
+}
+
+/// What the file says of the grids of a body.
+BodyWish wish_of(const Node& solid) {
+  BodyWish wish;
+  const auto number = [](const Node* section, const char* key) -> std::optional<double> {
+    const Node* node = section == nullptr ? nullptr : section->find(key);
+    return node == nullptr ? std::nullopt : node->number;
+  };
+  const Node* fitted = solid.find("body_fitted");
+  if (const auto lines = number(fitted, "lines")) wish.lines = static_cast<int>(*lines);
+  wish.line_spacing = number(fitted, "spacing");
+  wish.growth = number(fitted, "growth").value_or(1);
+  const Node& shape = *solid.find("shape");
+  wish.curve_is_given = shape.find("points") != nullptr || shape.find("spacing") != nullptr;
+  if (const Node* grid = solid.find("grid")) {
+    const Node *x = grid->find("x"), *y = grid->find("y");
+    if (x != nullptr && y != nullptr)
+      wish.box = {*x->items[0].number, *x->items[1].number, *y->items[0].number, *y->items[1].number};
+  }
+  return wish;
+}
+
+void write_body(Node& solid, const BodyGrids& chosen) {
+  const std::string place = solid.find("shape")->place;
+  Node& shape = *solid.find("shape");
+  if (lacks(&shape, {"points", "spacing"})) put(shape, "points", number_node(chosen.outline_points, place));
+  Node& fitted = section_of(solid, "body_fitted");
+  if (lacks(&fitted, {"lines"})) put(fitted, "lines", number_node(chosen.lines, place));
+  if (lacks(&fitted, {"spacing"})) put(fitted, "spacing", number_node(chosen.line_spacing, place));
+  Node& grid = section_of(solid, "grid");
+  const auto pair = [&](double a, double b) {
+    Node list{.kind = Node::Kind::list, .place = place, .entries = {}};
+    list.items = {number_node(a, place), number_node(b, place)};
+    return list;
+  };
+  if (grid.find("name") == nullptr) put(grid, "name", word_node("core", place));
+  if (grid.find("x") == nullptr) {
+    put(grid, "x", pair(chosen.core.x_a, chosen.core.x_b));
+    put(grid, "y", pair(chosen.core.y_a, chosen.core.y_b));
+  }
+  put(grid, "points", pair(chosen.core.n1, chosen.core.n2));
+}
+
+std::string text_of(const std::string& solid, const BodyGrids& grids) {
+  const GridSpec& core = grids.core;
+  return fmt::format(
+      "solids.{}: {} points along its outline, {} lines from {:.3g} apart; grid {} x {} on "
+      "[{:.4g}, {:.4g}] x [{:.4g}, {:.4g}]",
+      solid, grids.outline_points, grids.lines, grids.line_spacing, core.n1, core.n2, core.x_a, core.x_b,
+      core.y_a, core.y_b);
+}
+
+void choose_for_solids(Node& root, const Reader& reader, std::vector<std::string>& chosen) {
+  Node* solids = root.find("solids");
+  if (solids == nullptr) return;
+  for (config::Entry& entry : solids->entries) {
+    Node& solid = entry.value;
+    if (!is_open(solid)) continue;
+    const std::string path = fmt::format("solids.{}.shape", entry.key);
+    const Node shape = *solid.find("shape");
+    Node even = shape;
+    std::erase_if(even.entries, [](const config::Entry& key) { return key.key == "weights"; });
+    constexpr int samples = 1200;
+    const Outline outline{
+        .closely = build_curve(reader, even, path, samples),
+        .with_points = [&](std::optional<int> points) { return build_curve(reader, shape, path, points); }};
+    const std::string& law = solid.find("law")->text;
+    const bool outline_only = !is_continuum(law);
+    try {
+      const BodyGrids grids =
+          fit_body(outline, reader.scope().constants.at("h"), wish_of(solid), outline_only);
+      write_body(solid, grids);
+      chosen.push_back(text_of(entry.key, grids));
+    } catch (const UserMistake& mistake) {
+      const std::string what = mistake.what();
+      if (what.starts_with(shape.place.substr(0, shape.place.find(':')))) throw;  // it has its place already
+      config::fail(shape.place, path, what);
+    }
+  }
+}
+
+/// A grid of the gas around every solid with a shape that has none.
+void add_rings(Node& root) {
+  Node* fluid = root.find("fluid");
+  Node* solids = root.find("solids");
+  if (fluid == nullptr || solids == nullptr) return;
+  for (const config::Entry& solid : solids->entries) {
+    const Node* shape = solid.value.find("shape");
+    if (shape == nullptr) continue;
+    const Node* own = fluid->find("body_fitted");
+    const auto meets = [&](const Node& grid) {
+      const Node* name = grid.find("solid");
+      return name != nullptr && name->text == solid.key;
+    };
+    if (own != nullptr && std::ranges::any_of(own->items, meets)) continue;
+    if (own == nullptr)
+      put(*fluid, "body_fitted", {.kind = Node::Kind::list, .place = shape->place, .entries = {}});
+    Node grid{.kind = Node::Kind::map, .place = shape->place, .entries = {}};
+    put(grid, "name", word_node("around_" + solid.key, shape->place));
+    put(grid, "solid", word_node(solid.key, shape->place));
+    fluid->find("body_fitted")->items.push_back(std::move(grid));
+  }
+}
+
+/// Does the file leave the points of the gas's rectangle open? A single grid says how many points it has.
+bool is_background_open(const Node& fluid) {
+  const Node* grid = fluid.find("grid");
+  return grid != nullptr && grid->find("map") == nullptr && lacks(grid, {"points", "spacing"}) &&
+         fluid.find("body_fitted") != nullptr;
+}
+
+/// Grids along curves of which the file does not say how deep they are.
+std::vector<std::size_t> open_rings(const Node& list) {
+  std::vector<std::size_t> open;
+  for (std::size_t k = 0; k < list.items.size(); ++k) {
+    if (lacks(&list.items[k], {"lines", "spacing", "map"})) open.push_back(k);
+  }
+  return open;
+}
+
+void choose_for_gas(Node& root, const Scope& scope, std::vector<std::string>& said) {
+  Node* fluid = root.find("fluid");
+  Node* list = fluid == nullptr ? nullptr : fluid->find("body_fitted");
+  if (list == nullptr) return;
+  const bool finer = is_background_open(*fluid);
+  Node& background = *fluid->find("grid");
+  if (finer) put(background, "spacing", number_node(scope.constants.at("h"), background.place));
+  if (open_rings(*list).empty()) return;
+  Case draft = build_case(root, scope);
+  if (draft.fluid->grid.kind != GridSpec::Kind::rectangle) return;  // check says what is wrong with it
+  if (add_wall_strips(*list, *draft.fluid, open_rings(*list))) draft = build_case(root, scope);
+  const std::vector<std::size_t> open = open_rings(*list);
+  const GasGrids chosen = fit_rings(draft.fluid->grid, draft.fluid->body_fitted, open, finer);
+  if (finer) {
+    put(background, "spacing", number_node(chosen.background, background.place));
+    said.push_back(fmt::format("fluid.grid: spacing {:.3g}", chosen.background));
+  }
+  for (std::size_t k = 0; k < open.size(); ++k) {
+    Node& grid = list->items[open[k]];
+    put(grid, "lines", number_node(chosen.rings[k].lines, grid.place));
+    put(grid, "spacing", number_node(chosen.rings[k].spacing, grid.place));
+    said.push_back(fmt::format("fluid.body_fitted[{}] ({}): {} lines, {:.3g} apart", open[k],
+                               grid.find("name")->text, chosen.rings[k].lines, chosen.rings[k].spacing));
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> choose_grids(Node& root, const Scope& scope) {
+  std::vector<std::string> chosen;
+  choose_for_solids(root, Reader(root, scope), chosen);
+  add_rings(root);
+  choose_for_gas(root, scope, chosen);
+  return chosen;
+}
+
+}  // namespace fsi

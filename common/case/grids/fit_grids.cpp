@@ -1,0 +1,258 @@
+#include "common/case/grids/fit_grids.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "common/case/grids/composite_from_case.hpp"
+#include "common/core/failure.hpp"
+#include "common/grid/geometry/outline.hpp"
+
+namespace fsi {
+
+namespace {
+
+/// Rules of docs/theory_grids.md, "Grids in a body".
+constexpr double depth_by_thickness = 0.35;  ///< two grids along the outline and a core between them
+constexpr double curve_by_radius = 0.5;      ///< points along a bend: three to a quarter of a circle
+constexpr int usual_lines = 8;
+
+grid::Curve ends_of(const CurveSpec& curve) {
+  return curve.closed() ? grid::Curve::closed : grid::Curve::open;
+}
+
+double length_of(const CurveSpec& curve) {
+  return curve.spacing * (curve.points() - 1);
+}
+
+/// How deep a grid of so many lines is for each unit of its first distance.
+double depth_of(int lines, double growth) {
+  double depth = 0, step = 1;
+  for (int line = 1; line < lines; ++line, step *= growth) depth += step;
+  return depth;
+}
+
+/// Outline, seen closely.
+struct Measures {
+  double length = 0;
+  grid::Bend inwards, outwards;  ///< sharpest bend towards the body's inside and towards the gas
+  grid::Gap thickness;
+
+  explicit Measures(const CurveSpec& curve)
+      : length(length_of(curve)),
+        inwards(grid::sharpest_bend(curve.x, ends_of(curve), 1, curve.corners)),
+        outwards(grid::sharpest_bend(curve.x, ends_of(curve), -1, curve.corners)),
+        thickness(grid::narrowest(curve.x, ends_of(curve), 1)) {}
+
+  /// The deepest grid along the outline that leaves room for a core.
+  double depth() const {
+    return std::min(depth_by_radius * inwards.radius, depth_by_thickness * thickness.distance);
+  }
+};
+
+/// A chosen number has six digits.
+double as_written(double value) {
+  return std::stod(fmt::format("{:.6g}", value));
+}
+
+/// Two coordinates with points c apart between them that hold the curve: an end with a wall is that wall.
+void span_core(const CurveSpec& curve, int direction, double c, GridSpec& core) {
+  const auto n = static_cast<std::ptrdiff_t>(curve.points());
+  const auto first = curve.x.begin() + direction * n;
+  const auto [low, high] = std::minmax_element(first, first + n);
+  std::array<std::optional<double>, 2> wall;  // at the lower and the upper end
+  if (curve.walls) {
+    for (const std::size_t end : {0U, 1U}) {
+      const Side side = (*curve.walls)[end];
+      if (direction_of(side) == direction)
+        wall[at_upper_end(side) ? 1 : 0] = end == 0 ? *first : *(first + n - 1);
+    }
+  }
+  double a = wall[0].value_or(*low - 0.5 * c), b = wall[1].value_or(*high + 0.5 * c);
+  const int cells = std::max(4, static_cast<int>(std::ceil((b - a) / c * (1 - 1e-9))));
+  const double excess = cells * c - (b - a);
+  if (!wall[0]) a = as_written(a - (wall[1] ? excess : 0.5 * excess));
+  if (!wall[1]) b = as_written(a + cells * c);
+  (direction == 0 ? core.x_a : core.y_a) = a;
+  (direction == 0 ? core.x_b : core.y_b) = b;
+  (direction == 0 ? core.n1 : core.n2) = cells + 1;
+}
+
+GridSpec core_around(const CurveSpec& curve, double c, const BodyWish& wish) {
+  GridSpec core;
+  core.name = "core";
+  if (!wish.box) {
+    span_core(curve, 0, c, core);
+    span_core(curve, 1, c, core);
+    return core;
+  }
+  const auto [x_a, x_b, y_a, y_b] = *wish.box;
+  core.x_a = x_a, core.x_b = x_b, core.y_a = y_a, core.y_b = y_b;
+  core.n1 = std::max(5, static_cast<int>(std::ceil((x_b - x_a) / c * (1 - 1e-9))) + 1);
+  core.n2 = std::max(5, static_cast<int>(std::ceil((y_b - y_a) / c * (1 - 1e-9))) + 1);
+  return core;
+}
+
+/// A bend or a waist that takes more points than there can be.
+[[noreturn]] void too_fine(const Measures& outline, double points) {
+  const bool bend =
+      depth_by_radius * outline.inwards.radius < depth_by_thickness * outline.thickness.distance;
+  const Vec2& x = bend ? outline.inwards.x : outline.thickness.x;
+  throw UserMistake(
+      fmt::format("grids inside this outline would take {:.2g} points: {} at ({:.4g}, {:.4g}); {}", points,
+                  bend ? fmt::format("it bends with a radius of {:.3g}", outline.inwards.radius)
+                       : fmt::format("it is only {:.3g} thick", outline.thickness.distance),
+                  x[0], x[1],
+                  bend ? "round it more, or take `law: rigid`, which has no inside"
+                       : "make it thicker, or take `law: rigid`"));
+}
+
+/// Grids of a depth, and how close their points are.
+struct Trial {
+  double depth, core, curve;
+  int lines;
+};
+
+BodyGrids grids_of(const Outline& curves, const Trial& trial, const BodyWish& wish, const Measures& outline) {
+  BodyGrids grids;
+  grids.lines = wish.lines.value_or(trial.lines);
+  grids.line_spacing =
+      as_written(wish.line_spacing.value_or(trial.depth / depth_of(grids.lines, wish.growth)));
+  grids.outline_points = std::max(9, static_cast<int>(std::round(outline.length / trial.curve)) + 1);
+  const CurveSpec curve =
+      curves.with_points(wish.curve_is_given ? std::nullopt : std::optional(grids.outline_points));
+  grids.outline_points = curve.points();
+  grids.core = core_around(curve, trial.core, wish);
+  return grids;
+}
+
+bool connects(const Outline& curves, const BodyGrids& grids, const BodyWish& wish) {
+  BodyFittedSpec ring;
+  ring.name = "outline";
+  ring.curve = curves.with_points(wish.curve_is_given ? std::nullopt : std::optional(grids.outline_points));
+  ring.side = Side::bottom;
+  ring.lines = grids.lines;
+  ring.spacing = grids.line_spacing;
+  ring.growth = wish.growth;
+  return connects(grids.core, {ring});
+}
+
+/// How deep a ring may be: for bends and bays of its own curve, and between it and others.
+struct Room {
+  double own = 0, between = 0;
+};
+
+/// From a closed curve to the rim of a rectangle.
+double distance_to_rim(const CurveSpec& curve, const GridSpec& box) {
+  double distance = std::numeric_limits<double>::infinity();
+  const auto n = static_cast<std::size_t>(curve.points());
+  for (std::size_t k = 0; k < n; ++k) {
+    const double x = curve.x[k], y = curve.x[n + k];
+    distance = std::min({distance, x - box.x_a, box.x_b - x, y - box.y_a, box.y_b - y});
+  }
+  return distance;
+}
+
+bool stands_on(const BodyFittedSpec& ring, const BodyFittedSpec& wall) {
+  return !ring.curve.on.empty() && ring.curve.on == wall.name;
+}
+
+std::vector<Room> rooms_of(const GridSpec& background, const std::vector<BodyFittedSpec>& rings) {
+  std::vector<Room> rooms;
+  for (const BodyFittedSpec& ring : rings) {
+    const CurveSpec& curve = ring.curve;
+    const double to_gas = ring.side == Side::top ? -1 : 1;
+    Room room{.own = std::min(0.5 * grid::narrowest(curve.x, ends_of(curve), to_gas).distance,
+                              grid::sharpest_bend(curve.x, ends_of(curve), to_gas, curve.corners).radius),
+              .between = std::numeric_limits<double>::infinity()};
+    for (const BodyFittedSpec& other : rings) {
+      if (&other != &ring && !stands_on(ring, other) && !stands_on(other, ring))
+        room.between = std::min(room.between, 0.5 * grid::gap_between(curve.x, other.curve.x).distance);
+    }
+    if (curve.closed() && ring.side == Side::top)
+      room.between = std::min(room.between, distance_to_rim(curve, background));
+    rooms.push_back(room);
+  }
+  return rooms;
+}
+
+/// The open rings with so many lines, to a part of the depth there is room for on a background of spacing h.
+struct RingTrial {
+  int lines;
+  double part, h;
+  bool apart;  ///< rings of two bodies do not reach into each other
+};
+
+std::vector<RingGrid> with_lines(std::vector<BodyFittedSpec>& rings, const std::vector<std::size_t>& open,
+                                 const std::vector<Room>& rooms, const RingTrial& trial) {
+  std::vector<RingGrid> result;
+  for (const std::size_t k : open) {
+    const double h = trial.h, usual = depth_of(usual_lines, rings[k].growth) * h;
+    double depth = std::min(usual, rooms[k].own);
+    if (trial.apart) depth = std::min(depth, rooms[k].between - h);
+    depth = trial.part * std::max(depth, 2 * h);
+    rings[k].lines = trial.lines;
+    rings[k].spacing = as_written(std::min(h, depth / depth_of(trial.lines, rings[k].growth)));
+    result.push_back({trial.lines, rings[k].spacing});
+  }
+  return result;
+}
+
+GridSpec with_spacing(GridSpec grid, double h) {
+  grid.n1 = static_cast<int>(std::round((grid.x_b - grid.x_a) / h)) + 1;
+  grid.n2 = static_cast<int>(std::round((grid.y_b - grid.y_a) / h)) + 1;
+  return grid;
+}
+
+}  // namespace
+
+BodyGrids fit_body(const Outline& curves, double h, const BodyWish& wish, bool outline_only) {
+  const Measures outline(curves.closely);
+  const double usual = depth_of(usual_lines, wish.growth) * h, room = outline.depth();
+  const double bend = std::min(outline.inwards.radius, outline.outwards.radius);
+  Trial trial{.depth = usual, .core = h, .curve = std::min(h, curve_by_radius * bend), .lines = usual_lines};
+  if (outline_only) return grids_of(curves, trial, wish, outline);
+  if (room < usual)
+    trial = {.depth = room, .core = std::min(h, room / 4.5), .curve = trial.curve, .lines = 7};
+  constexpr double most_points = 4e6, finer = 0.85;
+  constexpr int most_trials = 12;
+  BodyGrids grids;
+  for (int k = 0; k < most_trials; ++k) {
+    grids = grids_of(curves, trial, wish, outline);
+    const double points = static_cast<double>(grids.core.n1) * grids.core.n2;
+    if (points > most_points && k == 0) too_fine(outline, points);
+    if (points > most_points) break;  // it is not for want of points
+    if (connects(curves, grids, wish)) return grids;
+    // A finer core first; then a grid less deep, whose lines do not run into each other.
+    trial.core *= finer;
+    if (k % 2 == 1) trial.depth *= finer;
+    if (k % 4 == 3) trial.curve *= finer;
+  }
+  return grids;  // check says what is wrong with them
+}
+
+GasGrids fit_rings(const GridSpec& background, const std::vector<BodyFittedSpec>& given,
+                   const std::vector<std::size_t>& open, bool finer) {
+  std::vector<BodyFittedSpec> rings = given;
+  const std::vector<Room> rooms = rooms_of(background, rings);
+  const double spacing = (background.x_b - background.x_a) / (background.n1 - 1);
+  for (const double refined : {1.0, 0.85, 0.7, 0.6, 0.5, 0.4, 0.3}) {
+    const double h = refined == 1 ? spacing : as_written(refined * spacing);
+    const GridSpec grid = refined == 1 ? background : with_spacing(background, h);
+    for (const bool apart : {false, true}) {
+      for (const double part : {1.0, 0.85, 0.7, 0.55}) {
+        for (const int lines : {usual_lines, 6}) {
+          const std::vector<RingGrid> chosen = with_lines(rings, open, rooms, {lines, part, h, apart});
+          if (connects(grid, rings)) return {h, chosen};
+        }
+      }
+    }
+    if (!finer) break;
+  }
+  return {spacing, with_lines(rings, open, rooms, {usual_lines, 1, spacing, false})};
+}
+
+}  // namespace fsi

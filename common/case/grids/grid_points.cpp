@@ -1,0 +1,43 @@
+#include "common/case/grids/grid_points.hpp"
+
+#include <cmath>
+
+namespace fsi {
+
+Vec2 place(const GridSpec& grid, double r, double s, double t) {
+  Vec2 x(grid.x_a + r * (grid.x_b - grid.x_a), grid.y_a + s * (grid.y_b - grid.y_a));
+  if (grid.kind == GridSpec::Kind::mapped) {
+    x = Vec2(grid.map.c1.at_parameters(r, s, t), grid.map.c2.at_parameters(r, s, t));
+  }
+  const double c = std::cos(grid.rotation);
+  const double sine = std::sin(grid.rotation);
+  return {c * x[0] - sine * x[1], sine * x[0] + c * x[1]};
+}
+
+Vec2 position(const GridSpec& grid, int i, int j, double t) {
+  return place(grid, static_cast<double>(i) / (grid.n1 - 1), static_cast<double>(j) / (grid.n2 - 1), t);
+}
+
+int points_along(const GridSpec& grid, Side side) {
+  return direction_of(side) == 0 ? grid.n2 : grid.n1;
+}
+
+Vec2 side_point(const GridSpec& grid, Side side, int k) {
+  const int end = at_upper_end(side) ? (direction_of(side) == 0 ? grid.n1 : grid.n2) - 1 : 0;
+  return direction_of(side) == 0 ? position(grid, end, k, 0) : position(grid, k, end, 0);
+}
+
+std::vector<double> points_on_side(const GridSpec& grid, Side side, int n) {
+  const auto count = static_cast<std::size_t>(n);
+  std::vector<double> x(2 * count);
+  const double end = at_upper_end(side) ? 1 : 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    const double along = static_cast<double>(k) / (n - 1);
+    const Vec2 point = direction_of(side) == 0 ? place(grid, end, along, 0) : place(grid, along, end, 0);
+    x[k] = point[0];
+    x[count + k] = point[1];
+  }
+  return x;
+}
+
+}  // namespace fsi

@@ -1,0 +1,213 @@
+#include "common/case/grids/overlap_advice.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "common/case/grids/composite_from_case.hpp"
+#include "common/core/failure.hpp"
+#include "common/grid/geometry/outline.hpp"
+
+namespace fsi {
+
+namespace {
+
+using config::Node;
+
+/// Rules of docs/theory_grids.md, "Grids in a body".
+constexpr double core_by_depth = 0.2;
+constexpr int fewest_lines = 5;
+
+/// From the curve to the last line.
+double depth_of(const BodyFittedSpec& spec) {
+  if (spec.map) {
+    const Vec2 across(spec.map->c1.at_parameters(0, 1, 0) - spec.map->c1.at_parameters(0, 0, 0),
+                      spec.map->c2.at_parameters(0, 1, 0) - spec.map->c2.at_parameters(0, 0, 0));
+    return across.norm();
+  }
+  double depth = 0, step = spec.spacing;
+  for (int line = 1; line < spec.lines; ++line, step *= spec.growth) depth += step;
+  return depth;
+}
+
+grid::Bend bend_of(const BodyFittedSpec& spec) {
+  return grid::sharpest_bend(spec.curve.x, spec.curve.closed() ? grid::Curve::closed : grid::Curve::open,
+                             spec.side == Side::bottom ? 1 : -1, spec.curve.corners);
+}
+
+double spacing_of(const GridSpec& grid) {
+  return std::max((grid.x_b - grid.x_a) / (grid.n1 - 1), (grid.y_b - grid.y_a) / (grid.n2 - 1));
+}
+
+/// The same rectangle with points as far apart as `spacing` of the case file puts them.
+GridSpec refined(GridSpec grid, double spacing) {
+  grid.n1 = static_cast<int>(std::round((grid.x_b - grid.x_a) / spacing)) + 1;
+  grid.n2 = static_cast<int>(std::round((grid.y_b - grid.y_a) / spacing)) + 1;
+  return grid;
+}
+
+std::vector<BodyFittedSpec> with_lines(std::vector<BodyFittedSpec> specs, int lines) {
+  for (BodyFittedSpec& spec : specs) spec.lines = std::min(spec.lines, lines);
+  return specs;
+}
+
+/// The spacing of the background, rounded down to two digits, that connects the grids.
+std::optional<double> finer_background(const OverlapCheck& check) {
+  const double now = spacing_of(check.background);
+  for (const double part : {0.85, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2}) {
+    const double unit = std::pow(10, std::floor(std::log10(part * now)) - 1);
+    const double spacing = std::floor(part * now / unit) * unit;
+    const auto connects_at = [&](double h) {
+      return connects(refined(check.background, h), check.body_fitted);
+    };
+    constexpr double margin = 0.9;  // no lucky hit: a finer one does, too
+    if (connects_at(spacing) && connects_at(margin * spacing)) return spacing;
+  }
+  return std::nullopt;
+}
+
+/// Lines of a grid that is as deep as its curve's bends allow.
+int lines_by_radius(const BodyFittedSpec& spec) {
+  const double deepest = depth_by_radius * bend_of(spec).radius;
+  BodyFittedSpec grid = spec;
+  while (grid.lines > fewest_lines && depth_of(grid) > deepest) --grid.lines;
+  return grid.lines;
+}
+
+/// The number of lines, if fewer do.
+std::optional<int> fewer_lines(const OverlapCheck& check) {
+  int most = fewest_lines, lines = fewest_lines;
+  for (const BodyFittedSpec& spec : check.body_fitted) {
+    most = std::max(most, spec.lines - 1);
+    lines = std::max(lines, lines_by_radius(spec));
+  }
+  for (lines = std::min(lines, most); lines >= fewest_lines; --lines) {
+    if (connects(check.background, with_lines(check.body_fitted, lines))) return lines;
+  }
+  return std::nullopt;
+}
+
+std::string name_of_curve(const BodyFittedSpec& spec) {
+  return spec.solid.empty() ? fmt::format("the shape of grid `{}`", spec.name)
+                            : fmt::format("solid `{}`", spec.solid);
+}
+
+Vec2 without_noise(const Vec2& x, double unit) {
+  return (unit * (x / unit).array().round() + 0.0).matrix();  // + 0: no -0
+}
+
+/// Two curves in the gas nearer to each other than their grids are deep.
+std::optional<Advice> too_near(const OverlapCheck& check, const Node& list) {
+  const double h = spacing_of(check.background);
+  std::optional<Advice> advice;
+  double shortest = 0;
+  for (std::size_t k = 1; k < check.body_fitted.size(); ++k) {
+    for (std::size_t l = 0; l < k; ++l) {
+      const BodyFittedSpec &a = check.body_fitted[k], &b = check.body_fitted[l];
+      if (a.curve.on == b.name || b.curve.on == a.name) continue;  // one stands on the other
+      const grid::Gap gap = grid::gap_between(a.curve.x, b.curve.x);
+      const double needed = depth_of(a) + depth_of(b) + 2 * h;
+      if (needed - gap.distance <= shortest) continue;
+      shortest = needed - gap.distance;
+      const Vec2 x = without_noise(gap.x, 1e-6 * h);
+      advice.emplace(Advice{
+          list.items[k], fmt::format("{}.body_fitted[{}]", check.path, k),
+          fmt::format("{} and {} are {:.3g} apart at ({:.4g}, {:.4g}), but their grids are {:.3g} and {:.3g} "
+                      "deep; move them {:.3g} apart, or make the grids less deep with fewer `lines`, a "
+                      "smaller `spacing` or a greater grid.factor",
+                      name_of_curve(a), name_of_curve(b), gap.distance, x[0], x[1], depth_of(a), depth_of(b),
+                      needed),
+          shortest});
+    }
+  }
+  return advice;
+}
+
+/// A closed curve nearer to a side of the gas's rectangle than its grid is deep.
+std::optional<Advice> too_near_to_side(const OverlapCheck& check, const Node& list) {
+  const GridSpec& gas = check.background;
+  const double h = spacing_of(gas);
+  for (std::size_t k = 0; k < check.body_fitted.size(); ++k) {
+    const BodyFittedSpec& spec = check.body_fitted[k];
+    if (!spec.curve.closed()) continue;
+    const auto n = static_cast<std::size_t>(spec.curve.points());
+    double distance = std::numeric_limits<double>::infinity();
+    Vec2 nearest = Vec2::Zero();
+    for (std::size_t m = 0; m < n; ++m) {
+      const double x = spec.curve.x[m], y = spec.curve.x[n + m];
+      const double here = std::min({x - gas.x_a, gas.x_b - x, y - gas.y_a, gas.y_b - y});
+      if (here < distance) distance = here, nearest = {x, y};
+    }
+    if (distance >= depth_of(spec) + 2 * h) continue;
+    const Vec2 x = without_noise(nearest, 1e-6 * h);
+    return Advice{
+        list.items[k], fmt::format("{}.body_fitted[{}]", check.path, k),
+        fmt::format("{} is {:.3g} from the rim of {}.grid at ({:.4g}, {:.4g}), but its grid is {:.3g} deep; "
+                    "leave {:.3g} between them, or make the grid less deep with fewer `lines`, a smaller "
+                    "`spacing` or a greater grid.factor",
+                    name_of_curve(spec), distance, check.path, x[0], x[1], depth_of(spec),
+                    depth_of(spec) + 2 * h),
+        depth_of(spec) + 2 * h - distance};
+  }
+  return std::nullopt;
+}
+
+/// A curve that bends more sharply than its grid is deep.
+std::string bend_text(const BodyFittedSpec& spec) {
+  const grid::Bend bend = bend_of(spec);
+  if (depth_of(spec) <= depth_by_radius * bend.radius) return "";
+  return fmt::format(
+      "grid `{}` is {:.3g} deep, but its curve bends with a radius of {:.3g} at ({:.4g}, {:.4g}): make it "
+      "at most {} of that deep, {:.2g}, with fewer `lines` or a smaller `spacing`, or round the curve more",
+      spec.name, depth_of(spec), bend.radius, bend.x[0], bend.x[1], depth_by_radius,
+      depth_by_radius * bend.radius);
+}
+
+std::optional<Advice> too_sharp(const OverlapCheck& check, const Node& place, const std::string& path) {
+  for (const BodyFittedSpec& spec : check.body_fitted) {
+    const std::string text = bend_text(spec);
+    if (!text.empty()) return Advice{place, path, text};
+  }
+  return std::nullopt;
+}
+
+/// Grids that connect with a finer background: that is the remedy, fewer lines the other one.
+std::optional<Advice> by_trial(const OverlapCheck& check, const Node& place, const std::string& path) {
+  const std::optional<double> spacing = finer_background(check);
+  const std::optional<int> lines = fewer_lines(check);
+  const Node& grid = *check.owner.find("grid");
+  const std::string fewer = lines ? fmt::format("`lines: {}` in {}.body_fitted", *lines, check.path) : "";
+  if (!spacing && !lines) return std::nullopt;
+  if (!spacing) return Advice{place, path, fmt::format("write {}", fewer)};
+  return Advice{
+      grid, check.path + ".grid",
+      fmt::format("the points of `grid` are too far apart for the grid along the outline; write `spacing: "
+                  "{:.2g}` (now {:.3g}), or `points` to match{}{}",
+                  *spacing, spacing_of(check.background), lines ? ", or " : "", fewer)};
+}
+
+}  // namespace
+
+Advice advice_for(const OverlapCheck& check) {
+  const Node* list = check.owner.find("body_fitted");
+  const Node* shape = check.owner.find("shape");
+  const Node& place = list != nullptr ? *list : *shape;
+  const std::string path = fmt::format("{}.{}", check.path, list != nullptr ? "body_fitted" : "shape");
+  if (shape == nullptr) {  // the gas
+    const auto to_other = too_near(check, *list), to_side = too_near_to_side(check, *list);
+    if (to_side && (!to_other || to_side->missing > to_other->missing)) return *to_side;
+    if (to_other) return *to_other;
+  }
+  if (auto advice = by_trial(check, place, path)) return *advice;
+  if (auto advice = too_sharp(check, place, path)) return *advice;
+  return {
+      place, path,
+      fmt::format("change `lines`, `spacing` or the shape; points of {}.grid about {} of the depth of the "
+                  "grid along the outline apart leave room for both",
+                  check.path, core_by_depth)};
+}
+
+}  // namespace fsi

@@ -1,0 +1,105 @@
+#include "common/case/grids/wall_strips.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "common/case/grids/node_tools.hpp"
+
+namespace fsi {
+
+namespace {
+
+using config::Node;
+
+/// A body nearer than that to a wall, in spacings of the background: more than grids of eight lines are deep.
+constexpr double near = 10;
+
+double end_of_box(const GridSpec& box, Side side) {
+  if (direction_of(side) == 0) return at_upper_end(side) ? box.x_b : box.x_a;
+  return at_upper_end(side) ? box.y_b : box.y_a;
+}
+
+double distance_to_side(const CurveSpec& curve, const GridSpec& box, Side side) {
+  const auto n = static_cast<std::size_t>(curve.points());
+  const std::size_t first = direction_of(side) == 0 ? 0 : n;
+  const double wall = end_of_box(box, side), inwards = at_upper_end(side) ? -1 : 1;
+  double distance = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < n; ++k) distance = std::min(distance, inwards * (curve.x[first + k] - wall));
+  return distance;
+}
+
+bool has_an_end_on(const CurveSpec& curve, Side side) {
+  return curve.walls && std::ranges::find(*curve.walls, side) != curve.walls->end();
+}
+
+/// The curve whose body is near to a wall that has no grid of its own.
+const Node* body_near(const Node& list, const FluidSpec& fluid, const std::vector<std::size_t>& open,
+                      Side side) {
+  const GridSpec& box = fluid.grid;
+  const double spacing = std::max((box.x_b - box.x_a) / (box.n1 - 1), (box.y_b - box.y_a) / (box.n2 - 1));
+  for (const std::size_t k : open) {
+    const BodyFittedSpec& ring = fluid.body_fitted[k];
+    if (!ring.curve.closed() || ring.side != Side::top) continue;
+    const double distance = distance_to_side(ring.curve, box, side);
+    if (distance > 0 && distance < near * spacing) return &list.items[k];
+  }
+  return nullptr;
+}
+
+Node list_of(std::vector<Node> items, const std::string& place) {
+  Node list{.kind = Node::Kind::list, .place = place, .entries = {}};
+  list.items = std::move(items);
+  return list;
+}
+
+/// From one end of the side to the other.
+Node strip_along(const GridSpec& box, Side side, const std::string& place) {
+  const bool upright = direction_of(side) == 0;
+  const double wall = end_of_box(box, side);
+  const auto corner = [&](double along) {
+    const Node a = config::number_node(upright ? wall : along, place),
+               b = config::number_node(upright ? along : wall, place);
+    return list_of({a, b}, place);
+  };
+  const auto word = [&](Side end) { return config::word_node(name_of(end), place); };
+  Node shape{.kind = Node::Kind::map, .place = place, .entries = {}};
+  put(shape, "kind", config::word_node("polygon", place));
+  put(shape, "corners",
+      list_of({corner(upright ? box.y_a : box.x_a), corner(upright ? box.y_b : box.x_b)}, place));
+  put(shape, "walls",
+      list_of({word(upright ? Side::bottom : Side::left), word(upright ? Side::top : Side::right)}, place));
+  Node strip{.kind = Node::Kind::map, .place = place, .entries = {}};
+  put(strip, "name", config::word_node(fmt::format("along_{}", name_of(side)), place));
+  put(strip, "shape", shape);
+  put(strip, "boundary", config::word_node("slip_wall", place));
+  return strip;
+}
+
+}  // namespace
+
+bool add_wall_strips(Node& body_fitted, const FluidSpec& fluid, const std::vector<std::size_t>& open) {
+  std::array<bool, 2> has_strips{};  // along x = const, along y = const: strips do not meet in corners
+  const auto has_name = [&](const std::string& name) {
+    return std::ranges::find(fluid.body_fitted, name, &BodyFittedSpec::name) != fluid.body_fitted.end();
+  };
+  std::vector<Node> strips;
+  for (const Side side : {Side::bottom, Side::top, Side::left, Side::right}) {
+    const auto across = static_cast<std::size_t>(direction_of(side));
+    const bool is_wall = fluid.boundary[static_cast<std::size_t>(side)].kind == BoundaryKind::slip_wall;
+    if (!is_wall || has_strips[1 - across] || has_name(fmt::format("along_{}", name_of(side)))) continue;
+    if (std::ranges::any_of(fluid.body_fitted,
+                            [side](const BodyFittedSpec& ring) { return has_an_end_on(ring.curve, side); }))
+      continue;
+    const Node* body = body_near(body_fitted, fluid, open, side);
+    if (body == nullptr) continue;
+    strips.push_back(strip_along(fluid.grid, side, body->place));
+    has_strips[across] = true;
+  }
+  body_fitted.items.insert(body_fitted.items.end(), strips.begin(), strips.end());
+  return !strips.empty();
+}
+
+}  // namespace fsi

@@ -1,0 +1,69 @@
+#include "common/case/read/build_beam.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/case/schema/laws.hpp"
+
+namespace fsi {
+
+namespace {
+
+using config::fail;
+using config::Node;
+
+constexpr double fewest_elements = 3, most_elements = 5000;  ///< elements, as in the schema
+
+std::vector<Vec2> line_of(const Node& list, bool closed, const std::string& path) {
+  std::vector<Vec2> line;
+  for (const Node& item : list.items) line.emplace_back(*item.items[0].number, *item.items[1].number);
+  const bool straight = line.size() == 2 && !closed;
+  if (!straight && line.size() < 4) {
+    fail(list.place, path + ".line",
+         closed ? "a ring needs four points or more" : "give two points (a straight line), or four and more");
+  }
+  for (std::size_t k = 1; k < line.size(); ++k) {
+    if (line[k] == line[k - 1])
+      fail(list.items[k].place, path + ".line", fmt::format("point {} is the one before it again", k + 1));
+  }
+  return line;
+}
+
+/// As many as fit with the length h.
+int elements_of(const Reader& reader, const BeamSpec& beam) {
+  double length = beam.closed ? (beam.line.front() - beam.line.back()).norm() : 0;
+  for (std::size_t k = 1; k < beam.line.size(); ++k) length += (beam.line[k] - beam.line[k - 1]).norm();
+  return static_cast<int>(
+      std::clamp(std::round(length / reader.scope().constants.at("h")), fewest_elements, most_elements));
+}
+
+}  // namespace
+
+std::optional<BeamSpec> build_beam(const Reader& reader, const Node& solid, std::string_view law,
+                                   const std::string& path) {
+  const Node* node = solid.find("beam");
+  if (node == nullptr) {
+    if (law == beam_law) {
+      fail(solid.place, path,
+           "law `beam` needs the section `beam: {line: [[x, y], [x, y]], thickness: d, ends: [.., ..]}`");
+    }
+    return std::nullopt;
+  }
+  const std::string where = path + ".beam";
+  BeamSpec beam;
+  Reader::assign(*node, "closed", beam.closed);
+  beam.line = line_of(*node->find("line"), beam.closed, where);
+  beam.thickness = reader.expression(*node->find("thickness"));
+  beam.elements = elements_of(reader, beam);
+  Reader::assign(*node, "elements", beam.elements);
+  if (const Node* ends = node->find("ends")) {
+    if (ends->items.size() != 2) fail(ends->place, where + ".ends", "must be two words, [clamped, free]");
+    if (beam.closed) fail(ends->place, where + ".ends", "a ring has none; leave them out");
+    for (std::size_t k = 0; k < 2; ++k) beam.ends[k] = named<BeamEnd>(ends->items[k].text).value();
+  }
+  return beam;
+}
+
+}  // namespace fsi

@@ -1,0 +1,162 @@
+#include "common/case/read/build_domain.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+namespace fsi {
+
+namespace {
+
+using config::fail;
+using config::Node;
+
+BoundaryKind kind_of(const std::string& word) {
+  static const std::map<std::string, BoundaryKind> kinds{
+      {"interface", BoundaryKind::interface},      {"slip_wall", BoundaryKind::slip_wall},
+      {"symmetry", BoundaryKind::symmetry},        {"inflow", BoundaryKind::inflow},
+      {"imposed", BoundaryKind::imposed},          {"outflow", BoundaryKind::outflow},
+      {"far_field", BoundaryKind::far_field},      {"dirichlet", BoundaryKind::dirichlet},
+      {"periodic", BoundaryKind::periodic},        {"traction", BoundaryKind::traction},
+      {"displacement", BoundaryKind::displacement}};
+  return kinds.at(word);
+}
+
+void read_rectangle(const Node& node, const std::string& path, GridSpec& grid) {
+  const auto read = [&](const char* key, double& a, double& b) {
+    const Node& ends = *node.find(key);
+    a = *ends.items[0].number;
+    b = *ends.items[1].number;
+    if (!(b > a))
+      fail(ends.place, fmt::format("{}.{}", path, key), "the second end must be greater than the first");
+  };
+  read("x", grid.x_a, grid.x_b);
+  read("y", grid.y_a, grid.y_b);
+}
+
+void read_points(const Node& node, const std::string& path, GridSpec& grid) {
+  const Node* counts = node.find("points");
+  const Node* spacing = node.find("spacing");
+  if (counts != nullptr && spacing != nullptr)
+    fail(spacing->place, path, "give `points` or `spacing`, one of them");
+  if (counts == nullptr && spacing == nullptr) {
+    fail(node.place, path, "`points: [.., ..]` is missing (or `spacing: h` for a rectangle)");
+  }
+  if (counts != nullptr) {
+    grid.n1 = static_cast<int>(*counts->items[0].number);
+    grid.n2 = static_cast<int>(*counts->items[1].number);
+    return;
+  }
+  constexpr double fewest = 5;
+  constexpr double most = 1e5;
+  const double n1 = std::round((grid.x_b - grid.x_a) / *spacing->number) + 1;
+  const double n2 = std::round((grid.y_b - grid.y_a) / *spacing->number) + 1;
+  if (!(std::min(n1, n2) >= fewest) || !(std::max(n1, n2) <= most)) {
+    fail(spacing->place, path + ".spacing",
+         fmt::format("gives {} x {} points; {} to {} are possible in each direction", n1, n2, fewest, most));
+  }
+  grid.n1 = static_cast<int>(n1);
+  grid.n2 = static_cast<int>(n2);
+}
+
+BoundarySpec boundary_from_word(const Reader& reader, const Owner& owner, const Node& node,
+                                const std::string& path) {
+  BoundarySpec result;
+  if (node.text == "free" || node.text == "clamped") {
+    result.kind = node.text == "free" ? BoundaryKind::traction : BoundaryKind::displacement;
+    result.vector = VectorExpressions{Expression(0.0), Expression(0.0)};
+    return result;
+  }
+  result.kind = kind_of(node.text);
+  constexpr std::array with_data{BoundaryKind::dirichlet, BoundaryKind::inflow,   BoundaryKind::imposed,
+                                 BoundaryKind::far_field, BoundaryKind::traction, BoundaryKind::displacement};
+  if (std::ranges::find(with_data, result.kind) != with_data.end())
+    result.from_reference = reader.from_reference(node, path);
+  if (result.kind == BoundaryKind::interface && owner.name == "fluid") {
+    if (owner.partner.empty())
+      fail(node.place, path, "write {kind: interface, solid: NAME}: the case has not one solid");
+    result.solid = owner.partner;
+  }
+  return result;
+}
+
+}  // namespace
+
+BoundarySpec build_boundary(const Reader& reader, const Owner& owner, const Node& node,
+                            const std::string& path) {
+  if (node.is_scalar()) return boundary_from_word(reader, owner, node, path);
+  BoundarySpec result;
+  result.kind = kind_of(node.find("kind")->text);
+  Reader::assign(node, "solid", result.solid);
+  if (const Node* state = node.find("state")) {
+    result.from_reference = reader.from_reference(*state, path);
+    if (!result.from_reference) result.state = reader.gas_state(*state, path + ".state");
+  }
+  if (const Node* value = node.find("value")) {
+    result.from_reference = reader.from_reference(*value, path);
+    if (!result.from_reference) result.vector = reader.vector(*value);
+  }
+  std::string load = "current";
+  Reader::assign(node, "load", load);
+  result.on_reference = load == "reference";
+  if (const Node* velocity = node.find("velocity")) result.velocity = reader.vector(*velocity);
+  return result;
+}
+
+GridSpec build_grid(const Reader& reader, const Owner& owner) {
+  if (owner.node.find("grid") == nullptr)
+    fail(owner.node.place, owner.path, "`grid` is missing; write {x: [.., ..], y: [.., ..], spacing: h}");
+  const Node& node = *owner.node.find("grid");
+  const std::string path = owner.path + ".grid";
+  GridSpec grid;
+  grid.name = owner.name;
+  Reader::assign(node, "name", grid.name);
+  Reader::assign(node, "shake", grid.shake);
+  if (const Node* seed = node.find("shake_seed")) grid.shake_seed = static_cast<std::uint64_t>(*seed->number);
+  if (const Node* degrees = node.find("rotation")) grid.rotation = *degrees->number * std::numbers::pi / 180;
+  if (const Node* map = node.find("map")) {
+    grid.kind = GridSpec::Kind::mapped;
+    grid.map = reader.vector(*map);
+    grid.moving = grid.map.c1.uses("t") || grid.map.c2.uses("t");
+  } else {
+    read_rectangle(node, path, grid);
+  }
+  read_points(node, path, grid);
+  return grid;
+}
+
+std::array<BoundarySpec, 4> build_boundaries(const Reader& reader, const Owner& owner, GridSpec& grid) {
+  const std::string path = owner.path + ".boundary";
+  std::array<BoundarySpec, 4> result;
+  const Node* boundary = owner.node.find("boundary");
+  if (boundary == nullptr) {
+    if (owner.node.find("shape") == nullptr)
+      fail(owner.node.place, owner.path, "`boundary` is missing (the four sides of the grid)");
+    result.fill({.kind = BoundaryKind::none});
+    return result;
+  }
+  const Node& node = *boundary;
+  const auto spec = [&](Side side) -> BoundarySpec& { return result[static_cast<std::size_t>(side)]; };
+  for (const Side side : all_sides) {
+    spec(side) =
+        build_boundary(reader, owner, *node.find(name_of(side)), fmt::format("{}.{}", path, name_of(side)));
+  }
+  for (const auto& [side, opposite] :
+       {std::pair{Side::left, Side::right}, std::pair{Side::bottom, Side::top}}) {
+    const bool here = spec(side).kind == BoundaryKind::periodic;
+    const bool there = spec(opposite).kind == BoundaryKind::periodic;
+    if (here != there) {
+      fail(node.place, path,
+           fmt::format("{} is periodic and {} is not; write both", name_of(here ? side : opposite),
+                       name_of(here ? opposite : side)));
+    }
+    grid.periodic[static_cast<std::size_t>(direction_of(side))] = here;
+  }
+  return result;
+}
+
+}  // namespace fsi

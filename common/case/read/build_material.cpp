@@ -1,0 +1,143 @@
+#include "common/case/read/build_material.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "common/case/document/reader.hpp"
+#include "common/case/schema/laws.hpp"
+
+namespace fsi {
+
+namespace {
+
+using config::fail;
+using config::Node;
+using std::string_view;
+
+/// Keys that together say the moduli, and keys that belong to this form alone.
+struct Form {
+  std::span<const string_view> keys, own;
+};
+
+constexpr std::array<string_view, 2> lame{"lambda", "mu"}, technical{"E", "nu"};
+constexpr std::array<string_view, 3> invariants{"c10", "c01", "bulk"};
+constexpr std::array<string_view, 2> only_invariants{"c10", "bulk"};  // c01 may stand beside lambda and mu
+constexpr std::array forms{Form{lame, lame}, Form{technical, technical}, Form{invariants, only_invariants}};
+constexpr string_view advice = "`lambda` and `mu`, or `E` and `nu`, or `c10`, `c01` and `bulk`";
+
+const Node* first_of(const Node& solid, std::span<const string_view> keys) {
+  for (const string_view key : keys) {
+    if (const Node* node = solid.find(std::string(key))) return node;
+  }
+  return nullptr;
+}
+
+/// The one form that the solid uses; none where it says nothing.
+const Form* form_of(const Node& solid, const std::string& path) {
+  const Form* found = nullptr;
+  for (const Form& form : forms) {
+    const Node* node = first_of(solid, form.own);
+    if (node == nullptr) continue;
+    if (found != nullptr) {
+      fail(node->place, path,
+           fmt::format("says its moduli twice; write {}, and leave the others out of the file", advice));
+    }
+    found = &form;
+  }
+  return found;
+}
+
+double number(const Node& solid, const std::string& path, string_view key) {
+  const Node* node = solid.find(std::string(key));
+  if (node == nullptr) {
+    fail(solid.place, path, fmt::format("`{}` is missing; the moduli are {}", key, advice));
+  }
+  return *node->number;
+}
+
+void set_moduli(const Node& solid, const std::string& path, const Form& form, SolidSpec& spec) {
+  std::vector<double> values;
+  for (const string_view key : form.keys) values.push_back(number(solid, path, key));
+  if (form.keys.data() == lame.data()) {
+    spec.lambda = values[0];
+    spec.mu = values[1];
+  } else if (form.keys.data() == technical.data()) {
+    const double E = values[0], nu = values[1];
+    spec.lambda = E * nu / ((1 + nu) * (1 - 2 * nu));
+    spec.mu = E / (2 * (1 + nu));
+  } else {
+    spec.mu = 2 * (values[0] + values[1]);
+    spec.lambda = values[2] - 2 * spec.mu / 3;
+    if (spec.mu == 0)
+      fail(solid.place, path, "`c10` + `c01` must be above 0: it is half of the shear modulus");
+    if (spec.lambda < 0) {
+      fail(solid.find("bulk")->place, path + ".bulk",
+           fmt::format("must be at least 4/3 (c10 + c01) = {:.6g}, so that lambda is not negative",
+                       2 * spec.mu / 3));
+    }
+  }
+}
+
+/// Of a number that the law alone takes.
+double own_number(const Node& solid, const std::string& path, const SolidSpec& spec, const char* key,
+                  string_view what) {
+  const Node* node = solid.find(key);
+  if (node == nullptr) {
+    fail(solid.place, path,
+         fmt::format("law `{}` needs `{}`, {}; on the command line: --set {}.{}=..", spec.law, key, what,
+                     path, key));
+  }
+  return *node->number;
+}
+
+/// Beyond these bounds the energy has no lower one.
+void check_mooney_rivlin(const Node& solid, const std::string& path, const SolidSpec& spec, double c01) {
+  const Node& node = *solid.find("c01");
+  if (c01 > 0.5 * spec.mu * (1 + 1e-12)) {
+    fail(node.place, path + ".c01",
+         fmt::format("must be at most mu / 2 = {:.6g}: mu / 2 is c10 + c01", 0.5 * spec.mu));
+  }
+  if (4 * c01 > spec.lambda * (1 + 1e-12)) {
+    fail(
+        node.place, path + ".c01",
+        fmt::format("must be at most lambda / 4 = {:.6g}, or the energy has no lower bound; lambda is bulk - "
+                    "4/3 (c10 + c01)",
+                    0.25 * spec.lambda));
+  }
+}
+
+void check_gent(const Node& solid, const std::string& path, const SolidSpec& spec, double J_m) {
+  if (J_m * spec.lambda >= 2 * spec.mu * (1 - 1e-12)) return;
+  const Node& node = *solid.find("J_m");
+  if (spec.lambda == 0) {
+    fail(node.place, path + ".J_m", "needs a solid that resists a change of area: lambda (or nu) above 0");
+  }
+  fail(node.place, path + ".J_m",
+       fmt::format("must be at least 2 mu / lambda = {:.6g}, or the energy has no lower bound",
+                   2 * spec.mu / spec.lambda));
+}
+
+}  // namespace
+
+void build_material(const Node& solid, const std::string& path, SolidSpec& spec) {
+  const Form* form = form_of(solid, path);
+  if (form != nullptr) set_moduli(solid, path, *form, spec);
+  if (spec.law == rigid_law || spec.law == external_law) return;
+  if (form == nullptr) fail(solid.place, path, fmt::format("the moduli are missing; write {}", advice));
+  if (spec.law == "mooney_rivlin") {
+    const double c01 = own_number(solid, path, spec, "c01", "the coefficient of I2 - 3 [pressure]");
+    check_mooney_rivlin(solid, path, spec, c01);
+    spec.data["c01"] = c01;
+  }
+  if (spec.law == "gent") {
+    const double J_m = own_number(solid, path, spec, "J_m", "the largest I1 - 3 [-]");
+    check_gent(solid, path, spec, J_m);
+    spec.data["J_m"] = J_m;
+  }
+}
+
+}  // namespace fsi

@@ -1,0 +1,195 @@
+#include "common/case/report/cost.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "common/case/grids/composite_from_case.hpp"
+#include "common/case/grids/grid_points.hpp"
+#include "common/case/schema/laws.hpp"
+
+namespace fsi {
+
+namespace {
+
+/// Points that one core advances in a second, and the time of a step's messages for some hundreds of points
+/// [s]. `updates` in the summary of a run says its own: 13 and 5.5 million in shock_ellipse with AVX-512; the
+/// estimate is for slower processors.
+constexpr double gas_speed = 8e6, solid_speed = 4e6, exchange = 1e-3;
+
+/// 1 / dt of one cell for waves of speed 1.
+struct CellRate {
+  double rate = 0;
+  const std::string* grid = nullptr;
+  Vec2 x = Vec2::Zero(), cell = Vec2::Zero();
+};
+
+/// Sum of |grad r| over both directions of the cell between the positions a, a + along, a + across.
+CellRate rate_of(const Vec2& a, const Vec2& along, const Vec2& across, const std::string& name) {
+  const double area = std::abs(along[0] * across[1] - along[1] * across[0]);
+  const double length = along.norm(), width = across.norm();
+  return {.rate = (length + width) / area, .grid = &name, .x = a, .cell = {length, width}};
+}
+
+/// Without the two outermost lines, which are interpolated.
+void append_rates(const BodyFittedSpec& spec, const grid::MovingGrid& grid, std::vector<CellRate>& rates) {
+  const ConstFieldView x = grid.x();
+  constexpr int interpolated = 2;
+  const int first = spec.side == Side::top ? interpolated : 0;
+  const int end = x.layout.n2 - 1 - (spec.side == Side::top ? 0 : interpolated);
+  for (int j = first; j < end; ++j) {
+    for (int i = 0; i + 1 < x.layout.n1; ++i) {
+      const Vec2 a(x(0, i, j), x(1, i, j)), b(x(0, i + 1, j), x(1, i + 1, j)),
+          c(x(0, i, j + 1), x(1, i, j + 1));
+      rates.push_back(rate_of(a, b - a, c - a, spec.name));
+    }
+  }
+}
+
+/// A lattice has one cell, a mapped grid is looked at in 64 x 64 places.
+void append_rates(const GridSpec& spec, std::vector<CellRate>& rates) {
+  constexpr int samples = 64;
+  const bool lattice = spec.kind == GridSpec::Kind::rectangle;
+  const int step1 = lattice ? spec.n1 : std::max(1, (spec.n1 - 1) / samples);
+  const int step2 = lattice ? spec.n2 : std::max(1, (spec.n2 - 1) / samples);
+  for (int j = 0; j + 1 < spec.n2; j += step2) {
+    for (int i = 0; i + 1 < spec.n1; i += step1) {
+      const Vec2 a = position(spec, i, j, 0);
+      rates.push_back(
+          rate_of(a, position(spec, i + 1, j, 0) - a, position(spec, i, j + 1, 0) - a, spec.name));
+    }
+  }
+}
+
+template <class Owner>
+StepCost step_of(const std::string& program, const Owner& owner, double speed) {
+  std::vector<CellRate> rates;
+  double fitted_points = 0;
+  const std::vector<grid::MovingGrid> grids = grids_at_start(owner.body_fitted);
+  for (std::size_t k = 0; k < grids.size(); ++k) {
+    const BodyFittedSpec& fitted = owner.body_fitted[k];
+    append_rates(fitted, grids[k], rates);
+    fitted_points += static_cast<double>(fitted.curve.points()) * fitted.lines;
+  }
+  const std::size_t fitted_cells = rates.size();
+  append_rates(owner.grid, rates);
+  std::ranges::sort(rates, std::ranges::greater{}, &CellRate::rate);
+  const CellRate& worst = rates.front();
+  const double lattice = static_cast<double>(owner.grid.n1) * owner.grid.n2;
+  StepCost cost{.program = program,
+                .points = fitted_points + lattice,
+                .dt = 1 / (speed * worst.rate),
+                .grid = *worst.grid,
+                .x = worst.x,
+                .cell = worst.cell};
+  const std::size_t few = std::min(fitted_cells / 20, rates.size() - 1);
+  cost.usual_dt = 1 / (speed * rates[few].rate);
+  return cost;
+}
+
+/// The largest |v| + a of a state on a grid.
+double fastest(const GasExpressions& state, const GridSpec& grid, double gamma) {
+  constexpr int samples = 64;
+  double most = 0;
+  for (int j = 0; j <= samples; ++j) {
+    for (int i = 0; i <= samples; ++i) {
+      const Vec2 x = place(grid, static_cast<double>(i) / samples, static_cast<double>(j) / samples, 0);
+      const double v = std::hypot(state.v1(x[0], x[1], 0), state.v2(x[0], x[1], 0));
+      most = std::max(most, v + std::sqrt(gamma * state.p(x[0], x[1], 0) / state.rho(x[0], x[1], 0)));
+    }
+  }
+  return most;
+}
+
+/// 0: the states come from a reference solution.
+double wave_speed_of(const FluidSpec& fluid) {
+  double most = fluid.initial ? fastest(*fluid.initial, fluid.grid, fluid.gamma) : 0;
+  for (const BoundarySpec& side : fluid.boundary) {
+    if (side.state) most = std::max(most, fastest(*side.state, fluid.grid, fluid.gamma));
+  }
+  return most;
+}
+
+/// (45) with the parts of the betas that are in proportion to 1/dt.
+double part_left(const SolidScheme& scheme) {
+  const double beta =
+      0.5 * std::max(scheme.tangential_stress.scaled + scheme.relaxation.scaled, scheme.displacement.scaled);
+  return std::sqrt(std::max(0.0, 1 - beta * beta));
+}
+
+StepCost step_of(const SolidSpec& solid) {
+  if (!is_continuum(solid.law)) return {.program = solid.name, .dt = std::numeric_limits<double>::infinity()};
+  StepCost cost = step_of(solid.name, solid, std::sqrt((solid.lambda + 2 * solid.mu) / solid.rho));
+  cost.dt *= part_left(solid.scheme);
+  cost.usual_dt *= part_left(solid.scheme);
+  return cost;
+}
+
+std::string time_text(double seconds) {
+  if (seconds < 90) return fmt::format("{:.2g} s", seconds);
+  if (seconds < 5400) return fmt::format("{:.2g} min", seconds / 60);
+  return fmt::format("{:.2g} h", seconds / 3600);
+}
+
+}  // namespace
+
+int RunCost::substeps(const StepCost& program) const {
+  constexpr double round_off = 1e-9;
+  return std::isfinite(program.dt) ? std::max(1, static_cast<int>(std::ceil(dt / program.dt - round_off)))
+                                   : 1;
+}
+
+RunCost cost_of(const Case& problem) {
+  RunCost cost;
+  if (problem.fluid) {
+    const double speed = wave_speed_of(*problem.fluid);
+    if (speed == 0) return cost;
+    cost.programs.push_back(step_of("fluid", *problem.fluid, speed));
+  }
+  for (const SolidSpec& solid : problem.solids) cost.programs.push_back(step_of(solid));
+  for (StepCost& program : cost.programs) {
+    program.dt *= problem.time.cfl;
+    program.usual_dt *= problem.time.cfl;
+  }
+  cost.dt = problem.time.dt.value_or(std::numeric_limits<double>::infinity());
+  const bool gas_decides = problem.fluid && problem.time.multirate;
+  for (const StepCost& program : cost.programs) {
+    if (!gas_decides || program.program == "fluid") cost.dt = std::min(cost.dt, program.dt);
+  }
+  if (!std::isfinite(cost.dt)) return cost;
+  cost.steps = std::ceil(problem.time.end / cost.dt);
+  double slowest = 0;
+  for (const StepCost& program : cost.programs) {
+    const double rate = program.program == "fluid" ? gas_speed : solid_speed;
+    slowest = std::max(slowest, cost.substeps(program) * program.points / rate);
+  }
+  cost.seconds = cost.steps * (slowest + exchange);
+  return cost;
+}
+
+std::string cost_text(const RunCost& cost) {
+  if (cost.steps == 0) return "";
+  std::string text, warning;
+  for (const StepCost& program : cost.programs) {
+    if (!std::isfinite(program.dt)) continue;
+    const int substeps = cost.substeps(program);
+    text += fmt::format(
+        "  {}: dt about {:.2g}, set by cells {:.2g} x {:.2g} of grid \"{}\" near ({:.3g}, {:.3g}){}\n",
+        program.program, program.dt, program.cell[0], program.cell[1], program.grid, program.x[0],
+        program.x[1], substeps > 1 ? fmt::format("; {} substeps in a step", substeps) : "");
+    constexpr double few = 1.5;
+    if (program.usual_dt > few * program.dt)
+      warning += fmt::format(
+          "  {}: a twentieth of the cells, near that place, makes the step {:.2g} times smaller than "
+          "the others need: round the outline more there, or write a greater `spacing` or fewer "
+          "`points` for that grid\n",
+          program.program, program.usual_dt / program.dt);
+  }
+  return text + warning +
+         fmt::format("  about {:.0f} steps of {:.2g}; about {} with a core for each program", cost.steps,
+                     cost.dt, time_text(cost.seconds));
+}
+
+}  // namespace fsi

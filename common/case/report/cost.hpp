@@ -1,0 +1,42 @@
+#pragma once
+/// What a run will cost: time steps, what sets them, steps and about how long they take.
+
+#include <string>
+#include <vector>
+
+#include "common/case/case.hpp"
+#include "common/core/types.hpp"
+
+namespace fsi {
+
+/// The time step of one program at t = 0, from the wave speeds
+/// and the cells, paper eq. (44) and (45) without damping.
+struct StepCost {
+  std::string program;       ///< "fluid", or the name of a solid
+  double points = 0;         ///< of all its grids
+  double dt = 0;             ///< infinite for a program that takes any step
+  std::string grid = {};     ///< whose cell sets it
+  Vec2 x = Vec2::Zero();     ///< where
+  Vec2 cell = Vec2::Zero();  ///< distances of points there, along the grid's two directions [length]
+  double usual_dt =
+      0;  ///< with the worst twentieth of all cells left out: much greater where a few set the step
+};
+
+struct RunCost {
+  std::vector<StepCost> programs;  ///< gas first
+  double dt = 0;                   ///< of a step that all take together, safety factor included
+  double steps = 0;                ///< to time.end
+  double seconds = 0;              ///< about, each program on a core of its own
+  /// Of a program within a step: 1, or more with `time.multirate`.
+  int substeps(const StepCost& program) const;
+};
+
+/// Of a case whose grids connect. Wave speeds are those of the initial and the boundary states, the largest
+/// for all grids: a flow that becomes faster takes more steps.
+RunCost cost_of(const Case& problem);
+
+/// For people, a line for each program and one for the run;
+/// and one more where a few small cells set the step.
+std::string cost_text(const RunCost& cost);
+
+}  // namespace fsi

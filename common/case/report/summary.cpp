@@ -1,0 +1,166 @@
+#include "common/case/report/summary.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "common/case/report/cost.hpp"
+#include "common/case/report/memory.hpp"
+#include "common/case/schema/laws.hpp"
+#include "common/core/failure.hpp"
+#include "common/core/input/config.hpp"
+
+namespace fsi {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+template <class T>
+ordered_json or_null(const std::optional<T>& value) {
+  return value ? ordered_json(*value) : ordered_json(nullptr);
+}
+
+ordered_json time_json(const TimeSpec& time) {
+  return {{"end", time.end},
+          {"cfl", time.cfl},
+          {"growth", time.growth},
+          {"multirate", time.multirate},
+          {"robin_order", time.robin_order},
+          {"dt", or_null(time.dt)},
+          {"join_timeout", time.join_timeout},
+          {"peer_timeout", time.peer_timeout},
+          {"step_timeout", time.step_timeout}};
+}
+
+ordered_json cost_json(const Case& problem) {
+  const RunCost cost = cost_of(problem);
+  ordered_json programs = ordered_json::array();
+  for (const StepCost& program : cost.programs) {
+    programs.push_back({{"program", program.program},
+                        {"dt", std::isfinite(program.dt) ? ordered_json(program.dt) : ordered_json(nullptr)},
+                        {"substeps", cost.substeps(program)},
+                        {"grid", program.grid}});
+  }
+  return {{"steps", cost.steps},
+          {"dt", cost.steps > 0 ? ordered_json(cost.dt) : ordered_json(nullptr)},
+          {"seconds", cost.seconds},
+          {"programs", programs}};
+}
+
+ordered_json expect_json(const std::vector<Expectation>& expect) {
+  ordered_json result = ordered_json::array();
+  for (const Expectation& entry : expect) {
+    result.push_back({{"quantity", entry.quantity},
+                      {"max", or_null(entry.max)},
+                      {"min", or_null(entry.min)},
+                      {"equals", or_null(entry.equals)}});
+  }
+  return result;
+}
+
+template <class Owner>
+std::uint64_t points_of(const Owner& owner) {
+  auto points = static_cast<std::uint64_t>(owner.grid.n1) * static_cast<std::uint64_t>(owner.grid.n2);
+  for (const BodyFittedSpec& fitted : owner.body_fitted)
+    points += static_cast<std::uint64_t>(fitted.curve.points()) * static_cast<std::uint64_t>(fitted.lines);
+  return points;
+}
+
+/// "81 x 81 + 63 x 8"
+template <class Owner>
+std::string grids_of(const Owner& owner) {
+  std::string text = fmt::format("{} x {}", owner.grid.n1, owner.grid.n2);
+  for (const BodyFittedSpec& fitted : owner.body_fitted)
+    text += fmt::format(" + {} x {}", fitted.curve.points(), fitted.lines);
+  return text;
+}
+
+}  // namespace
+
+bool is_coupled(const Case& problem) {
+  return problem.fluid && !problem.solids.empty();
+}
+
+std::vector<ParticipantSummary> participants_of(const Case& problem) {
+  std::vector<ParticipantSummary> result;
+  if (problem.fluid) result.push_back({"fluid", "fluid", "fluid_solver", ""});
+  for (const SolidSpec& solid : problem.solids) {
+    const bool external = solid.law == external_law;
+    result.push_back(
+        {solid.name, "solid", external ? solid.program : "solid_solver_" + solid.law, solid.law});
+  }
+  if (is_coupled(problem)) result.push_back({"coupler", "coupler", "coupler", ""});
+  return result;
+}
+
+std::string summary_as_json(const Case& problem) {
+  ordered_json participants = ordered_json::array();
+  for (const ParticipantSummary& p : participants_of(problem)) {
+    participants.push_back({{"name", p.name}, {"role", p.role}, {"executable", p.executable}});
+  }
+  ordered_json memory;
+  for (const MemoryNeed& need : memory_of(problem)) memory[need.program] = std::round(need.bytes);
+  ordered_json solids = ordered_json::array();
+  for (const SolidSpec& solid : problem.solids) {
+    solids.push_back({{"name", solid.name}, {"law", solid.law}, {"points", points_of(solid)}});
+  }
+  const ordered_json summary = {
+      {"name", problem.name},
+      {"title", problem.title},
+      {"path", problem.path},
+      {"digest", problem.digest},
+      {"restart_digest", problem.restart_digest},
+      {"coupled", is_coupled(problem)},
+      {"fluid", problem.fluid.has_value()},
+      {"fluid_points", problem.fluid ? points_of(*problem.fluid) : 0},
+      {"solids", solids},
+      {"participants", participants},
+      {"memory", memory},
+      {"cost", cost_json(problem)},
+      {"chosen", problem.chosen},
+      {"parameters", problem.parameters},
+      {"grid_factor", problem.grid_factor},
+      {"time", time_json(problem.time)},
+      {"projection", name_of(problem.interface.projection)},
+      {"output_times", problem.output.times},
+      {"reference", {{"kind", problem.reference.kind}, {"numbers", problem.reference.numbers}}},
+      {"expect", expect_json(problem.expect)},
+      {"resolved", problem.resolved}};
+  return summary.dump(2, ' ', false, ordered_json::error_handler_t::replace);
+}
+
+std::string summary_line(const Case& problem) {
+  std::vector<std::string> parts;
+  if (problem.fluid) parts.push_back(fmt::format("gas {}", grids_of(*problem.fluid)));
+  for (const SolidSpec& solid : problem.solids) {
+    parts.push_back(fmt::format("{} ({}) {}", solid.name, solid.law, grids_of(solid)));
+  }
+  return fmt::format("{}: fine; {}, t = 0 to {}; memory about {}", problem.path, fmt::join(parts, ", "),
+                     problem.time.end, bytes_text(total_memory(problem)));
+}
+
+std::vector<std::pair<std::string, std::string>> list_cases(const std::string& folder) {
+  std::set<std::string> paths;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    if (entry.path().extension() == ".yaml") paths.insert(entry.path().string());
+  }
+  std::vector<std::pair<std::string, std::string>> result;
+  for (const std::string& path : paths) {
+    const std::string name = std::filesystem::path(path).stem().string();
+    try {
+      const config::Node root = config::parse_file(path);
+      const config::Node* title = root.find("title");
+      result.emplace_back(name, title != nullptr && title->is_scalar() ? title->text : "");
+    } catch (const UserMistake& mistake) {
+      result.emplace_back(name, mistake.what());
+    }
+  }
+  return result;
+}
+
+}  // namespace fsi

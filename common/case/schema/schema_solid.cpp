@@ -1,0 +1,313 @@
+#include <array>
+
+#include "common/case/case.hpp"
+#include "common/case/schema/laws.hpp"
+#include "common/case/schema/schema.hpp"
+
+namespace fsi::schema {
+
+namespace {
+
+using std::array;
+using std::string_view;
+
+constexpr array<string_view, 2> load_words{"current", "reference"};
+constexpr Key load_key{
+    .name = "load",
+    .type = Type::word,
+    .meaning =
+        "configuration whose area (13) and normal the load belongs to; `reference` is small-strain theory",
+    .fallback = "current",
+    .words = load_words};
+constexpr array solid_interface_keys{load_key};
+constexpr array traction_keys{
+    Key{.name = "value",
+        .type = Type::vector,
+        .meaning = "traction per unit area",
+        .unit = "pressure",
+        .required = true,
+        .words = or_reference},
+    load_key,
+};
+constexpr array displacement_keys{
+    Key{.name = "value",
+        .type = Type::vector,
+        .meaning = "displacement",
+        .unit = "length",
+        .required = true,
+        .words = or_reference},
+    Key{.name = "velocity",
+        .type = Type::vector,
+        .meaning = "its time derivative",
+        .unit = "velocity",
+        .fallback = "by differences of `value`"},
+};
+constexpr array solid_dirichlet_keys{
+    Key{.name = "state",
+        .type = Type::word,
+        .meaning = "where u, v and P come from",
+        .required = true,
+        .words = or_reference},
+};
+constexpr array solid_boundary_variants{
+    Variant{"interface", "the gas is on the other side", solid_interface_keys},
+    Variant{"slip_wall", "no displacement along the normal, no shear", {}},
+    Variant{"symmetry", "mirror images across a straight side", {}},
+    Variant{"traction", "the traction is imposed", traction_keys},
+    Variant{"displacement", "the displacement is imposed", displacement_keys},
+    Variant{"dirichlet", "u, v and P are imposed, ghost points too", solid_dirichlet_keys},
+    Variant{"periodic", "continues at the opposite side", {}},
+};
+
+constexpr string_view solid_side =
+    "a side of the solid; a bare word is its kind, with data from the reference solution; `free` is no "
+    "traction, `clamped` no displacement";
+constexpr array solid_sides{
+    Key{.name = "left",
+        .type = Type::section,
+        .meaning = solid_side,
+        .required = true,
+        .words = solid_boundary_words,
+        .section = &solid_boundary_section},
+    Key{.name = "right",
+        .type = Type::section,
+        .meaning = solid_side,
+        .required = true,
+        .words = solid_boundary_words,
+        .section = &solid_boundary_section},
+    Key{.name = "bottom",
+        .type = Type::section,
+        .meaning = solid_side,
+        .required = true,
+        .words = solid_boundary_words,
+        .section = &solid_boundary_section},
+    Key{.name = "top",
+        .type = Type::section,
+        .meaning = solid_side,
+        .required = true,
+        .words = solid_boundary_words,
+        .section = &solid_boundary_section},
+};
+constexpr Section solid_boundaries{.title = "Boundaries of a solid", .keys = solid_sides};
+
+constexpr array beta_keys{
+    Key{.name = "rate",
+        .meaning = "the part that is a rate",
+        .unit = "1/time",
+        .fallback = "0",
+        .range = not_negative},
+    Key{.name = "scaled",
+        .meaning = "the part that is a rate times the time step",
+        .fallback = "0",
+        .range = not_negative},
+};
+constexpr Section beta_section{.title = "A coefficient beta = rate dt + scaled", .keys = beta_keys};
+
+constexpr array solid_scheme_keys{
+    Key{.name = "limiter",
+        .type = Type::word,
+        .meaning = "limiter of the slopes; none for smooth motion",
+        .fallback = name_of(SolidScheme{}.limiter),
+        .words = words_of<SolidLimiter>},
+    Key{.name = "tangential_stress",
+        .type = Type::section,
+        .meaning = "beta^P of (39)",
+        .fallback = "{scaled: 0.5}",
+        .section = &beta_section},
+    Key{.name = "displacement",
+        .type = Type::section,
+        .meaning = "beta^u of (40)",
+        .fallback = "{scaled: 0.5}",
+        .section = &beta_section},
+    Key{.name = "relaxation",
+        .type = Type::section,
+        .meaning = "beta^r of (41)",
+        .fallback = "{scaled: 0.2}",
+        .section = &beta_section},
+    Key{.name = "bulk_diffusion",
+        .meaning = "coefficient of undivided second differences of v and P",
+        .unit = "1/time",
+        .fallback = "0",
+        .range = not_negative},
+};
+constexpr Section solid_scheme{.title = "Scheme of a solid", .keys = solid_scheme_keys};
+
+constexpr array solid_initial_keys{
+    Key{.name = "u",
+        .type = Type::vector,
+        .meaning = "displacement, of the reference position",
+        .unit = "length",
+        .fallback = "[0, 0]"},
+    Key{.name = "v",
+        .type = Type::vector,
+        .meaning = "velocity, of the reference position",
+        .unit = "velocity",
+        .fallback = "[0, 0]"},
+};
+constexpr Section solid_initial{.title = "Initial state of a solid", .keys = solid_initial_keys};
+
+constexpr Key data_element{.name = "number", .type = Type::number, .meaning = "a number for the program"};
+
+constexpr array<string_view, 2> motion_words{"free", "fixed"};
+constexpr Key end_element{
+    .name = "end", .type = Type::word, .meaning = "what holds an end", .words = words_of<BeamEnd>};
+constexpr Key line_point{
+    .name = "point", .type = Type::pair, .meaning = "a point of the centre line", .unit = "length"};
+constexpr array beam_keys{
+    Key{.name = "line",
+        .type = Type::list,
+        .meaning =
+            "points [x, y] of the centre line: a straight line through two, a spline through four or more",
+        .unit = "length",
+        .required = true,
+        .element = &line_point},
+    Key{.name = "closed",
+        .type = Type::boolean,
+        .meaning = "the line is a ring: its last point is joined to the first",
+        .fallback = "false"},
+    Key{.name = "thickness",
+        .type = Type::field,
+        .meaning = "thickness d, of the reference position: axial force E' d, shear 5/6 mu d, bending E' d^3 "
+                   "/ 12, with E' = "
+                   "E / (1 - nu^2); mass rho d",
+        .unit = "length",
+        .required = true},
+    Key{.name = "elements",
+        .type = Type::integer,
+        .meaning = "elements along the line",
+        .fallback = "as long as the spacing h",
+        .range = {.low = 3, .high = 5000}},
+    Key{.name = "ends",
+        .type = Type::list,
+        .meaning = "what holds the first and the last end: free, pinned (its place), clamped (place and "
+                   "direction), guided "
+                   "(direction, and it moves across the line only)",
+        .fallback = "[free, free]",
+        .element = &end_element},
+};
+constexpr Section beam_section{.title = "A beam", .keys = beam_keys};
+
+constexpr array solid_keys{
+    Key{.name = "law",
+        .type = Type::word,
+        .meaning = "constitutive law; its program is solid_solver_<law>, or `program` where it is `external`",
+        .required = true,
+        .words = law_names},
+    Key{.name = "program",
+        .type = Type::text,
+        .meaning = "the program of an external solid: a name among the programs of this project, or a path "
+                   "with a / in it, which counts from where fsi is called",
+        .fallback = "that of `law`"},
+    Key{.name = "data",
+        .type = Type::named,
+        .meaning = "numbers for the program of an external solid",
+        .fallback = "none",
+        .element = &data_element},
+    Key{.name = "rho",
+        .meaning = "density of the reference configuration",
+        .unit = "mass/volume",
+        .required = true,
+        .range = positive},
+    Key{.name = "lambda",
+        .meaning = "Lame constant",
+        .unit = "pressure",
+        .fallback = "required (or `E` and `nu`), but where `law` is `rigid` or `external`",
+        .range = not_negative},
+    Key{.name = "mu",
+        .meaning = "Lame constant (shear modulus)",
+        .unit = "pressure",
+        .fallback = "required with `lambda`",
+        .range = positive},
+    Key{.name = "E",
+        .meaning =
+            "Young's modulus, in the place of lambda and mu: lambda = E nu / ((1 + nu) (1 - 2 nu)), mu = E / "
+            "(2 (1 + nu))",
+        .unit = "pressure",
+        .fallback = "required with `nu`",
+        .range = positive},
+    Key{.name = "nu",
+        .meaning = "Poisson's ratio",
+        .fallback = "required with `E`",
+        .range = {.low = 0, .high = 0.5, .high_open = true}},
+    Key{.name = "c10",
+        .meaning =
+            "coefficient of I1 - 3; `c10`, `c01` and `bulk` may stand in the place of lambda and mu: mu = 2 "
+            "(c10 + c01), lambda = bulk - 2/3 mu",
+        .unit = "pressure",
+        .fallback = "required with `bulk`",
+        .range = not_negative},
+    Key{.name = "c01",
+        .meaning = "coefficient of I2 - 3 of the law `mooney_rivlin`, at most mu / 2 and lambda / 4; with "
+                   "other laws it counts in `c10` + `c01` only",
+        .unit = "pressure",
+        .fallback = "required with `law: mooney_rivlin` and with `c10`",
+        .range = not_negative},
+    Key{.name = "bulk",
+        .meaning = "bulk modulus, at least 2/3 mu",
+        .unit = "pressure",
+        .fallback = "required with `c10`",
+        .range = positive},
+    Key{.name = "J_m",
+        .meaning = "largest I1 - 3 of the law `gent`, which locks there, at least 2 mu / lambda; other laws "
+                   "pass it over",
+        .fallback = "required with `law: gent`",
+        .range = positive},
+    Key{.name = "motion",
+        .type = Type::word,
+        .meaning = "of a rigid body: `fixed` holds it where it is; its load is in forces_NAME.csv",
+        .fallback = "free",
+        .words = motion_words},
+    Key{.name = "grid",
+        .type = Type::section,
+        .meaning = "the reference configuration; with a `shape` the core of its grids, a rectangle around it",
+        .fallback = "required; with a `shape` chosen, as what else is missing of its grids",
+        .section = &grid_section},
+    Key{.name = "boundary",
+        .type = Type::section,
+        .meaning = "its four sides",
+        .fallback = "required, but where `shape` leaves nothing of them",
+        .section = &solid_boundaries},
+    Key{.name = "shape",
+        .type = Type::section,
+        .meaning = "outline of the solid where it is not that of `grid`, which then is a rectangle around it",
+        .fallback = "the rim of `grid`",
+        .section = &shape_section},
+    Key{.name = "body_fitted",
+        .type = Type::section,
+        .meaning = "the grid along the outline: at most 0.6 of its smallest radius of curvature deep, with "
+                   "points of `grid` a fifth of that apart",
+        .fallback = "all defaults",
+        .section = &solid_fitted_section},
+    Key{.name = "scheme",
+        .type = Type::section,
+        .meaning = "choices of the solver",
+        .fallback = "all defaults",
+        .section = &solid_scheme},
+    Key{.name = "beam",
+        .type = Type::section,
+        .meaning = "centre line, thickness and supports where `law` is `beam`; the outline, which the gas "
+                   "meets, moves with "
+                   "the sections of the line",
+        .fallback = "required with `law: beam`",
+        .section = &beam_section},
+    Key{.name = "initial",
+        .type = Type::section,
+        .meaning = "state at t = 0",
+        .fallback = "at rest",
+        .words = or_reference,
+        .section = &solid_initial},
+    Key{.name = "body_force",
+        .type = Type::vector,
+        .meaning = "force per unit reference volume, of the reference position",
+        .unit = "force/volume",
+        .fallback = "none"},
+};
+
+}  // namespace
+
+constinit const Section solid_boundary_section{
+    .title = "A side of a solid", .keys = {}, .variants = solid_boundary_variants, .default_kind = ""};
+
+constinit const Section solid_section{.title = "A solid", .keys = solid_keys};
+
+}  // namespace fsi::schema

@@ -1,0 +1,79 @@
+#include "common/core/time/time_schedule.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "common/core/failure.hpp"
+
+namespace fsi {
+
+namespace {
+
+constexpr double smallest_part = 1e-11;  ///< of the run's length: below, the step counts as vanished
+/// Of the run's length: over a step so short, the round-off of positions is a velocity of grids and walls
+/// that lowers the following bids.
+constexpr double same_time = 1e-8;
+
+}  // namespace
+
+std::vector<double> distinct_times(std::vector<double> times, double end) {
+  const double apart = same_time * end;
+  std::ranges::sort(times);
+  std::vector<double> distinct;
+  for (const double t : times) {
+    if (t > end + apart) break;
+    const double time = end - t <= apart ? end : (t <= apart ? 0 : t);
+    if (distinct.empty() || time - distinct.back() > apart) distinct.push_back(time);
+  }
+  return distinct;
+}
+
+TimeSchedule::TimeSchedule(Options options) : options_(std::move(options)) {
+  options_.output_times.push_back(options_.end);
+  options_.output_times = distinct_times(std::move(options_.output_times), options_.end);
+}
+
+bool TimeSchedule::output_at_start() const {
+  return options_.output_times.front() <= 0;
+}
+
+bool TimeSchedule::is_output(double t) const {
+  return std::ranges::any_of(options_.output_times,
+                             [&](double wanted) { return std::abs(t - wanted) <= same_time * options_.end; });
+}
+
+bool TimeSchedule::is_end(double t) const {
+  return t >= options_.end * (1 - same_time);
+}
+
+PlannedStep TimeSchedule::plan(double t, double bid, const std::string& reason) {
+  if (std::isinf(bid) && bid > 0) bid = options_.end;
+  if (!(bid > smallest_part * options_.end) || std::isnan(bid)) {
+    if (bid > 0 && previous_ == 0 && t == 0)
+      throw UserMistake(fmt::format(
+          "time.end = {:g} is {:.2g} steps of {:.3g} ({}) away, more than any run can take (1e11): write "
+          "a smaller time.end, or find out what makes the steps so small",
+          options_.end, options_.end / bid, bid, reason));
+    throw NumbersBroke(fmt::format("t = {:.6g}: the time step has collapsed to {:.3g} ({})", t, bid, reason));
+  }
+  double dt = bid;
+  if (previous_ > 0) dt = std::min(dt, options_.growth * previous_);
+  if (options_.dt_max > 0) dt = std::min(dt, options_.dt_max);
+  previous_ = dt;
+
+  const double tiny = smallest_part * options_.end;
+  const auto target =
+      std::ranges::find_if(options_.output_times, [=](double wanted) { return wanted > t + tiny; });
+  if (target == options_.output_times.end()) return {.dt = 0, .t_next = t, .output = false, .end = true};
+  const double steps = std::ceil((*target - t) / dt * (1 - 1e-12));
+  if (steps <= 1)
+    return {
+        .dt = *target - t, .t_next = *target, .output = true, .end = *target == options_.output_times.back()};
+  dt = (*target - t) / steps;
+  return {.dt = dt, .t_next = t + dt};
+}
+
+}  // namespace fsi

@@ -1,0 +1,51 @@
+#pragma once
+/// Turns the largest stable step into the next step: output
+/// times and the end are hit exactly, growth is limited.
+
+#include <string>
+#include <vector>
+
+#include "common/core/archive.hpp"
+
+namespace fsi {
+
+/// Times from 0 to `end`, sorted. Those closer to each other than 1e-8 of the run are one, the first of them;
+/// those so close to the start or the end are that.
+std::vector<double> distinct_times(std::vector<double> times, double end);
+
+struct PlannedStep {
+  double dt = 0;
+  double t_next = 0;    ///< exactly an output time when the step reaches one
+  bool output = false;  ///< fields are wanted at t_next
+  bool end = false;     ///< t_next is the end of the run
+};
+
+class TimeSchedule {
+ public:
+  struct Options {
+    double end = 1;
+    std::vector<double> output_times;  ///< any order; times beyond the end are ignored; see distinct_times
+    double growth = 1.2;               ///< largest ratio of successive steps
+    double dt_max = 0;                 ///< 0: no limit besides stability
+  };
+
+  explicit TimeSchedule(Options options);
+
+  bool output_at_start() const;
+  /// The step from t when `bid` is the largest stable one (named by `reason`). What remains until the next
+  /// wanted time is divided evenly, so that no sliver of a step is left over.
+  /// @throws NumbersBroke when the bid is not a positive number or vanishes against the length of the run, in
+  /// which the first step did not; UserMistake when that already did
+  PlannedStep plan(double t, double bid, const std::string& reason);
+  /// Whether t, planned by another schedule, is an output time or the end of this one: that of a run that
+  /// goes on with another end.
+  bool is_output(double t) const;
+  bool is_end(double t) const;
+  void archive(Archive& archive) { archive.number("previous", previous_); }
+
+ private:
+  Options options_;
+  double previous_ = 0;  ///< last step before it was shortened to hit a time
+};
+
+}  // namespace fsi

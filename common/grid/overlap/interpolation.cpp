@@ -1,0 +1,118 @@
+#include "common/grid/overlap/interpolation.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fsi::grid {
+
+namespace {
+
+template <int width>
+double apply_width(const InterpolationList& list, FieldView target, ConstFieldView donor) {
+  const int stride = donor.layout.stride;
+  double change = 0;
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    const double* w = list.weight.data() + k * width * width;
+    for (int plane = 0; plane < target.planes; ++plane) {
+      const double* from = donor.plane(plane) + list.donor[k];
+      double sum = 0;
+      for (int m = 0; m < width; ++m) {
+        for (int l = 0; l < width; ++l) sum += w[width * m + l] * from[m * stride + l];
+      }
+      double& to = target.plane(plane)[list.target[k]];
+      change = std::max(change, std::abs(sum - to));
+      to = sum;
+    }
+  }
+  return change;
+}
+
+/// Largest magnitude at the points of the implicit lists.
+double largest_value(std::span<const InterpolationList> lists, std::span<const FieldView> fields) {
+  double most = 0;
+  for (const InterpolationList& list : lists) {
+    if (!list.implicit) continue;
+    const FieldView field = fields[static_cast<std::size_t>(list.target_grid)];
+    for (int plane = 0; plane < field.planes; ++plane) {
+      for (const std::int32_t at : list.target) most = std::max(most, std::abs(field.plane(plane)[at]));
+    }
+  }
+  return most;
+}
+
+}  // namespace
+
+std::array<double, 3> lagrange_weights(double r, int width) {
+  if (width == 2) return {1 - r, r, 0};
+  return {0.5 * (r - 1) * (r - 2), r * (2 - r), 0.5 * r * (r - 1)};
+}
+
+void InterpolationList::clear() {
+  target.clear();
+  donor.clear();
+  weight.clear();
+  x.clear();
+}
+
+void InterpolationList::reserve(std::size_t points) {
+  target.reserve(points);
+  donor.reserve(points);
+  weight.reserve(points * static_cast<std::size_t>(width * width));
+  if (implicit) x.reserve(points);
+}
+
+void InterpolationList::move(std::size_t from, std::size_t to) {
+  if (from == to) return;
+  target[to] = target[from];
+  donor[to] = donor[from];
+  const auto weights = static_cast<std::size_t>(width * width);
+  std::copy_n(weight.data() + from * weights, weights, weight.data() + to * weights);
+  if (implicit) x[to] = x[from];
+}
+
+void InterpolationList::cut(std::size_t points) {
+  target.resize(points);
+  donor.resize(points);
+  weight.resize(points * static_cast<std::size_t>(width * width));
+  if (implicit) x.resize(points);
+}
+
+void InterpolationList::append(std::ptrdiff_t at, std::ptrdiff_t donor_at, const Stencil& stencil,
+                               const std::array<double, 2>& place) {
+  target.push_back(static_cast<std::int32_t>(at));
+  donor.push_back(static_cast<std::int32_t>(donor_at));
+  if (implicit) x.push_back(place);
+  const auto along = lagrange_weights(stencil.r, width), across = lagrange_weights(stencil.s, width);
+  for (int m = 0; m < width; ++m) {
+    for (int l = 0; l < width; ++l) {
+      weight.push_back(along[static_cast<std::size_t>(l)] * across[static_cast<std::size_t>(m)]);
+    }
+  }
+}
+
+double apply(const InterpolationList& list, FieldView target, ConstFieldView donor) {
+  return list.width == 3 ? apply_width<3>(list, target, donor) : apply_width<2>(list, target, donor);
+}
+
+double apply(const InterpolationList& list, std::span<const FieldView> fields) {
+  return apply(list, fields[static_cast<std::size_t>(list.target_grid)],
+               fields[static_cast<std::size_t>(list.donor_grid)]);
+}
+
+bool settle_implicit(std::span<const InterpolationList> lists, std::span<const FieldView> fields) {
+  constexpr int most_sweeps = 50;
+  constexpr double settled = 1e-13, tolerable = 1e-9;
+  double first_change = 0, change = 0;
+  for (int sweep = 0; sweep < most_sweeps; ++sweep) {
+    change = 0;
+    for (const InterpolationList& list : lists) {
+      if (list.implicit) change = std::max(change, apply(list, fields));
+    }
+    first_change = std::max(first_change, change);
+    if (!(change > settled * first_change)) return true;
+  }
+  // Where hardly anything changed to begin with, round-off alone keeps it from settling.
+  return change <= tolerable * largest_value(lists, fields);
+}
+
+}  // namespace fsi::grid

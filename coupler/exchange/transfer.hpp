@@ -1,0 +1,68 @@
+#pragma once
+/// An interface whose two sides have different points. The exchange happens at the points of the finer side:
+/// the predicted state of the coarser one is brought there, and the projected state is handed back to it.
+///
+///     finer side     o--o--o--o--o--o--o--o--o      projection
+///                    |  bring |     | give |        cubic; impedances linear
+///     coarser side   O-----------O-----------O
+///
+/// What is handed back acts with exactly the same force as at the finer points.
+
+#include <Eigen/SparseCore>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "common/core/types.hpp"
+#include "common/wire/messages.hpp"
+#include "coupler/exchange/curve_interpolation.hpp"
+#include "coupler/interface_motion.hpp"
+
+namespace fsi::coupler {
+
+/// Force of a normal traction, sum ds w_n n, with the lengths of `point_lengths`.
+Vec2 force_of(std::span<const double> x, std::span<const double> n, std::span<const double> w_n);
+
+/// Adds n.c with one vector c to w_n, so that its force becomes `wanted` in all directions the interface can
+/// carry: a difference of the size of the discretisation errors is spread smoothly over the interface.
+void impose_force(std::span<const double> x, std::span<const double> n, const Vec2& wanted,
+                  std::span<double> w_n);
+
+class InterfaceTransfer {
+ public:
+  /// @param curve of the coarser side  @param coarse its points at t = 0, 2 n  @param fine points of the
+  /// other side, 2 m
+  InterfaceTransfer(const Curve& curve, std::span<const double> coarse, std::span<const double> fine);
+
+  std::size_t coarse_points() const { return curve_.n; }
+
+  /// Whether the ends of the curve slide along walls.
+  void let_ends_slide(bool first, bool last) {
+    curve_.first.slides = first;
+    curve_.last.slides = last;
+  }
+
+  /// The predicted state of the coarser side at the finer points. Holds until the next call.
+  const wire::PredictedInterface& bring(const wire::PredictedInterface& coarse);
+
+  /// Leaves of values at the finer points what the coarser ones can show.
+  void resolve(std::span<double> fine) const;
+
+  /// Turns an answer at the finer points into one for the coarser side.
+  /// @param x positions of the finer points to which n and w_n of the answer belong
+  void give(std::span<const double> x, wire::ProjectedInterface& answer) const;
+
+ private:
+  void bring_modes(const wire::ModalResponse& coarse);
+  std::vector<double> at_coarse(std::span<const double> fine) const;
+  void give_robin(wire::ProjectedInterface& answer) const;
+
+  Curve curve_;  ///< of the coarser side
+  CurveInterpolation to_fine_, to_coarse_;
+  Eigen::SparseMatrix<double> modes_to_fine_;
+  std::vector<double> x_0_, x_0_fine_;  ///< positions at t = 0
+  std::vector<double> x_, v_;           ///< coarser side, predicted
+  wire::PredictedInterface brought_;
+};
+
+}  // namespace fsi::coupler

@@ -1,0 +1,61 @@
+#pragma once
+/// Ghost lines of the single kinds of sides. One more kind of boundary is one function here, one struct in
+/// gas_options.hpp and one case in boundary_conditions.cpp.
+
+#include <span>
+
+#include "common/core/types.hpp"
+#include "fluid_solver/boundary/side_points.hpp"
+#include "fluid_solver/component.hpp"
+#include "fluid_solver/gas_options.hpp"
+#include "fluid_solver/state_vector.hpp"
+
+namespace fsi::fluid {
+
+/// Value one line outside q0, from q0, q1, q2 further in: third order; with `limited` never beyond twice the
+/// last differences, and q0 where the result would have no positive density or pressure.
+StateVector extrapolated(const StateVector& q0, const StateVector& q1, const StateVector& q2, bool limited);
+
+/// A wall along a side, n points, vectors component-major.
+struct Wall {
+  std::span<const double> n;                           ///< unit normal into the gas
+  std::span<const double> v;                           ///< velocity of the wall's points
+  std::span<const double> a;                           ///< their acceleration
+  bool closed = false;                                 ///< the side is periodic along itself
+  bool mirrored_first = false, mirrored_last = false;  ///< ghosts beyond its ends along the side are known
+};
+
+/// Moving slip wall: density and velocity extrapolated, pressure from the momentum equation on the wall.
+///
+/// The gas on the wall stays on it: with the wall's curve g(r, t) and s_dot = (v - g_t).g_r / |g_r|^2,
+///
+///     dp/dn = -rho n.Dv/Dt,   n.Dv/Dt = n.(g_tt + 2 s_dot g_tr + s_dot^2 g_rr).
+///
+/// Differs from the paper: this is the published compatibility condition with the wall's shear and curvature
+/// written out; the derivative across the side is split into normal and tangential parts so that skewed grids
+/// keep second order.
+void wall_ghosts(FieldView q, ConstFieldView x, const SidePoints& side, const Wall& wall, bool limited);
+
+/// Behind an outflow: what leaves along characteristics is extrapolated, what would enter stays as it is on
+/// the boundary. `v` is the velocity of the side's points.
+void outflow_ghosts(FieldView q, ConstFieldView x, const SidePoints& side, std::span<const double> v,
+                    const GasOptions& options);
+
+/// All variables extrapolated.
+void extrapolated_ghosts(FieldView q, const SidePoints& side, bool limited);
+
+/// Values of a given state on the lines -2 <= m <= 0 of points first <= k < last.
+void given_lines(FieldView q, ConstFieldView x, const SidePoints& side, const StateField& state, double t);
+
+/// Even and odd reflection about the straight line through the side's ends, for points first <= k < last.
+void symmetry_ghosts(FieldView q, ConstFieldView x, const SidePoints& side, int first, int last);
+
+/// Values of the other end of the period, for points first <= k < last.
+void periodic_ghosts(FieldView q, const SidePoints& side, int first, int last);
+
+/// Unit normal of a side into the grid at point k.
+Vec2 inward_normal(ConstFieldView x, const SidePoints& side, int k);
+/// Unit normal into the grid of the straight line through the side's ends.
+Vec2 straight_normal(ConstFieldView x, const SidePoints& side);
+
+}  // namespace fsi::fluid

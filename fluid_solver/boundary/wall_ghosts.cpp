@@ -1,0 +1,76 @@
+#include <algorithm>
+#include <cmath>
+
+#include "fluid_solver/boundary/ghost_lines.hpp"
+
+namespace fsi::fluid {
+
+namespace {
+
+/// A vector per point of a wall, continued periodically on a closed one.
+class WallVectors {
+ public:
+  WallVectors(std::span<const double> values, bool closed)
+      : values_(values), n_(static_cast<int>(values.size() / 2)), closed_(closed) {}
+  Vec2 operator()(int k) const {
+    const int period = n_ - 1, point = !closed_ ? k : k < 0 ? k + period : k >= n_ ? k - period : k;
+    return {values_[static_cast<std::size_t>(point)], values_[static_cast<std::size_t>(n_ + point)]};
+  }
+
+ private:
+  std::span<const double> values_;
+  int n_;
+  bool closed_;
+};
+
+/// Change of pressure per line into the grid, on the wall at point k.
+double pressure_slope(ConstFieldView q, ConstFieldView x, const SidePoints& side, const Wall& wall, int k) {
+  const auto [i, j] = side.at(k, 0);
+  const WallVectors velocity(wall.v, wall.closed);
+  const Vec2 n = WallVectors(wall.n, wall.closed)(k), g_tt = WallVectors(wall.a, wall.closed)(k);
+  const Vec2 before = position(x, side, k - 1, 0), here = position(x, side, k, 0),
+             after = position(x, side, k + 1, 0);
+  const Vec2 g_r = 0.5 * (after - before), g_rr = after - 2 * here + before;
+  const Vec2 g_tr = along_side(velocity, k, side.n(), !wall.closed, !wall.closed);
+  const double s_dot = (Vec2(q(1, i, j), q(2, i, j)) - velocity(k)).dot(g_r) / g_r.squaredNorm();
+  const double p_n = -q(0, i, j) * n.dot(g_tt + 2 * s_dot * g_tr + s_dot * s_dot * g_rr);
+
+  const auto pressure = [&](int l) {
+    const int period = side.n() - 1, point = !wall.closed ? l
+                                             : l < 0      ? l + period
+                                             : l > period ? l - period
+                                                          : l;
+    const auto at = side.at(point, 0);
+    return q(3, at.i, at.j);
+  };
+  const double p_r = along_side(pressure, k, side.n(), !wall.closed && !wall.mirrored_first,
+                                !wall.closed && !wall.mirrored_last);
+  const Vec2 across = 0.5 * (position(x, side, k, 1) - position(x, side, k, -1));
+  return p_n * across.dot(n) + p_r * across.dot(g_r) / g_r.squaredNorm();
+}
+
+}  // namespace
+
+void wall_ghosts(FieldView q, ConstFieldView x, const SidePoints& side, const Wall& wall, bool limited) {
+  const WallVectors normals(wall.n, wall.closed);
+  for (int k = 0; k < side.n(); ++k) {
+    const Vec2 n = normals(k);
+    const double slope = pressure_slope(q, x, side, wall, k);
+    const double v_n = n.dot(Vec2(load(q, side.at(k, 0)).segment<2>(1)));
+    for (int m = 1; m <= Layout::ghosts; ++m) {
+      const StateVector inside = load(q, side.at(k, m));
+      StateVector ghost = extrapolated(load(q, side.at(k, 1 - m)), load(q, side.at(k, 2 - m)),
+                                       load(q, side.at(k, 3 - m)), limited);
+      const double largest_change = limited ? 0.5 * inside[3] : (1 - 1e-3) * inside[3];
+      ghost[3] = inside[3] - std::clamp(2 * m * slope, -largest_change, largest_change);
+      if (limited) {  // odd reflection: the wall stays where it is when a shock meets it
+        Vec2 v = ghost.segment<2>(1);
+        v += (2 * v_n - n.dot(Vec2(inside.segment<2>(1))) - n.dot(v)) * n;
+        ghost.segment<2>(1) = v;
+      }
+      store(q, side.at(k, -m), ghost);
+    }
+  }
+}
+
+}  // namespace fsi::fluid

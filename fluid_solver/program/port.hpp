@@ -1,0 +1,74 @@
+#pragma once
+/// The gas solver's port: a case file turned into a GasSolver, its state turned into messages and files.
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/case/case.hpp"
+#include "common/exact/solution.hpp"
+#include "common/io/csv_writer.hpp"
+#include "common/io/grid_writer.hpp"
+#include "common/program/participant.hpp"
+#include "fluid_solver/gas_solver.hpp"
+#include "fluid_solver/measures/budget.hpp"
+
+namespace fsi::fluid {
+
+class FluidParticipant final : public Participant {
+ public:
+  explicit FluidParticipant(const Setup& setup);
+
+  wire::Hello hello() const override;
+  TimeStepBid compute_time_step() const override;
+  void fill(std::size_t k, wire::PredictedInterface& predicted) const override;
+  void apply_bcs(double t, ProjectedStates projected) override;
+  void advance(double t, double dt, int substeps, ProjectedStates projected) override;
+  std::vector<io::GridOutput> fields_now() override { return fields(false); }
+  void write_fields(double t, std::uint64_t step) override;
+  void write_tables(double t, double dt, ProjectedStates projected) override;
+  void write_last_state(double t, std::uint64_t step) override;
+  void archive(Archive& archive) override;
+  wire::Health health() const override;
+  void look_for_noise(double t) override;
+  const grid::RippleWatch* noise() const override { return &*ripples_; }
+  void report(double t, io::Part& part) const override;
+
+ private:
+  /// A side of a component grid and the solid on the other side of it.
+  struct InterfaceSide {
+    int grid;
+    Side side;
+    std::string solid;
+  };
+
+  /// The chosen solution at the points of an interface: n.v and p - p_e. Empty without one.
+  struct ChosenValues {
+    std::vector<double> v, p;
+  };
+  /// Of the last complete step, or of the state as it is.
+  std::vector<io::GridOutput> fields(bool last) const;
+  ChosenValues chosen_at(const InterfaceSide& interface) const;
+
+  const Setup& setup_;
+  const FluidSpec& spec_;
+  std::shared_ptr<const exact::Solution> reference_;
+  bool chosen_ = false;  ///< source terms make the reference exact
+  std::vector<InterfaceSide> interfaces_;
+  GasSolver solver_;
+  io::GridWriter fields_;
+  std::vector<ProbeSpec> probes_;
+  std::optional<io::CsvWriter> probe_table_;
+  Totals initial_totals_;
+  double worst_cells_ = 1;        ///< quality of the moving grids' cells, smallest since the start
+  std::optional<Budget> budget_;  ///< of a gas around closed bodies
+  std::optional<io::CsvWriter> budget_table_;
+  std::optional<grid::RippleWatch> ripples_;
+  std::vector<grid::WatchedGrid> watched_;  ///< work memory
+
+  void open_budget();
+  void watch_ripples();
+};
+
+}  // namespace fsi::fluid

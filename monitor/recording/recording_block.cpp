@@ -1,0 +1,280 @@
+#include "monitor/recording/recording_block.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <span>
+#include <string>
+
+#include "common/core/failure.hpp"
+
+namespace fsi::monitor {
+
+namespace {
+
+using Side = wire::Telemetry::Interface;
+
+/// Texts by number: each is stored once per block.
+class Texts {
+ public:
+  double number(const std::string& text) {
+    const auto [place, added] = numbers_.try_emplace(text, texts_.size());
+    if (added) texts_.push_back(text);
+    return static_cast<double>(place->second);
+  }
+  const std::vector<std::string>& all() const { return texts_; }
+
+ private:
+  std::map<std::string, std::size_t> numbers_;
+  std::vector<std::string> texts_;
+};
+
+/// A table of numbers with named columns.
+struct Table {
+  std::string name;
+  const char* columns;
+  std::vector<double> values = {};
+  std::size_t width = 0;
+  void row(std::span<const double> numbers) {
+    width = numbers.size();
+    values.insert(values.end(), numbers.begin(), numbers.end());
+  }
+  void write(io::Hdf5& group) const {
+    group.write_attribute(name + "_columns", std::string(columns));
+    if (width == 0) return;
+    group.write(name, values, std::array<std::uint64_t, 2>{values.size() / width, width});
+  }
+};
+
+constexpr const char* message_columns =
+    "at from role state host pid step t t_end dt dt_reason compute_s wait_s point_updates_per_s min_rho "
+    "min_p min_det_F min_cell_quality "
+    "first_order_fallbacks floors messages bytes round_trip_p50_us round_trip_p99_us interfaces noise "
+    "dt_bid limited_by traffic";
+constexpr std::size_t message_width = 29;
+constexpr const char* traffic_columns =
+    "interface from messages bytes missing dropped latency_p50_us latency_p99_us";
+constexpr std::size_t traffic_width = 8;
+constexpr const char* interface_columns =
+    "name velocity_jump traction_jump gap power p_min p_max v_min v_max closed points has_p_predicted_solid";
+constexpr std::size_t interface_width = 12;
+constexpr const char* profile_columns =
+    "s x1 x2 p_predicted p_predicted_solid p_projected v_predicted v_predicted_gas v_projected";
+constexpr std::size_t profile_width = 9;
+constexpr const char* abort_columns = "at from exit_code reason";
+constexpr std::size_t abort_width = 4;
+
+double count(std::uint64_t number) {
+  return static_cast<double>(number);
+}
+
+void add_profile(Table& profiles, const Side& side) {
+  const std::size_t n = side.s.size();
+  const auto at = [](const std::vector<double>& values, std::size_t k) {
+    return k < values.size() ? values[k] : std::nan("");
+  };
+  for (std::size_t k = 0; k < n; ++k) {
+    profiles.row(std::array{side.s[k], at(side.x, k), at(side.x, n + k), at(side.p_predicted, k),
+                            at(side.p_predicted_solid, k), at(side.p_projected, k), at(side.v_predicted, k),
+                            at(side.v_predicted_gas, k), at(side.v_projected, k)});
+  }
+}
+
+std::uint64_t whole(double number) {
+  return number >= 0 && number < 1e18 ? static_cast<std::uint64_t>(number) : 0;
+}
+
+/// Rows of a table that may be missing.
+class Rows {
+ public:
+  Rows(const io::Hdf5& group, const std::string& name, std::size_t width) : width_(width) {
+    if (!group.has(name)) return;
+    array_ = group.read(name);
+    if (array_.shape.size() != 2 || array_.shape[1] != width)
+      throw OutputFailed(fmt::format("the recording's table '{}' has not {} columns", name, width));
+  }
+  std::size_t size() const { return array_.values.size() / width_; }
+  bool more() const { return next_ < size(); }
+  std::span<const double> take() {
+    if (!more()) throw OutputFailed("a table of the recording is too short");
+    return std::span(array_.values).subspan(width_ * next_++, width_);
+  }
+
+ private:
+  io::Array array_;
+  std::size_t width_, next_ = 0;
+};
+
+using TextOf = std::function<std::string(double)>;
+
+Side side_from(std::span<const double> row, Rows& profiles, const TextOf& text) {
+  Side side;
+  side.name = text(row[0]);
+  side.velocity_jump = row[1];
+  side.traction_jump = row[2];
+  side.gap = row[3];
+  side.power = row[4];
+  side.p_min = row[5];
+  side.p_max = row[6];
+  side.v_min = row[7];
+  side.v_max = row[8];
+  side.closed = row[9] != 0;
+  std::vector<double> x2;
+  for (std::uint64_t k = 0; k < whole(row[10]); ++k) {
+    const auto point = profiles.take();
+    side.s.push_back(point[0]);
+    side.x.push_back(point[1]);
+    x2.push_back(point[2]);
+    side.p_predicted.push_back(point[3]);
+    if (row[11] != 0) side.p_predicted_solid.push_back(point[4]);
+    side.p_projected.push_back(point[5]);
+    side.v_predicted.push_back(point[6]);
+    side.v_predicted_gas.push_back(point[7]);
+    side.v_projected.push_back(point[8]);
+  }
+  side.x.insert(side.x.end(), x2.begin(), x2.end());
+  return side;
+}
+
+wire::Telemetry telemetry_from(std::span<const double> row, const TextOf& text) {
+  return {.run = {},
+          .from = text(row[1]),
+          .role = text(row[2]),
+          .state = text(row[3]),
+          .host = text(row[4]),
+          .pid = static_cast<std::int32_t>(whole(row[5])),
+          .step = whole(row[6]),
+          .t = row[7],
+          .t_end = row[8],
+          .dt = row[9],
+          .dt_reason = text(row[10]),
+          .dt_bid = row[26],
+          .limited_by = text(row[27]),
+          .compute_s = row[11],
+          .wait_s = row[12],
+          .point_updates_per_s = row[13],
+          .health = {.min_rho = row[14],
+                     .min_p = row[15],
+                     .min_det_F = row[16],
+                     .min_cell_quality = row[17],
+                     .first_order_fallbacks = whole(row[18]),
+                     .floors = whole(row[19])},
+          .noise = text(row[25]),
+          .messages = whole(row[20]),
+          .bytes = whole(row[21]),
+          .round_trip_p50_us = row[22],
+          .round_trip_p99_us = row[23],
+          .interfaces = {},
+          .traffic = {}};
+}
+
+wire::Traffic traffic_from(std::span<const double> row, const TextOf& text) {
+  return {.interface = text(row[0]),
+          .from = text(row[1]),
+          .messages = whole(row[2]),
+          .bytes = whole(row[3]),
+          .missing = whole(row[4]),
+          .dropped = whole(row[5]),
+          .latency_p50_us = row[6],
+          .latency_p99_us = row[7]};
+}
+
+}  // namespace
+
+void write_block(io::Hdf5& group, const std::vector<Heard>& heard) {
+  Texts texts;
+  Table messages{.name = "messages", .columns = message_columns};
+  Table sides{.name = "interfaces", .columns = interface_columns};
+  Table profiles{.name = "profiles", .columns = profile_columns};
+  Table traffic{.name = "traffic", .columns = traffic_columns};
+  Table aborts{.name = "aborts", .columns = abort_columns};
+  for (const Heard& one : heard) {
+    if (const auto& m = one.telemetry) {
+      messages.row(std::array{one.at,
+                              texts.number(m->from),
+                              texts.number(m->role),
+                              texts.number(m->state),
+                              texts.number(m->host),
+                              static_cast<double>(m->pid),
+                              count(m->step),
+                              m->t,
+                              m->t_end,
+                              m->dt,
+                              texts.number(m->dt_reason),
+                              m->compute_s,
+                              m->wait_s,
+                              m->point_updates_per_s,
+                              m->health.min_rho,
+                              m->health.min_p,
+                              m->health.min_det_F,
+                              m->health.min_cell_quality,
+                              count(m->health.first_order_fallbacks),
+                              count(m->health.floors),
+                              count(m->messages),
+                              count(m->bytes),
+                              m->round_trip_p50_us,
+                              m->round_trip_p99_us,
+                              count(m->interfaces.size()),
+                              texts.number(m->noise),
+                              m->dt_bid,
+                              texts.number(m->limited_by),
+                              count(m->traffic.size())});
+      for (const wire::Traffic& line : m->traffic) {
+        traffic.row(std::array{texts.number(line.interface), texts.number(line.from), count(line.messages),
+                               count(line.bytes), count(line.missing), count(line.dropped),
+                               line.latency_p50_us, line.latency_p99_us});
+      }
+      for (const Side& side : m->interfaces) {
+        sides.row(std::array{texts.number(side.name), side.velocity_jump, side.traction_jump, side.gap,
+                             side.power, side.p_min, side.p_max, side.v_min, side.v_max,
+                             side.closed ? 1.0 : 0.0, count(side.s.size()),
+                             side.p_predicted_solid.empty() ? 0.0 : 1.0});
+        add_profile(profiles, side);
+      }
+    }
+    if (const auto& abort = one.abort) {
+      aborts.row(std::array{one.at, texts.number(abort->from), static_cast<double>(abort->exit_code),
+                            texts.number(abort->reason)});
+    }
+  }
+  for (const Table* table : {&messages, &sides, &profiles, &traffic, &aborts}) table->write(group);
+  for (std::size_t k = 0; k < texts.all().size(); ++k)
+    group.write_attribute(fmt::format("text_{}", k), texts.all()[k]);
+}
+
+std::vector<Heard> read_block(const io::Hdf5& group) {
+  std::map<std::uint64_t, std::string> known;
+  const TextOf text = [&](double number) {
+    const auto [place, added] = known.try_emplace(whole(number));
+    if (added) place->second = group.text_attribute(fmt::format("text_{}", place->first));
+    return place->second;
+  };
+  Rows messages(group, "messages", message_width), sides(group, "interfaces", interface_width),
+      profiles(group, "profiles", profile_width), traffic(group, "traffic", traffic_width),
+      aborts(group, "aborts", abort_width);
+  std::vector<Heard> heard;
+  while (messages.more()) {
+    const auto row = messages.take();
+    wire::Telemetry& telemetry =
+        heard.emplace_back(Heard{.at = row[0]}).telemetry.emplace(telemetry_from(row, text));
+    for (std::uint64_t k = 0; k < whole(row[24]); ++k)
+      telemetry.interfaces.push_back(side_from(sides.take(), profiles, text));
+    for (std::uint64_t k = 0; k < whole(row[28]); ++k)
+      telemetry.traffic.push_back(traffic_from(traffic.take(), text));
+  }
+  while (aborts.more()) {
+    const auto row = aborts.take();
+    heard.push_back({.at = row[0],
+                     .abort = wire::Abort{.run = {},
+                                          .from = text(row[1]),
+                                          .exit_code = static_cast<std::int32_t>(row[2]),
+                                          .reason = text(row[3])}});
+  }
+  return heard;
+}
+
+}  // namespace fsi::monitor

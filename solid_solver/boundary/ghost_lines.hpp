@@ -1,0 +1,76 @@
+#pragma once
+/// Points of a side and of its ghost lines, and ways to fill ghost points that know nothing of the law.
+
+#include <cmath>
+#include <cstddef>
+
+#include "common/core/field.hpp"
+#include "common/core/types.hpp"
+#include "solid_solver/kernels/reference_metrics.hpp"
+#include "solid_solver/kernels/state.hpp"
+#include "solid_solver/options.hpp"
+
+namespace fsi::solid {
+
+/// Addresses of the points of a side: k along it, m lines inward (m = -1, -2: ghost lines).
+struct SideIndex {
+  std::ptrdiff_t origin = 0, along = 0, inward = 0;
+  int n = 0;      ///< points along the side
+  int lines = 0;  ///< points across the grid
+
+  SideIndex(const Layout& layout, Side side);
+  std::ptrdiff_t at(int k, int m) const { return origin + k * along + m * inward; }
+};
+
+/// The side met at end k = 0 or k = n - 1 of a side.
+Side neighbour(Side side, bool last);
+/// Grid point k of a side.
+struct GridPoint {
+  int i = 0, j = 0;
+};
+GridPoint grid_point(const Layout& layout, Side side, int k);
+
+/// Geometry of a boundary point.
+struct SideMetrics {
+  Vec2 n0;         ///< outward unit normal of the reference body
+  Vec2 t0;         ///< unit tangent, n0 turned by +90 degrees
+  Vec2 across;     ///< grad of the index that counts across the side
+  Vec2 along;      ///< grad of the index along the side
+  double sign;     ///< +1 when the index across the side grows outward
+  double spacing;  ///< |d x_bar| per index along the side
+};
+SideMetrics side_metrics(const ReferenceMetrics& metrics, const Layout& layout, Side side, int k);
+
+/// Value beyond q0 from q0, q1, q2 inward: third order; exact for constants to the last bit. With a limiter
+/// it turns into a constant where the second difference is not small against the first ones.
+inline double extrapolated(double q0, double q1, double q2, Limiter limiter) {
+  const double third_order = q2 + 3.0 * (q0 - q1);
+  if (limiter == Limiter::none) return third_order;
+  const double first = std::abs(q0 - q1) + std::abs(q1 - q2), second = std::abs((q0 - q1) - (q1 - q2));
+  if (second <= 0.5 * first) return third_order;
+  const double weight = std::fmin(1.0, 2.0 * (second / first - 0.5));
+  return q0 + (1.0 - weight) * (third_order - q0);
+}
+
+/// Planes first .. last of ghost line m < 0 by extrapolation from the three lines inside it, points k = begin
+/// .. end - 1.
+struct GhostRange {
+  int first_plane = 0, last_plane = plane::count - 1;
+  int m = -1;
+  int begin = 0, end = 0;
+};
+void extrapolate(FieldView q, const SideIndex& side, const GhostRange& range, Limiter limiter);
+/// Vectors and stress reflected at the plane with unit normal n.
+SolidState reflected(const SolidState& state, const Vec2& n);
+/// Mirror images: vectors and stress reflected at the plane with unit normal n.
+void reflect(FieldView q, const SideIndex& side, const GhostRange& range, const Vec2& n);
+/// Values of the opposite side, whose boundary line is the same line.
+void copy_period(FieldView q, const SideIndex& side, const GhostRange& range);
+
+/// The state at an address.
+SolidState load(ConstFieldView q, std::ptrdiff_t at);
+/// a + weight * b.
+SolidState sum_of(const SolidState& a, double weight, const SolidState& b);
+void store(FieldView q, std::ptrdiff_t at, const SolidState& state);
+
+}  // namespace fsi::solid

@@ -1,0 +1,189 @@
+#pragma once
+/// SolidBoundary, third part: the order of its work, and ghost
+/// points that make stress and displacement fit together.
+
+#include "solid_solver/boundary/solid_boundary.hpp"
+
+namespace fsi::solid {
+
+template <Law L>
+void SolidBoundary<L>::apply(FieldView q, double t, std::span<const InterfaceValues> projected) {
+  set_motion(q, t, projected);
+  fill_line(q, t, {.first_plane = plane::u1, .last_plane = plane::v2, .m = -1});
+  fill_line(q, t, {.first_plane = plane::u1, .last_plane = plane::u2, .m = -2});
+  set_tractions(q, t, projected);
+  fill_line(q, t, {.first_plane = plane::v1, .last_plane = plane::P22, .m = -1});
+  // A loaded side takes the difference along it at a slip wall from the ghost point below the wall.
+  for (const Side side : all_sides) {
+    if (kind(side) == Kind::slip) match_side(q, side, t);
+  }
+  for (const Side side : all_sides) {
+    if (loaded(side)) match_side(q, side, t);
+  }
+  match_corners(q, t);
+  for (const Side side : all_sides) extend_stress_to_corners(q, side, t);
+  fill_line(q, t, {.first_plane = plane::P11, .last_plane = plane::P22, .m = -1});
+  fill_line(q, t, {.m = -2});
+  fill_frame(q, t);
+}
+
+/// Derivatives of u or v (first = plane::u1, plane::v1) at a boundary point from its four neighbours.
+template <Law L>
+Tensor2 SolidBoundary<L>::gradient(ConstFieldView q, Side side, int k, int first) const {
+  const SideIndex line(layout(), side);
+  const SideMetrics m = at(side, k);
+  const Tensor2 along = plus_dyad({}, difference_along(q, line, first, k), m.along);
+  return plus_dyad(along, difference_across(q, line, first, k, m.sign), m.across);
+}
+
+template <Law L>
+void SolidBoundary<L>::match_side(FieldView q, Side side, double t) const {
+  const SideIndex line(layout(), side);
+  for (const int k : points(side)) {
+    const bool slip_at_load = kind(side) == Kind::slip && end_of(line, k) && loaded(neighbour(side, k != 0));
+    if (!inner(side, k) && !slip_at_load) continue;
+    if (loaded(side)) {
+      match_point(q, side, k, t);
+    } else {
+      match_slip_point(q, side, k, t);
+    }
+  }
+}
+
+template <Law L>
+void SolidBoundary<L>::match_point(FieldView q, Side side, int k, double t) const {
+  const SideIndex line(layout(), side);
+  const SideMetrics m = at(side, k);
+  SolidState s = load(q, line.at(k, 0));
+  const BoundaryStrain strain = {.F = plus_dyad(identity, difference_along(q, line, plane::u1, k), m.along),
+                                 .across = m.across,
+                                 .n0 = m.n0,
+                                 .sign = m.sign};
+  const std::ptrdiff_t a = line.at(k, 0);
+  const Tensor2 offset = chosen_offset(a, t);
+  const auto du = match_traction(law_, strain, traction_of(minus(s.P, offset), m.n0),
+                                 difference_across(q, line, plane::u1, k, m.sign));
+  if (!du) broke(side, k, t);
+  set_ghost(q, line, k, plane::u1, 2.0 * m.sign * *du);
+  if (kind(side) == Kind::traction) {
+    const Tensor2 along = plus_dyad({}, difference_along(q, line, plane::v1, k), m.along);
+    const Vec2 rate =
+        T_rate_[index(side)][static_cast<std::size_t>(k)] - traction_of(chosen_source(a, t), m.n0);
+    const Vec2 dv = match_traction_rate(law_, strain, *du, along, rate);
+    set_ghost(q, line, k, plane::v1, 2.0 * m.sign * dv);
+  }
+  const Tensor2 F = with_sharper_tangent(q, side, k, plus_dyad(strain.F, *du, m.across));
+  const Tensor2 P = plus(law_.P(F), offset);
+  const Vec2 change = traction_of(P, m.t0) - traction_of(s.P, m.t0);
+  s.P = plus_dyad(s.P, m.t0, change);
+  store(q, line.at(k, 0), s);
+}
+
+/// F with its stretch along a closed or mirrored interface from fourth-order differences, of the reference
+/// positions and of u alike, so that a turned body is not stretched. Central ones of second order, which stay
+/// on other sides, make the largest error of P. One-sided differences would make free corners unstable, and a
+/// lower order only beside them would cost the rate.
+template <Law L>
+Tensor2 SolidBoundary<L>::with_sharper_tangent(ConstFieldView q, Side side, int k, const Tensor2& F) const {
+  const SideIndex line(layout(), side);
+  if (kind(side) != Kind::interface || !imaged(side, 0) || !imaged(side, line.n - 1)) return F;
+  const auto difference = [&](ConstFieldView field, int first) -> Vec2 {
+    const auto value = [&](int at) {
+      const std::ptrdiff_t a = line.at(at, 0);
+      return Vec2(field.plane(first)[a], field.plane(first + 1)[a]);
+    };
+    return (8.0 * (value(k + 1) - value(k - 1)) - (value(k + 2) - value(k - 2))) / 12.0;
+  };
+  const Vec2 along = difference(grid_.x, 0), change = difference(q, plane::u1);
+  const Vec2 image = {F.a11 * along.x() + F.a12 * along.y(), F.a21 * along.x() + F.a22 * along.y()};
+  return plus_dyad(F, along + change - image, along / along.squaredNorm());
+}
+
+/// The shear of P(F) vanishes: ghost u and v are moved along the side, their normal parts stay extrapolated.
+template <Law L>
+void SolidBoundary<L>::match_slip_point(FieldView q, Side side, int k, double t) const {
+  const SideIndex line(layout(), side);
+  const SideMetrics m = at(side, k);
+  const BoundaryStrain strain = {.F = plus_dyad(identity, difference_along(q, line, plane::u1, k), m.along),
+                                 .across = m.across,
+                                 .n0 = m.n0,
+                                 .sign = m.sign};
+  const std::ptrdiff_t a = line.at(k, 0);
+  const double shear = m.t0.dot(traction_of(minus(chosen(a, t).P, chosen_offset(a, t)), m.n0));
+  const auto du = match_shear(law_, strain, shear, difference_across(q, line, plane::u1, k, m.sign));
+  if (!du) broke(side, k, t);
+  set_ghost(q, line, k, plane::u1, 2.0 * m.sign * *du);
+  const Stiffness K = law_.K(plus_dyad(strain.F, *du, m.across));
+  const Tensor2 strain_rate = contract(K, gradient(q, side, k, plane::v1));
+  const double rate = m.t0.dot(traction_of(minus(strain_rate, chosen_strain_rate(a, t)), m.n0));
+  const double stiffness = m.t0.dot(matrix(acoustic_matrix(K, m.n0)) * m.t0) * m.across.norm() * m.sign;
+  const Vec2 dv = difference_across(q, line, plane::v1, k, m.sign) - rate / stiffness * m.t0;
+  set_ghost(q, line, k, plane::v1, 2.0 * m.sign * dv);
+}
+
+/// Corners of two loaded sides: ghost u, and ghost v where both tractions are given functions.
+template <Law L>
+void SolidBoundary<L>::match_corners(FieldView q, double t) const {
+  for (const Side side : {Side::left, Side::right}) {
+    const SideIndex line(layout(), side);
+    for (const int k : {0, line.n - 1}) {
+      if (!advanced(side, k)) continue;
+      const Side other = neighbour(side, k != 0);
+      if (!loaded(side) || !loaded(other)) continue;
+      const SideIndex other_line(layout(), other);
+      const int k_other = at_upper_end(side) ? other_line.n - 1 : 0;
+      const SideMetrics m = at(side, k), m_other = at(other, k_other);
+      const std::ptrdiff_t a = line.at(k, 0);
+      const Tensor2 P = minus(load(q, a).P, chosen_offset(a, t));
+      const Tensor2 start = gradient(q, side, k, plane::u1);
+      const auto F = match_corner(law_, P, plus(identity, start));
+      if (!F) broke(side, k, t);
+      set_corner_ghosts(q, side, k, plane::u1, minus(*F, identity));
+      if (kind(side) != Kind::traction || kind(other) != Kind::traction) continue;
+      const Stiffness K = law_.K(*F);
+      const Tensor2 velocity = gradient(q, side, k, plane::v1);
+      const Tensor2 rate =
+          minus(stress_of_tractions(m.n0, T_rate_[index(side)][static_cast<std::size_t>(k)], m_other.n0,
+                                    T_rate_[index(other)][static_cast<std::size_t>(k_other)]),
+                chosen_source(a, t));
+      set_corner_ghosts(q, side, k, plane::v1,
+                        plus(velocity, least_change(K, minus(rate, contract(K, velocity)))));
+    }
+  }
+}
+
+/// Ghost points on both sides of a corner from the gradient of u or v there.
+template <Law L>
+void SolidBoundary<L>::set_corner_ghosts(FieldView q, Side side, int k, int first,
+                                         const Tensor2& gradient) const {
+  const SideIndex line(layout(), side);
+  const Side other = neighbour(side, k != 0);
+  const SideIndex other_line(layout(), other);
+  const int k_other = at_upper_end(side) ? other_line.n - 1 : 0;
+  for (const auto& [of, at_k, points] : {std::tuple(side, k, line), std::tuple(other, k_other, other_line)}) {
+    const SideMetrics m = at(of, at_k);
+    // Dual of grad r: the step in reference space over one index across the side.
+    const Vec2 step =
+        Vec2(m.along.y(), -m.along.x()) / (m.across.x() * m.along.y() - m.across.y() * m.along.x());
+    const Vec2 d = {gradient.a11 * step.x() + gradient.a12 * step.y(),
+                    gradient.a21 * step.x() + gradient.a22 * step.y()};
+    set_ghost(q, points, at_k, first, 2.0 * m.sign * d);
+  }
+}
+
+/// First ghost point := first inner point + change.
+template <Law L>
+void SolidBoundary<L>::set_ghost(FieldView q, const SideIndex& line, int k, int first, const Vec2& change) {
+  for (int c = 0; c < 2; ++c)
+    q.plane(first + c)[line.at(k, -1)] = q.plane(first + c)[line.at(k, 1)] + change[c];
+}
+
+template <Law L>
+Vec2 SolidBoundary<L>::difference_across(ConstFieldView q, const SideIndex& line, int first, int k,
+                                         double sign) {
+  const std::ptrdiff_t ghost = line.at(k, -1), inner = line.at(k, 1);
+  return {0.5 * sign * (q.plane(first)[ghost] - q.plane(first)[inner]),
+          0.5 * sign * (q.plane(first + 1)[ghost] - q.plane(first + 1)[inner])};
+}
+
+}  // namespace fsi::solid

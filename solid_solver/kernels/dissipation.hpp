@@ -1,0 +1,150 @@
+#pragma once
+/// Terms that are added to the sweep's result where they are asked for: dissipation of tangential stress and
+/// displacement, relaxation of the stress towards the law, bulk diffusion. Each is one pass over a run of
+/// points from the old state to the new one; a term whose coefficient is zero is not run at all. They are not
+/// inlined, so that the compiler has room to inline what their loops call and to vectorise them.
+
+#include "solid_solver/kernels/sweep_rows.hpp"
+#include "solid_solver/solid_points.hpp"
+
+namespace fsi::solid {
+
+/// paper eq. (38) with m = 4: (-D+ D-)^2 / 2^4 of five values; the highest mode +-1 gives 1.
+[[gnu::always_inline]] inline double fourth_difference(double a, double b, double c, double d, double e) {
+  return ((a + e) - 4.0 * (b + d) + 6.0 * c) * 0.0625;
+}
+
+/// One plane of a field around row j, for five-point stencils.
+struct WideRow {
+  const double *here, *below, *above, *below2, *above2;
+
+  WideRow(ConstFieldView q, int k, int j)
+      : here(q.row(k, j)),
+        below(q.row(k, j - 1)),
+        above(q.row(k, j + 1)),
+        below2(q.row(k, j - 2)),
+        above2(q.row(k, j + 2)) {}
+  /// D^(4) along r1 and r2.
+  [[gnu::always_inline]] Pair fourth(int i) const {
+    return {fourth_difference(here[i - 2], here[i - 1], here[i], here[i + 1], here[i + 2]),
+            fourth_difference(below2[i], below[i], here[i], above[i], above2[i])};
+  }
+  /// Sum over the directions of the undivided second differences.
+  [[gnu::always_inline]] double second(int i) const {
+    return (here[i - 1] + here[i + 1]) + (below[i] + above[i]) - 4.0 * here[i];
+  }
+  /// Fourth-order central first differences over one index along r1 and r2.
+  [[gnu::always_inline]] Pair first(int i) const {
+    constexpr double inner = 2.0 / 3.0, outer = 1.0 / 12.0;
+    return {inner * (here[i + 1] - here[i - 1]) - outer * (here[i + 2] - here[i - 2]),
+            inner * (above[i] - below[i]) - outer * (above2[i] - below2[i])};
+  }
+};
+
+/// Gradients from fourth-order differences on a mapped grid: the grid's own derivatives are differenced
+/// alike, so that a linear displacement still has the exact gradient.
+class MappedGradient4 {
+ public:
+  MappedGradient4(ConstFieldView x, const ReferenceMetrics& /*metrics*/, int j) : x_(x, 0, j), y_(x, 1, j) {}
+  [[gnu::always_inline]] Tensor2 operator()(int i, Pair d1, Pair d2) const {
+    const Pair x = x_.first(i), y = y_.first(i);
+    const double scale = 1.0 / (x.x * y.y - x.y * y.x);
+    return {.a11 = scale * (d1.x * y.y - d1.y * y.x),
+            .a12 = scale * (d1.y * x.x - d1.x * x.y),
+            .a21 = scale * (d2.x * y.y - d2.y * y.x),
+            .a22 = scale * (d2.y * x.x - d2.x * x.y)};
+  }
+
+ private:
+  WideRow x_, y_;
+};
+
+/// The same on a Cartesian grid.
+class CartesianGradient4 {
+ public:
+  CartesianGradient4(ConstFieldView /*x*/, const ReferenceMetrics& metrics, int /*j*/)
+      : i1_(1.0 / metrics.h1()), i2_(1.0 / metrics.h2()) {}
+  [[gnu::always_inline]] Tensor2 operator()(int /*i*/, Pair d1, Pair d2) const {
+    return {.a11 = d1.x * i1_, .a12 = d1.y * i2_, .a21 = d2.x * i1_, .a22 = d2.y * i2_};
+  }
+
+ private:
+  double i1_, i2_;
+};
+
+/// A run of points of paper eq. (39): damps the part of the stress
+/// that no wave carries along r1 or r2. beta = beta^P.
+template <class Row>
+[[gnu::noinline]] void add_tangential_stress_dissipation(ConstFieldView q, FieldView next,
+                                                         const ReferenceMetrics& metrics, double beta,
+                                                         RowRun run) {
+  const Row row(metrics, run.j);
+  const WideRow P11(q, plane::P11, run.j), P12(q, plane::P12, run.j), P21(q, plane::P21, run.j),
+      P22(q, plane::P22, run.j);
+  double *next11 = next.row(plane::P11, run.j), *next12 = next.row(plane::P12, run.j),
+         *next21 = next.row(plane::P21, run.j), *next22 = next.row(plane::P22, run.j);
+  const double factor = 0.5 * beta;
+#pragma omp simd
+  for (int i = run.begin; i < run.end; ++i) {
+    const Pair t1 = row.tangent1(i), t2 = row.tangent2(i);
+    const Pair d11 = P11.fourth(i), d12 = P12.fourth(i), d21 = P21.fourth(i), d22 = P22.fourth(i);
+    const double along1_1 = factor * (t1.x * d11.x + t1.y * d21.x),
+                 along1_2 = factor * (t1.x * d12.x + t1.y * d22.x);
+    const double along2_1 = factor * (t2.x * d11.y + t2.y * d21.y),
+                 along2_2 = factor * (t2.x * d12.y + t2.y * d22.y);
+    next11[i] -= t1.x * along1_1 + t2.x * along2_1;
+    next12[i] -= t1.x * along1_2 + t2.x * along2_2;
+    next21[i] -= t1.y * along1_1 + t2.y * along2_1;
+    next22[i] -= t1.y * along1_2 + t2.y * along2_2;
+  }
+}
+
+/// A run of points of paper eq. (40). beta = beta^u.
+[[gnu::noinline]] inline void add_displacement_dissipation(ConstFieldView q, FieldView next, double beta,
+                                                           RowRun run) {
+  const double factor = 0.5 * beta;
+  for (int k = plane::u1; k <= plane::u2; ++k) {
+    const WideRow u(q, k, run.j);
+    double* target = next.row(k, run.j);
+#pragma omp simd
+    for (int i = run.begin; i < run.end; ++i) {
+      const Pair d = u.fourth(i);
+      target[i] -= factor * (d.x + d.y);
+    }
+  }
+}
+
+/// A run of points of paper eq. (41), F from fourth-order differences. beta = beta^r.
+template <class Gradient, Law L>
+[[gnu::noinline]] void add_relaxation(ConstFieldView q, FieldView next, const Gradient& gradient,
+                                      const L& law_at, double beta, RowRun run) {
+  const L law = law_at;
+  const WideRow u1(q, plane::u1, run.j), u2(q, plane::u2, run.j);
+  const double *P11 = q.row(plane::P11, run.j), *P12 = q.row(plane::P12, run.j),
+               *P21 = q.row(plane::P21, run.j), *P22 = q.row(plane::P22, run.j);
+  double *next11 = next.row(plane::P11, run.j), *next12 = next.row(plane::P12, run.j),
+         *next21 = next.row(plane::P21, run.j), *next22 = next.row(plane::P22, run.j);
+#pragma omp simd
+  for (int i = run.begin; i < run.end; ++i) {
+    const Tensor2 du = gradient(i, u1.first(i), u2.first(i));
+    const Tensor2 P = law.P({1.0 + du.a11, du.a12, du.a21, 1.0 + du.a22});
+    next11[i] -= beta * (P11[i] - P.a11);
+    next12[i] -= beta * (P12[i] - P.a12);
+    next21[i] -= beta * (P21[i] - P.a21);
+    next22[i] -= beta * (P22[i] - P.a22);
+  }
+}
+
+/// A run of points of the bulk diffusion of v and P: factor
+/// times the sum of the undivided second differences.
+[[gnu::noinline]] inline void add_bulk_diffusion(ConstFieldView q, FieldView next, double factor,
+                                                 RowRun run) {
+  for (int k = plane::v1; k <= plane::P22; ++k) {
+    const WideRow values(q, k, run.j);
+    double* target = next.row(k, run.j);
+#pragma omp simd
+    for (int i = run.begin; i < run.end; ++i) target[i] += factor * values.second(i);
+  }
+}
+
+}  // namespace fsi::solid

@@ -1,0 +1,200 @@
+#pragma once
+/// Integrals over the body and its sides, and errors against a known solution.
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "common/core/failure.hpp"
+#include "common/core/raise_to.hpp"
+#include "common/wire/messages.hpp"
+#include "solid_solver/boundary/interface.hpp"
+#include "solid_solver/solid_component.hpp"
+
+namespace fsi::solid {
+
+/// Integrals over the body.
+struct Totals {
+  double mass = 0;
+  Vec2 momentum = Vec2::Zero();
+  double kinetic_energy = 0;
+  double strain_energy = 0;
+  double angular_momentum = 0;  ///< about the origin of physical space
+
+  double energy() const { return kinetic_energy + strain_energy; }
+};
+
+/// Largest errors over all points and components.
+struct Errors {
+  double u = 0, v = 0, P = 0;
+};
+
+/// Integrals over one side: what the outside does to the body there.
+struct SideLoad {
+  Vec2 force = Vec2::Zero();
+  double moment = 0;  ///< about the origin
+  double power = 0;
+};
+
+inline double cross(const Vec2& a, const Vec2& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+/// Reference area / current area of a boundary element with reference normal n0, paper eq. (13): the tangent
+/// is stretched by |F t0|, and J^-1 n^T F n0 = 1 / |F t0| in the plane.
+inline double area_ratio(const Tensor2& F, const Vec2& n0) {
+  return 1.0 / std::hypot(F.a12 * n0.x() - F.a11 * n0.y(), F.a22 * n0.x() - F.a21 * n0.y());
+}
+
+/// Areas of the points of a grid that stands alone: trapezoidal rule in index space, second order.
+template <Law L>
+Field trapezoidal_areas(const SolidComponent<L>& component) {
+  const Layout layout = component.layout();
+  Field areas(layout, 1);
+  for (int j = 0; j < layout.n2; ++j) {
+    for (int i = 0; i < layout.n1; ++i) {
+      const double weight =
+          (i == 0 || i == layout.n1 - 1 ? 0.5 : 1.0) * (j == 0 || j == layout.n2 - 1 ? 0.5 : 1.0);
+      areas(0, i, j) = weight * component.metrics().at(i, j).jacobian;
+    }
+  }
+  return areas;
+}
+
+/// Strain energy per area at discretised points, F by central differences.
+template <Law L>
+Field strain_energy_density(const SolidComponent<L>& component, const L& law) {
+  Field psi(component.layout(), 1);
+  for (int j = 0; j < component.layout().n2; ++j) {
+    for (const auto& [begin, end] : component.points().discretised(j)) {
+      for (int i = begin; i < end; ++i) psi(0, i, j) = law.psi(component.deformation_gradient(i, j));
+    }
+  }
+  return psi;
+}
+
+/// Areas and strain energy density of a component's points.
+struct PointMeasures {
+  ConstFieldView areas, psi;
+};
+
+template <Law L>
+void add_totals(const SolidComponent<L>& component, const PointMeasures& measures, double rho,
+                Totals& totals) {
+  const Layout layout = component.layout();
+  const ConstFieldView x = component.grid().x();
+  for (int j = 0; j < layout.n2; ++j) {
+    for (const auto& [begin, end] : component.points().valid(j)) {
+      for (int i = begin; i < end; ++i) {
+        const double area = measures.areas(0, i, j), mass = rho * area;
+        const SolidState s = load(component.q(), layout.at(i, j));
+        const Vec2 position = Vec2(x(0, i, j), x(1, i, j)) + s.u;
+        totals.mass += mass;
+        totals.momentum += mass * s.v;
+        totals.kinetic_energy += 0.5 * mass * s.v.squaredNorm();
+        totals.strain_energy += area * measures.psi(0, i, j);
+        totals.angular_momentum += mass * cross(position, s.v);
+      }
+    }
+  }
+}
+
+/// At all points with a value. Where a value is no number, neither is its error.
+template <Law L>
+void add_errors(const SolidComponent<L>& component, const StateFunction& exact, double t, Errors& errors) {
+  const Layout layout = component.layout();
+  const ConstFieldView x = component.grid().x();
+  for (int j = 0; j < layout.n2; ++j) {
+    for (const auto& [begin, end] : component.points().valid(j)) {
+      for (int i = begin; i < end; ++i) {
+        const SolidState s = load(component.q(), layout.at(i, j)), e = exact(x(0, i, j), x(1, i, j), t);
+        for (const int axis : {0, 1}) {
+          raise_to(errors.u, std::abs(s.u[axis] - e.u[axis]));
+          raise_to(errors.v, std::abs(s.v[axis] - e.v[axis]));
+        }
+        const Tensor2 d = minus(s.P, e.P);
+        for (const double component_of_P : {d.a11, d.a12, d.a21, d.a22})
+          raise_to(errors.P, std::abs(component_of_P));
+      }
+    }
+  }
+}
+
+template <Law L>
+SideLoad load_on_side(const SolidComponent<L>& component, Side side) {
+  const Layout layout = component.layout();
+  const SideIndex line(layout, side);
+  const ConstFieldView x = component.grid().x();
+  SideLoad load_of_side;
+  for (int k = 0; k < line.n; ++k) {
+    const SideMetrics m = side_metrics(component.metrics(), layout, side, k);
+    const SolidState s = load(component.q(), line.at(k, 0));
+    const Vec2 position = Vec2(x.plane(0)[line.at(k, 0)], x.plane(1)[line.at(k, 0)]) + s.u;
+    const Vec2 force = (k == 0 || k == line.n - 1 ? 0.5 : 1.0) * m.spacing * traction_of(s.P, m.n0);
+    load_of_side.force += force;
+    load_of_side.moment += cross(position, force);
+    load_of_side.power += s.v.dot(force);
+  }
+  return load_of_side;
+}
+
+/// Density and time of a state.
+struct InterfaceMoment {
+  double rho, t;
+};
+
+/// A side and a wall whose normals have a smaller cosine than this meet at right angles.
+inline constexpr double right_angle = 1e-3;
+
+/// Fills `state` for the points of a side; of a body with a chosen solution, the differences to it. Uses no
+/// ghost points, so that it may be called on a predicted state; a point that also lies on a side whose motion
+/// is given has that motion, not the predicted one, and one that slides along a wall does not leave it.
+/// @throws NumbersBroke where the stress is not finite
+template <Law L>
+void gather_interface(const SolidComponent<L>& component, const L& law, const InterfaceMoment& moment,
+                      Side side, SolidInterface& state) {
+  const double rho = moment.rho;
+  const ChosenSolution* chosen = component.chosen();
+  const Layout layout = component.layout();
+  const SideIndex line(layout, side);
+  const ConstFieldView x = component.grid().x();
+  const auto n = static_cast<std::size_t>(line.n);
+  for (std::vector<double>* two : {&state.x, &state.v, &state.w}) two->resize(2 * n);
+  state.Z.resize(3 * n);
+  state.fixed.resize(n);
+  state.z_p = std::sqrt(rho * (law.lambda + 2.0 * law.mu));
+  for (std::size_t k = 0; k < n; ++k) {
+    const int point = static_cast<int>(k);
+    const GridPoint p = grid_point(layout, side, point);
+    const Vec2 n0 = side_metrics(component.metrics(), layout, side, point).n0;
+    SolidState s = load(component.q(), line.at(point, 0));
+    const auto given = component.boundary().given_motion(side, point, moment.t);
+    if (given) s.u = given->u, s.v = given->v;
+    if (chosen != nullptr) s = sum_of(s, -1.0, chosen->state(x(0, p.i, p.j), x(1, p.i, p.j), moment.t));
+    const auto wall = component.boundary().wall_of(side, point);
+    if (wall && !given) s.u -= *wall * wall->dot(s.u), s.v -= *wall * wall->dot(s.v);
+    const Tensor2 F = component.deformation_gradient(p.i, p.j);
+    const double eta = component.boundary().follows(side) ? area_ratio(F, n0) : 1.0;
+    const SymmetricTensor2 Z = impedance_matrix(law.K(F), n0, rho, eta);
+    const Vec2 w = eta * traction_of(s.P, n0);
+    if (!w.allFinite()) {
+      throw NumbersBroke(
+          fmt::format("t = {:.6g}, grid \"{}\", interface point {} at ({:.4g}, {:.4g}): the stress is not a "
+                      "number any more, det F = {:.3g}",
+                      moment.t, component.grid().name(), k, x(0, p.i, p.j), x(1, p.i, p.j), determinant(F)));
+    }
+    for (std::size_t c = 0; c < 2; ++c) {
+      const auto axis = static_cast<int>(c);
+      state.x[c * n + k] = x(axis, p.i, p.j) + s.u[axis];
+      state.v[c * n + k] = s.v[axis];
+      state.w[c * n + k] = w[axis];
+    }
+    state.Z[k] = Z.a11;
+    state.Z[n + k] = Z.a12;
+    state.Z[2 * n + k] = Z.a22;
+    const bool slides = wall && std::abs(wall->dot(n0)) < right_angle;
+    state.fixed[k] = given ? wire::Freedom::fixed : slides ? wire::Freedom::slides : wire::Freedom::free;
+  }
+}
+
+}  // namespace fsi::solid

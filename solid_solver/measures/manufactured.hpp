@@ -1,0 +1,120 @@
+#pragma once
+/// A solution by choice. Given by its displacement alone, velocity, stress and the body force that makes it
+/// exact follow from the law; given by u, v and P as in paper eq. (46), all equations need sources.
+/// Derivatives of the displacement are fourth-order differences of its formula, on few points: formulas of a
+/// case file are what takes the time.
+
+#include <cmath>
+#include <utility>
+
+#include "solid_solver/boundary/ghost_lines.hpp"
+#include "solid_solver/boundary/traction_ghost.hpp"
+#include "solid_solver/options.hpp"
+
+namespace fsi::solid {
+
+/// Formulas of the reference position; v and P follow from u where they are empty.
+struct ChosenFields {
+  VectorFunction u;
+  VectorFunction v = {};
+  TensorFunction P = {};
+};
+
+template <Law L>
+class Manufactured {
+ public:
+  /// The fields must be smooth on the scale of `step_` also a little outside the body.
+  Manufactured(ChosenFields fields, const L& law, double rho)
+      : u_(std::move(fields.u)), v_(std::move(fields.v)), P_(std::move(fields.P)), law_(law), rho_(rho) {}
+
+  Vec2 velocity(double x, double y, double t) const {
+    if (v_) return v_(x, y, t);
+    return first(around([&](double d) { return u_(x, y, t + d); }));
+  }
+
+  Tensor2 deformation_gradient(double x, double y, double t) const {
+    return gradient(around([&](double d) { return u_(x + d, y, t); }),
+                    around([&](double d) { return u_(x, y + d, t); }));
+  }
+
+  Tensor2 stress(double x, double y, double t) const {
+    return P_ ? P_(x, y, t) : law_.P(deformation_gradient(x, y, t));
+  }
+
+  SolidState state(double x, double y, double t) const {
+    return {.u = u_(x, y, t), .v = velocity(x, y, t), .P = stress(x, y, t)};
+  }
+
+  /// What the rates of u, v and P lack to be those of the fields: u_t - v, v_t - div P / rho, P_t - K(F) grad
+  /// v. First derivatives only, by central differences of a step so small that their error is of no account.
+  /// paper eq. (4)
+  SolidState source(double x, double y, double t) const {
+    const SolidState in_t = difference(state(x, y, t + delta_), state(x, y, t - delta_));
+    const SolidState in_x = difference(state(x + delta_, y, t), state(x - delta_, y, t));
+    const SolidState in_y = difference(state(x, y + delta_, t), state(x, y - delta_, t));
+    const Vec2 div(in_x.P.a11 + in_y.P.a21, in_x.P.a12 + in_y.P.a22);
+    const Tensor2 rate =
+        contract(law_.K(deformation_gradient(x, y, t)), {in_x.v.x(), in_y.v.x(), in_x.v.y(), in_y.v.y()});
+    SolidState source = in_t;
+    source.u -= velocity(x, y, t);
+    source.v -= div / rho_;
+    source.P = minus(source.P, rate);
+    return source;
+  }
+
+  /// P - P(F(u)).
+  Tensor2 offset(double x, double y, double t) const {
+    return P_ ? minus(P_(x, y, t), law_.P(deformation_gradient(x, y, t))) : Tensor2{};
+  }
+
+  /// rho u_tt - div P per unit reference volume, with dP_ji/dx_j = K_jikl d2u_k/dx_j dx_l. paper eq. (2)
+  Vec2 body_force(double x, double y, double t) const {
+    const Vec2 centre = u_(x, y, t);
+    const Stencil in_x = around([&](double d) { return u_(x + d, y, t); }),
+                  in_y = around([&](double d) { return u_(x, y + d, t); });
+    const Stencil diagonal = around([&](double d) { return u_(x + d, y + d, t); });
+    const Stencil in_t = around([&](double d) { return u_(x, y, t + d); });
+    const Vec2 u_tt = second(in_t, centre), u_xx = second(in_x, centre), u_yy = second(in_y, centre);
+    const Vec2 u_xy = 0.5 * (second(diagonal, centre) - u_xx - u_yy);
+    const Stiffness K = law_.K(gradient(in_x, in_y));
+    // K_j1kl and K_j2kl summed with the second derivatives;
+    // K2111 = K1112, K2212 = K2122, ... by K_ijkl = K_lkji
+    const double f1 = K.k1111 * u_xx[0] + 2 * K.k1112 * u_xy[0] + K.k2112 * u_yy[0] + K.k1121 * u_xx[1] +
+                      (K.k1122 + K.k2121) * u_xy[1] + K.k2122 * u_yy[1];
+    const double f2 = K.k1121 * u_xx[0] + (K.k1122 + K.k2121) * u_xy[0] + K.k2122 * u_yy[0] +
+                      K.k1221 * u_xx[1] + 2 * K.k1222 * u_xy[1] + K.k2222 * u_yy[1];
+    return rho_ * u_tt - Vec2(f1, f2);
+  }
+
+ private:
+  static constexpr double step_ = 4e-3;
+  static constexpr double delta_ = 1e-5;
+
+  static SolidState difference(const SolidState& after, const SolidState& before) {
+    return sum_of(SolidState{}, 0.5 / delta_, sum_of(after, -1.0, before));
+  }
+
+  /// Values on a line at -2, -1, 1 and 2 steps from its centre.
+  struct Stencil {
+    Vec2 low2, low1, high1, high2;
+  };
+  template <class Function>
+  static Stencil around(const Function& f) {
+    return {f(-2 * step_), f(-step_), f(step_), f(2 * step_)};
+  }
+  static Vec2 first(const Stencil& s) { return (8 * (s.high1 - s.low1) - (s.high2 - s.low2)) / (12 * step_); }
+  static Vec2 second(const Stencil& s, const Vec2& centre) {
+    return (16 * (s.high1 + s.low1) - (s.high2 + s.low2) - 30 * centre) / (12 * step_ * step_);
+  }
+  static Tensor2 gradient(const Stencil& in_x, const Stencil& in_y) {
+    const Vec2 u_x = first(in_x), u_y = first(in_y);
+    return {1 + u_x[0], u_y[0], u_x[1], 1 + u_y[1]};
+  }
+
+  VectorFunction u_, v_;
+  TensorFunction P_;
+  L law_;
+  double rho_;
+};
+
+}  // namespace fsi::solid

@@ -1,0 +1,249 @@
+#pragma once
+/// What a case file says about one solid, as the functions the solver works with.
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/core/failure.hpp"
+#include "common/exact/solution.hpp"
+#include "common/grid/geometry/interface_geometry.hpp"
+#include "common/program/grid_from_case.hpp"
+#include "common/program/program.hpp"
+#include "common/program/reference_from_case.hpp"
+#include "solid_solver/measures/manufactured.hpp"
+#include "solid_solver/options.hpp"
+#include "solid_solver/solid_component.hpp"
+
+namespace fsi::solid {
+
+inline VectorFunction function_of(const VectorExpressions& vector) {
+  return [vector](double x, double y, double t) { return Vec2(vector.c1(x, y, t), vector.c2(x, y, t)); };
+}
+
+inline TensorFunction function_of(const TensorExpressions& P) {
+  return [P](double x, double y, double t) -> Tensor2 {
+    return {P.c11(x, y, t), P.c12(x, y, t), P.c21(x, y, t), P.c22(x, y, t)};
+  };
+}
+
+/// Rate of change of a formula in t, by fourth-order differences.
+inline VectorFunction rate_of(VectorFunction f) {
+  return [f = std::move(f)](double x, double y, double t) -> Vec2 {
+    constexpr double h = 1e-3;
+    return (8 * (f(x, y, t + h) - f(x, y, t - h)) - (f(x, y, t + 2 * h) - f(x, y, t - 2 * h))) / (12 * h);
+  };
+}
+
+/// How the points of a side of a grid continue beyond its ends.
+inline grid::Curve curve_along(const grid::MovingGrid& grid, Side side) {
+  return grid.periodic(1 - direction_of(side)) ? grid::Curve::closed : grid::Curve::open;
+}
+
+template <Law L>
+class CaseData {
+ public:
+  CaseData(const Setup& setup, const SolidSpec& spec, const L& law)
+      : spec_(spec),
+        cfl_(setup.problem.time.cfl),
+        solution_(reference_from_case(setup.problem, setup.run_dir)) {
+    const ReferenceSpec& reference = setup.problem.reference;
+    if (reference.u) {
+      ChosenFields fields{.u = function_of(*reference.u)};
+      if (reference.v) fields.v = function_of(*reference.v);
+      if (reference.P) fields.P = function_of(*reference.P);
+      manufactured_ = std::make_shared<Manufactured<L>>(std::move(fields), law, spec.rho);
+      if (reference.kind == "manufactured") {
+        chosen_ = reference.v || reference.P || reference.fluid;
+        forced_ = !chosen_;
+      }
+    } else if (reference.kind == "expressions" || reference.kind == "manufactured") {
+      solution_ = nullptr;  // formulas for the gas only
+    }
+  }
+
+  /// The grid of the case, and the one fitted to the solid's outline where it has a shape.
+  std::vector<SolidPart> parts() const {
+    std::vector<SolidPart> all;
+    all.push_back(part(grid_from_case(spec_.grid, false), spec_.boundary));
+    for (const BodyFittedSpec& fitted : spec_.body_fitted)
+      all.push_back(part(grid_from_case(fitted), fitted.boundary));
+    return all;
+  }
+
+  SolidOptions options() const {
+    const SolidScheme& scheme = spec_.scheme;
+    const auto beta = [](const fsi::Beta& b) { return Beta{.rate = b.rate, .scaled = b.scaled}; };
+    return {.rho = spec_.rho,
+            .limiter = scheme.limiter,
+            .tangential_stress = beta(scheme.tangential_stress),
+            .displacement = beta(scheme.displacement),
+            .relaxation = beta(scheme.relaxation),
+            .bulk_diffusion = scheme.bulk_diffusion,
+            .cfl = cfl_};
+  }
+
+  /// State of the case's reference solution; empty where there is none.
+  StateFunction reference_state() const {
+    if (manufactured_) {
+      return [m = manufactured_](double x, double y, double t) { return m->state(x, y, t); };
+    }
+    if (!solution_) return {};
+    return [s = solution_](double x, double y, double t) {
+      const exact::SolidState q = s->solid(x, y, t);
+      return SolidState{.u = q.u, .v = q.v, .P = {q.P(0, 0), q.P(0, 1), q.P(1, 0), q.P(1, 1)}};
+    };
+  }
+
+  /// Why the reference solution says nothing of time t; empty where it does.
+  std::string reference_missing_at(double t) const { return solution_ ? solution_->missing_at(t) : ""; }
+
+  /// Empty unless the case starts from the reference.
+  StateFunction initial_state() const {
+    return spec_.initial_from_reference ? reference_state() : StateFunction{};
+  }
+  VectorFunction initial_displacement() const {
+    return spec_.initial_u ? function_of(*spec_.initial_u) : at_rest();
+  }
+  VectorFunction initial_velocity() const {
+    return spec_.initial_v ? function_of(*spec_.initial_v) : at_rest();
+  }
+
+  /// Where the case gives more than a displacement: sources in all equations.
+  std::optional<ChosenSolution> chosen_solution() const {
+    if (!chosen_) return std::nullopt;
+    const auto& m = manufactured_;
+    return ChosenSolution{.state = reference_state(),
+                          .source = [m](double x, double y, double t) { return m->source(x, y, t); },
+                          .offset = [m](double x, double y, double t) { return m->offset(x, y, t); }};
+  }
+
+  /// With a chosen solution, it takes the place of that of the case.
+  VectorFunction body_force() const {
+    if (chosen_) return {};
+    if (forced_) {
+      return [m = manufactured_](double x, double y, double t) { return m->body_force(x, y, t); };
+    }
+    return spec_.body_force ? function_of(*spec_.body_force) : VectorFunction{};
+  }
+
+ private:
+  static VectorFunction at_rest() {
+    return [](double, double, double) -> Vec2 { return Vec2::Zero(); };
+  }
+
+  SolidPart part(grid::GridDescription description, const std::array<BoundarySpec, 4>& specs) const {
+    SolidPart result{.grid = grid::MovingGrid(std::move(description), 0), .boundaries = {}};
+    for (const Side side : all_sides) {
+      const auto k = static_cast<std::size_t>(side);
+      result.boundaries[k] = boundary(specs[k], side, result.grid);
+    }
+    return result;
+  }
+
+  Boundary boundary(const BoundarySpec& spec, Side side, const grid::MovingGrid& grid) const {
+    Boundary result;
+    result.load = spec.on_reference ? LoadConfiguration::reference : LoadConfiguration::current;
+    switch (spec.kind) {
+      case BoundaryKind::interface:
+        result.kind = Boundary::Kind::interface;
+        return result;
+      case BoundaryKind::slip_wall:
+        result.kind = Boundary::Kind::slip;
+        return result;
+      case BoundaryKind::symmetry:
+        result.kind = Boundary::Kind::symmetry;
+        return result;
+      case BoundaryKind::periodic:
+        result.kind = Boundary::Kind::periodic;
+        return result;
+      case BoundaryKind::traction:
+        result.kind = Boundary::Kind::traction;
+        if (spec.from_reference) result.vector = reference_traction(spec, side, grid);
+        if (spec.vector) result.vector = function_of(*spec.vector);
+        return result;
+      case BoundaryKind::displacement:
+        result.kind = Boundary::Kind::displacement;
+        if (spec.vector) {
+          result.vector = function_of(*spec.vector);
+          result.velocity = spec.velocity ? function_of(*spec.velocity) : rate_of(result.vector);
+        }
+        if (spec.from_reference) {
+          const StateFunction exact = required_reference(side);
+          result.vector = [exact](double x, double y, double t) { return exact(x, y, t).u; };
+          result.velocity = [exact](double x, double y, double t) { return exact(x, y, t).v; };
+        }
+        return result;
+      case BoundaryKind::dirichlet:
+        result.kind = Boundary::Kind::dirichlet;
+        result.state = required_reference(side);
+        return result;
+      case BoundaryKind::none:
+        result.kind = Boundary::Kind::none;
+        return result;
+      case BoundaryKind::inflow:
+      case BoundaryKind::imposed:
+      case BoundaryKind::outflow:
+      case BoundaryKind::far_field:
+        break;
+    }
+    throw UserMistake(
+        fmt::format("solid \"{}\": boundary {} has a condition for gases", spec_.name, name_of(side)));
+  }
+
+  StateFunction required_reference(Side side) const {
+    StateFunction exact = reference_state();
+    if (!exact) {
+      throw UserMistake(
+          fmt::format("solid \"{}\": boundary {} takes its data from the reference, but the case has none; "
+                      "add a section reference",
+                      spec_.name, name_of(side)));
+    }
+    return exact;
+  }
+
+  /// Traction of the reference solution per unit current area:
+  /// eta n0^T P with eta = 1 / |F t0|, paper eq. (13).
+  VectorFunction reference_traction(const BoundarySpec& spec, Side side, const grid::MovingGrid& grid) const {
+    if (!manufactured_)
+      throw UserMistake(
+          fmt::format("solid \"{}\": traction from the reference needs its displacement u", spec_.name));
+    auto x = grid.side_points(side);
+    auto n = grid::normals(x, curve_along(grid, side), grid::outward(side));
+    const bool on_reference = spec.on_reference;
+    return
+        [=, m = manufactured_, x = std::move(x), n = std::move(n)](double x1, double x2, double t) -> Vec2 {
+          const std::size_t count = x.size() / 2;
+          std::size_t nearest = 0;
+          double best = std::numeric_limits<double>::infinity();
+          for (std::size_t k = 0; k < count; ++k) {
+            const double d1 = x[k] - x1, d2 = x[count + k] - x2, squared = d1 * d1 + d2 * d2;
+            if (squared < best) {
+              best = squared;
+              nearest = k;
+            }
+          }
+          const double n1 = n[nearest], n2 = n[count + nearest];
+          const Tensor2 F = m->deformation_gradient(x1, x2, t);
+          const Tensor2 P = m->stress(x1, x2, t);
+          const double stretch = std::hypot(-F.a11 * n2 + F.a12 * n1, -F.a21 * n2 + F.a22 * n1);
+          const double eta = on_reference ? 1 : 1 / stretch;
+          return {eta * (n1 * P.a11 + n2 * P.a21), eta * (n1 * P.a12 + n2 * P.a22)};
+        };
+  }
+
+  const SolidSpec& spec_;
+  double cfl_;
+  std::shared_ptr<const exact::Solution> solution_;
+  std::shared_ptr<const Manufactured<L>> manufactured_;  ///< motion given by formulas
+  bool forced_ = false;                                  ///< a body force makes it a solution
+  bool chosen_ = false;                                  ///< sources in all equations do
+};
+
+}  // namespace fsi::solid

@@ -1,0 +1,17 @@
+#pragma once
+/// The solid solver as a program of a run; each law instantiates it once.
+
+#include "common/program/program.hpp"
+#include "solid_solver/program/port.hpp"
+
+namespace fsi::solid {
+
+template <Law L>
+int run_solid_solver(int argc, char** argv) {
+  return run_program(argc, argv, "solid", "solid", [](const Setup& setup, io::Part& part) {
+    SolidParticipant<L> solver(setup, solid_of(setup));
+    participate(setup, part, solver);
+  });
+}
+
+}  // namespace fsi::solid

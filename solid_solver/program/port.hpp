@@ -1,0 +1,327 @@
+#pragma once
+/// The solid solver's port: a case file turned into a SolidSolver, its state turned into messages and files.
+
+#include <fmt/format.h>
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/case/grids/composite_from_case.hpp"
+#include "common/core/time/time_integral.hpp"
+#include "common/grid/geometry/interface_geometry.hpp"
+#include "common/io/csv_writer.hpp"
+#include "common/io/grid_writer.hpp"
+#include "common/program/grid_from_case.hpp"
+#include "common/program/participant.hpp"
+#include "solid_solver/boundary/robin.hpp"
+#include "solid_solver/program/case_data.hpp"
+#include "solid_solver/solid_solver.hpp"
+
+namespace fsi::solid {
+
+template <Law L>
+class SolidParticipant final : public Participant {
+ public:
+  SolidParticipant(const Setup& setup, const SolidSpec& spec)
+      : setup_(setup),
+        spec_(spec),
+        law_(law_with<L>(spec.lambda, spec.mu, spec.data)),
+        data_(setup, spec, law_),
+        solver_(data_.parts(), bodies_of(spec.body_fitted), law_, data_.options(), 0),
+        fields_(setup.run_dir, "solid_" + spec.name) {
+    find_interface(0, spec.boundary);
+    for (const BodyFittedSpec& fitted : spec.body_fitted) find_interface(1, fitted.boundary);
+    if (const VectorFunction force = data_.body_force()) solver_.set_body_force(force);
+    if (const auto solution = data_.chosen_solution()) solver_.choose(*solution);
+    if (const StateFunction initial = data_.initial_state()) {
+      solver_.assign_initial_conditions(initial);
+    } else {
+      solver_.assign_initial_conditions(data_.initial_displacement(), data_.initial_velocity());
+    }
+    initial_totals_ = solver_.totals();
+    open_tables();
+    watch_ripples();
+  }
+
+  wire::Hello hello() const override {
+    wire::Hello hello;
+    hello.role = "solid";
+    hello.name = spec_.name;
+    hello.law = std::string(L::name);
+    hello.config_digest = setup_.problem.digest;
+    hello.points = solver_.points();
+    if (side_) {
+      SolidInterface state;
+      solver_.interface_state(*side_, state, grid_);
+      move_along(state.x);
+      hello.interfaces.push_back({.name = spec_.name,
+                                  .dimension = 2,
+                                  .x = state.x,
+                                  .n = normals(solver_.grid(grid_).side_points(*side_), state.fixed)});
+    }
+    return hello;
+  }
+
+  TimeStepBid compute_time_step() const override {
+    const TimeStep step = solver_.compute_time_step();
+    return {.dt = step.dt, .reason = step.reason};
+  }
+
+  void fill(std::size_t /*k*/, wire::PredictedInterface& predicted) const override {
+    solver_.interface_state(*side_, interface_, grid_);
+    predicted.x = interface_.x;
+    move_along(predicted.x);
+    predicted.v = interface_.v;
+    predicted.w = interface_.w;
+    predicted.Z = interface_.Z;
+    predicted.fixed = interface_.fixed;
+    predicted.z_p = interface_.z_p;
+  }
+
+  void apply_bcs(double t, ProjectedStates projected) override {
+    if (projected.empty()) {
+      solver_.apply_solid_bcs(t);
+      return;
+    }
+    const wire::ProjectedInterface& p = *projected.front();
+    const InterfaceValues values[] = {{.side = *side_, .n = p.n, .v_n = p.v_n, .w_n = p.w_n, .grid = grid_}};
+    solver_.apply_solid_bcs(t, values);
+  }
+
+  void advance(double t, double dt, int substeps, ProjectedStates projected) override {
+    const double dt_sub = dt / substeps;
+    for (int k = 0; k < substeps; ++k) {
+      const double t_k = t + k * dt_sub;
+      solver_.advance_solid(t_k, dt_sub);
+      if (k + 1 == substeps) break;
+      lap(io::Work::advance);
+      close_substep(t_k + dt_sub, *projected.front());
+      lap(io::Work::boundary);
+    }
+  }
+
+  std::vector<io::GridOutput> fields_now() override { return fields(); }
+  void write_fields(double t, std::uint64_t step) override { fields_.write(t, step, fields()); }
+
+  /// The state as it is: all grids of the solid at the time before the sweep that broke, or what was
+  /// predicted when a condition on its sides broke.
+  void write_last_state(double /*t*/, std::uint64_t step) override {
+    fields_.write_apart("last_state", solver_.t(), step, fields());
+  }
+
+  void archive(Archive& archive) override {
+    solver_.archive(archive);
+    archive.inside("fields", [&] { fields_.archive(archive); });
+    archive.inside("ripples", [&] { ripples_->archive(archive); });
+    if (forces_) archive.inside("forces", [&] { forces_->archive(archive); });
+    if (probe_table_) archive.inside("probes", [&] { probe_table_->archive(archive); });
+    archive.inside("received", [&] { received_.archive(archive); });
+  }
+
+  void write_tables(double t, double dt, ProjectedStates /*projected*/) override {
+    if (forces_) {
+      const SideLoad load = solver_.side_load(*side_, grid_);
+      received_.add({load.force[0], load.force[1], load.power}, dt);
+      const Pose pose = solver_.pose();
+      forces_->row({t, load.force[0], load.force[1], load.moment, load.power, pose.centre[0], pose.centre[1],
+                    pose.velocity[0], pose.velocity[1], pose.angle});
+    }
+    if (probe_table_) {
+      std::vector<double> row{t};
+      for (const ProbePoint& probe : probes_) {
+        const SolidState q = solver_.value(probe);
+        row.insert(row.end(), {q.u[0], q.u[1], q.v[0], q.v[1], q.P.a11, q.P.a12, q.P.a21, q.P.a22});
+      }
+      probe_table_->row(row);
+    }
+  }
+
+  std::string remedy() const override {
+    const SolidScheme& scheme = spec_.scheme;
+    const std::string path = "solids." + spec_.name + ".scheme";
+    if (scheme.limiter == SolidLimiter::none) return path + ".limiter: minmod, for jumps";
+    for (const auto& [key, beta] :
+         {std::pair{"tangential_stress", &scheme.tangential_stress},
+          std::pair{"displacement", &scheme.displacement}, std::pair{"relaxation", &scheme.relaxation}}) {
+      if (beta->rate == 0 && beta->scaled == 0)
+        return fmt::format("{} without `{}`, whose default damps what no wave carries", path, key);
+    }
+    if (scheme.relaxation.scaled < 0.5) return path + ".relaxation: {scaled: 0.5}";
+    return "a smaller time.cfl";
+  }
+  wire::Health health() const override {
+    return {.min_rho = 0,
+            .min_p = 0,
+            .min_det_F = solver_.health().min_det_F,
+            .min_cell_quality = 1,
+            .first_order_fallbacks = 0,
+            .floors = 0};
+  }
+
+  void look_for_noise(double t) override {
+    watched_.clear();
+    for (int g = 0; g < solver_.grids(); ++g)
+      watched_.push_back(
+          {.q = std::as_const(solver_).state(g), .x = solver_.reference(g), .points = &solver_.valid(g)});
+    ripples_->look(watched_, t);
+  }
+  const grid::RippleWatch* noise() const override { return &*ripples_; }
+
+  void report(double t, io::Part& part) const override {
+    const Health health = solver_.health();
+    part.overlap = overlap_of(solver_.composite());
+    part.health["min_det_F"] = health.min_det_F;
+    if (health.settled > 0) part.counters["settled_ghost_points"] = health.settled;
+    const Totals now = solver_.totals();
+    part.conservation["mass"] = now.mass - initial_totals_.mass;
+    part.conservation["energy"] = now.energy() - initial_totals_.energy();
+    part.conservation["energy_initial"] = initial_totals_.energy();
+    part.conservation["momentum1"] = now.momentum[0] - initial_totals_.momentum[0];
+    part.conservation["momentum2"] = now.momentum[1] - initial_totals_.momentum[1];
+    part.conservation["angular_momentum"] = now.angular_momentum - initial_totals_.angular_momentum;
+    part.conservation["angular_momentum_initial"] = initial_totals_.angular_momentum;
+    if (surrounded()) {
+      const std::array<double, 3>& in = received_.sum();
+      part.conservation["momentum1_defect"] = part.conservation["momentum1"] - in[0];
+      part.conservation["momentum2_defect"] = part.conservation["momentum2"] - in[1];
+      part.conservation["energy_defect"] = part.conservation["energy"] - in[2];
+    }
+    const StateFunction exact = data_.reference_state();
+    if (!exact || part.status == "stopped") return;
+    if (const std::string missing = data_.reference_missing_at(t); !missing.empty()) {
+      if (part.reason.empty()) part.reason = missing;
+      return;
+    }
+    const Errors errors = solver_.errors(exact, t);
+    part.errors = {{"u_bar", errors.u}, {"v_bar", errors.v}, {"P_bar", errors.P}};
+  }
+
+ private:
+  void find_interface(int grid, const std::array<BoundarySpec, 4>& boundary) {
+    for (const Side side : all_sides) {
+      if (boundary[static_cast<std::size_t>(side)].kind != BoundaryKind::interface) continue;
+      side_ = side;
+      grid_ = grid;
+    }
+  }
+
+  std::vector<io::GridOutput> fields() const {
+    static constexpr const char* names[] = {"u1", "u2", "v1", "v2", "P11", "P12", "P21", "P22"};
+    std::vector<io::GridOutput> grids;
+    for (int g = 0; g < solver_.grids(); ++g) {
+      const ConstFieldView q = solver_.state(g);
+      std::vector<io::NamedPlane> planes;
+      for (int k = 0; k < 8; ++k) planes.push_back({names[k], q, k});
+      grids.push_back({.grid = solver_.grid(g).name(),
+                       .x = solver_.reference(g),
+                       .u = q,
+                       .fields = std::move(planes),
+                       .kinds = kinds_of(solver_.composite(), g)});
+    }
+    return grids;
+  }
+
+  /// Whether all that acts on the body is the gas.
+  bool surrounded() const {
+    return side_ && grid_ == 1 && spec_.body_fitted.front().curve.closed() && !spec_.body_force &&
+           !setup_.problem.interface.motion;
+  }
+
+  grid::Curve curve() const { return curve_along(solver_.grid(grid_), *side_); }
+
+  /// Unit normals of the interface at these positions; of ends that slide along a wall, its direction.
+  std::vector<double> normals(std::span<const double> x, std::span<const std::uint8_t> freedom) const {
+    std::vector<double> n = grid::normals(x, curve(), grid::outward(*side_));
+    const std::size_t points = freedom.size();
+    for (const std::size_t k : {std::size_t{0}, points - 1}) {
+      if (freedom[k] != wire::Freedom::slides) continue;
+      const Vec2 along = solver_.along_wall(*side_, static_cast<int>(k), grid_);
+      n[k] = along.x();
+      n[points + k] = along.y();
+    }
+    return n;
+  }
+
+  /// From where the reference configuration has the interface to where its given path has it.
+  void move_along(std::vector<double>& x) const {
+    const auto& motion = setup_.problem.interface.motion;
+    if (!motion) return;
+    const std::vector<double> x_bar = solver_.grid(grid_).side_points(*side_);
+    const std::size_t n = x_bar.size() / 2;
+    for (std::size_t k = 0; k < n; ++k) {
+      x[k] += motion->c1(x_bar[k], x_bar[n + k], solver_.t()) - x_bar[k];
+      x[n + k] += motion->c2(x_bar[k], x_bar[n + k], solver_.t()) - x_bar[n + k];
+    }
+  }
+
+  /// The interface inside a macro step: the gas is known by its outgoing characteristic.
+  void close_substep(double t, const wire::ProjectedInterface& p) {
+    solver_.interface_state(*side_, interface_, grid_);
+    const std::vector<double> normal = normals(interface_.x, interface_.fixed);
+    const RobinData gas{.z_f = p.z_f, .t = p.robin_t, .r = p.robin_r};
+    const ClosedInterface closed = close_with_robin(gas, t, normal, interface_);
+    const InterfaceValues values[] = {
+        {.side = *side_, .n = normal, .v_n = closed.v_n, .w_n = closed.w_n, .grid = grid_}};
+    solver_.apply_solid_bcs(t, values);
+  }
+
+  /// Strains below a millionth, and what goes with them, are round-off.
+  void watch_ripples() {
+    constexpr double small = 1e-6;
+    const double modulus = spec_.lambda + 2 * spec_.mu;
+    const double size = std::sqrt(initial_totals_.mass / spec_.rho);
+    std::vector<std::string> names;
+    for (int g = 0; g < solver_.grids(); ++g) names.push_back(solver_.grid(g).name());
+    ripples_.emplace(
+        std::vector<grid::WatchedQuantity>{
+            {.components = {"u1", "u2"}, .first = plane::u1, .floor = small * size},
+            {.components = {"v1", "v2"}, .first = plane::v1, .floor = small * std::sqrt(modulus / spec_.rho)},
+            {.components = {"P11", "P12", "P21", "P22"}, .first = plane::P11, .floor = small * modulus}},
+        std::move(names));
+  }
+
+  void open_tables() {
+    if (side_) {
+      forces_.emplace(
+          setup_.run_dir + "/forces_" + spec_.name + ".csv",
+          std::vector<std::string>{"t [time]", "force1 [force/depth]", "force2 [force/depth]",
+                                   "moment [force*length/depth]", "power [power/depth]", "centre1 [length]",
+                                   "centre2 [length]", "velocity1 [length/time]", "velocity2 [length/time]",
+                                   "angle [rad]"},
+          setup_.opening());
+    }
+    std::vector<std::string> columns{"t [time]"};
+    for (const ProbeSpec& probe : setup_.problem.output.probes) {
+      if (probe.in != spec_.name) continue;
+      probes_.push_back(solver_.locate(probe.x, probe.y));
+      for (const char* quantity : {"u1", "u2", "v1", "v2", "P11", "P12", "P21", "P22"}) {
+        columns.push_back(fmt::format("{}.{}", probe.name, quantity));
+      }
+    }
+    if (!probes_.empty())
+      probe_table_.emplace(setup_.run_dir + "/parts/probes_" + spec_.name + ".csv", columns,
+                           setup_.opening());
+  }
+
+  const Setup& setup_;
+  const SolidSpec& spec_;
+  L law_;
+  CaseData<L> data_;
+  SolidSolver<L> solver_;
+  std::optional<Side> side_;          ///< the interface
+  int grid_ = 0;                      ///< component grid of the interface
+  mutable SolidInterface interface_;  ///< memory that is used again every step
+  io::GridWriter fields_;
+  std::optional<io::CsvWriter> forces_, probe_table_;
+  std::vector<ProbePoint> probes_;
+  Totals initial_totals_;
+  TimeIntegral<3> received_;  ///< of the gas: force, power
+  std::optional<grid::RippleWatch> ripples_;
+  std::vector<grid::WatchedGrid> watched_;  ///< work memory
+};
+
+}  // namespace fsi::solid
