@@ -20,7 +20,7 @@ using config::fail;
 using config::Node;
 
 /// A curve of the case, and where the file describes it.
-struct Outline {
+struct CheckedOutline {
   const CurveSpec& curve;
   std::string name;  ///< "solid `disk`"
   const Node& node;
@@ -36,7 +36,7 @@ struct Outline {
   }
 };
 
-Outline outline_of(const SolidSpec& solid, const Node& root) {
+CheckedOutline outline_of(const SolidSpec& solid, const Node& root) {
   return {.curve = solid.body_fitted.front().curve,
           .name = fmt::format("solid `{}`", solid.name),
           .node = *root.find("solids")->find(solid.name)->find("shape"),
@@ -45,13 +45,13 @@ Outline outline_of(const SolidSpec& solid, const Node& root) {
 }
 
 /// The curves that bound the gas within its rectangle.
-std::vector<Outline> outlines_in_gas(const Case& problem, const Node& root) {
-  std::vector<Outline> outlines;
+std::vector<CheckedOutline> outlines_in_gas(const Case& problem, const Node& root) {
+  std::vector<CheckedOutline> outlines;
   const std::vector<BodyFittedSpec>& grids = problem.fluid->body_fitted;
   for (std::size_t k = 0; k < grids.size(); ++k) {
     const auto solid = std::ranges::find(problem.solids, grids[k].solid, &SolidSpec::name);
     if (solid != problem.solids.end() && !solid->body_fitted.empty()) {
-      const Outline own = outline_of(*solid, root);
+      const CheckedOutline own = outline_of(*solid, root);
       outlines.push_back({grids[k].curve, own.name, own.node, own.path, grids[k].side, grids[k].name});
       continue;
     }
@@ -76,7 +76,7 @@ Vec2 rounded(const Vec2& x) {
 }
 
 /// The pair of lines between the listed points of a shape that cross; "" where none do.
-std::string crossing_in_list(const Outline& outline) {
+std::string crossing_in_list(const CheckedOutline& outline) {
   const Node* list = outline.node.find("corners");
   if (list == nullptr) list = outline.node.find("through");
   if (list == nullptr) return "";
@@ -98,7 +98,7 @@ std::string crossing_in_list(const Outline& outline) {
   return fmt::format(", where the line {} meets that {}", line(crossing->a), line(crossing->b));
 }
 
-void check_crossing_itself(const Outline& outline) {
+void check_crossing_itself(const CheckedOutline& outline) {
   const auto crossing = grid::self_crossing(outline.curve.x, outline.ends());
   if (!crossing) return;
   const Vec2 x = rounded(crossing->x);
@@ -120,7 +120,7 @@ double end_of(const GridSpec& grid, Side side) {
   return at_upper_end(side) ? grid.y_b : grid.y_a;
 }
 
-Excess largest_excess(const Outline& outline, const GridSpec& grid) {
+Excess largest_excess(const CheckedOutline& outline, const GridSpec& grid) {
   Excess worst;
   const auto n = static_cast<std::size_t>(outline.curve.points());
   for (const Side side : all_sides) {
@@ -143,7 +143,7 @@ double tolerance(const GridSpec& grid) {
   return part * std::min((grid.x_b - grid.x_a) / grid.n1, (grid.y_b - grid.y_a) / grid.n2);
 }
 
-void check_within_gas(const Outline& outline, const GridSpec& gas) {
+void check_within_gas(const CheckedOutline& outline, const GridSpec& gas) {
   const Excess excess = largest_excess(outline, gas);
   if (excess.distance <= tolerance(gas)) return;
   fail(
@@ -155,7 +155,7 @@ void check_within_gas(const Outline& outline, const GridSpec& gas) {
 }
 
 /// The ends of an open curve stand on the sides it names.
-void check_ends(const Outline& outline, const GridSpec& gas) {
+void check_ends(const CheckedOutline& outline, const GridSpec& gas) {
   if (outline.curve.closed() || !outline.curve.on.empty()) return;
   const auto last = static_cast<std::size_t>(outline.curve.points()) - 1;
   for (const std::size_t end : {0U, 1U}) {
@@ -174,7 +174,7 @@ void check_ends(const Outline& outline, const GridSpec& gas) {
 }
 
 /// The outline's bounds, rounded outwards.
-std::array<double, 2> bounds(const Outline& outline, int direction) {
+std::array<double, 2> bounds(const CheckedOutline& outline, int direction) {
   const std::vector<double>& x = outline.curve.x;
   const std::ptrdiff_t points = outline.curve.points();
   const auto first = x.begin() + direction * points;
@@ -185,7 +185,7 @@ std::array<double, 2> bounds(const Outline& outline, int direction) {
 }
 
 void check_core(const SolidSpec& solid, const Node& root) {
-  const Outline outline = outline_of(solid, root);
+  const CheckedOutline outline = outline_of(solid, root);
   const Excess excess = largest_excess(outline, solid.grid);
   if (excess.distance <= tolerance(solid.grid)) return;
   const auto [x_a, x_b] = bounds(outline, 0);
@@ -199,7 +199,7 @@ void check_core(const SolidSpec& solid, const Node& root) {
 }
 
 /// How deep the points of a curve are behind another one, and where.
-Excess deepest(const Outline& outline, const Outline& other) {
+Excess deepest(const CheckedOutline& outline, const CheckedOutline& other) {
   Excess worst;
   const auto n = static_cast<std::size_t>(outline.curve.points());
   for (std::size_t k = 0; k < n; ++k) {
@@ -212,7 +212,7 @@ Excess deepest(const Outline& outline, const Outline& other) {
 }
 
 /// The points of a curve without its ends, which may stand on the other one.
-std::vector<double> between_ends(const Outline& outline, const Outline& other) {
+std::vector<double> between_ends(const CheckedOutline& outline, const CheckedOutline& other) {
   std::vector<double> x = outline.curve.x;
   if (outline.curve.on.empty() || outline.curve.on != other.grid) return x;
   const auto n = static_cast<std::ptrdiff_t>(x.size() / 2);
@@ -220,7 +220,7 @@ std::vector<double> between_ends(const Outline& outline, const Outline& other) {
   return x;
 }
 
-void check_apart(const Outline& outline, const Outline& other) {
+void check_apart(const CheckedOutline& outline, const CheckedOutline& other) {
   const auto crossing = grid::crossing_of(between_ends(outline, other), between_ends(other, outline));
   const bool within = outline.behind(other.point(0)) || other.behind(outline.point(0));
   if (!crossing && !within) return;
@@ -243,8 +243,8 @@ void check_geometry(const Case& problem, const Node& root) {
     if (has_core && is_upright(solid.grid)) check_core(solid, root);
   }
   if (!problem.fluid) return;
-  const std::vector<Outline> outlines = outlines_in_gas(problem, root);
-  for (const Outline& outline : outlines) {
+  const std::vector<CheckedOutline> outlines = outlines_in_gas(problem, root);
+  for (const CheckedOutline& outline : outlines) {
     check_crossing_itself(outline);
     if (!is_upright(problem.fluid->grid)) continue;
     check_within_gas(outline, problem.fluid->grid);
