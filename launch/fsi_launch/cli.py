@@ -178,7 +178,7 @@ def _add_new(verbs):
 def _add_gallery(verbs):
     verb = verbs.add_parser("gallery", description="Validated problems: without NAME lists them; with it runs the case, compares it with exact, "
                             "published or measured numbers, and writes a table and a picture. Exit 1 where a comparison fails.")
-    verb.add_argument("name", metavar="NAME", nargs="?", help="a folder of gallery/")
+    verb.add_argument("problem", metavar="NAME", nargs="?", help="a folder of gallery/")
     verb.add_argument("--out", metavar="DIR", help="folder of the run, the table and the picture (default: runs/gallery-NAME-TIME)")
     verb.add_argument("--compare", action="store_true", help="compare the run that is there in DIR/run, and make none")
     verb.add_argument("--overwrite", action="store_true", help="replace the run in DIR")

@@ -3,6 +3,7 @@
 import argparse
 
 from fsi_launch import paths
+from fsi_launch.gallery import problems
 
 SCRIPT = """# Completion of AMP-FSI's command for bash: source <(./launch/fsi completion)
 _fsi() {{
@@ -26,11 +27,13 @@ def _verbs(parser):
 
 
 def _words(verb):
-    """What may follow a verb: its options, and where it takes a case the names in configs/."""
+    """What may follow a verb: its options, and where it takes a case the names in configs/, where a problem those of the gallery."""
     actions = verb._actions  # noqa: SLF001  argparse has no other way to ask
     words = [option for action in actions for option in action.option_strings if option.startswith("--")]
     if any(action.dest == "case" for action in actions):
         words += sorted(path.stem for path in (paths.ROOT / "configs").glob("*.yaml"))
+    if any(action.dest == "problem" for action in actions):
+        words += problems.names()
     return words
 
 

@@ -87,9 +87,9 @@ def _list():
 
 def main(options):
     """Lists the problems, or repeats one."""
-    if options.name is None:
+    if options.problem is None:
         return _list()
-    problem = problems.problem(options.name)
+    problem = problems.problem(options.problem)
     from fsi_launch import plot
     plot.style_or_mistake()
     directory = Path(options.out or f"runs/gallery-{problem.name}-{time.strftime('%Y%m%d-%H%M%S')}")

@@ -16,6 +16,10 @@ class Completion(unittest.TestCase):
                                 text=True, check=True)
         return set(answer.stdout.split())
 
+    def all_after(self, verb):
+        self.begun = "--"
+        return self.offered("fsi", verb)
+
     def test_verbs(self):
         self.begun = "m"
         self.assertEqual(self.offered("fsi"), {"monitor"})
@@ -25,6 +29,9 @@ class Completion(unittest.TestCase):
     def test_options_and_cases(self):
         self.begun = "--re"
         self.assertEqual(self.offered("fsi", "run"), {"--restart"})
+        self.begun = "so"
+        self.assertEqual(self.offered("fsi", "gallery"), {"sod"})
+        self.assertLessEqual({"--outline", "--material"}, self.all_after("new"))
         self.begun = "elastic_p"
         self.assertEqual(self.offered("fsi", "run"), {"elastic_piston"})
 
