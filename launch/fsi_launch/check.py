@@ -31,11 +31,11 @@ def _write_grids(options, folder):
 
 def draw(options):
     """Draws the grids of a case that is right; returns the path of the picture."""
-    from fsi_launch import plot
-    style = plot.style_or_mistake()
     case = cases.resolve(options.case, options.overrides, options.laws)
     path = _picture_path(options.plot, case)
     paths.build(["fsi_grids"])
+    from fsi_launch import plot
+    style = plot.style_or_mistake()
     style.use()
     from fsi_launch.plot import data, grids, several, units
     entries = several.entries(case.text)

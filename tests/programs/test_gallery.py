@@ -29,9 +29,6 @@ class Gallery(EndToEnd):
     def test_list(self):
         self.assertIn("sod  ", self.gallery())
 
-    def test_gas(self):
-        self.passes("sod")
-
     def test_gas_and_solid(self):
         self.passes("shock_on_solid")
 

@@ -103,7 +103,7 @@ class FirstCase(InFolder):
                 self.fsi(*words)
             elif words[0] == "run" and "--set" not in words:
                 self.fsi(*words, "--no-progress")
-        self.assertTrue((self.folder / "bean_grids.png").is_file())
+        self.assertEqual((self.folder / "bean_grids.png").read_bytes()[:4], b"\x89PNG")
         times = [float(word) for line in typed for flag, word in zip(line.split(), line.split()[1:]) if flag == "--at"]
         with h5py.File(self.folder / "runs" / "bean" / "fluid.h5") as file:
             written = [group.attrs["t"] for group in file.values()]
@@ -111,12 +111,10 @@ class FirstCase(InFolder):
 
 
 class Grids(InFolder):
-    def test_pictures_in_all_formats(self):
-        for name, begin in (("a.png", b"\x89PNG"), ("b.pdf", b"%PDF"), ("c.svg", b"<?xml")):
-            self.fsi("check", "shock_ellipse", "--set", "grid.factor=2", "--plot", name)
+    def test_pictures_in_the_formats_of_papers(self):
+        for name, begin in (("b.pdf", b"%PDF"), ("c.svg", b"<?xml")):
+            self.fsi("check", "plate", "--plot", name)
             self.assertEqual((self.folder / name).read_bytes()[:len(begin)], begin)
-        self.fsi("check", "plate", "--plot")
-        self.assertTrue((self.folder / "plate_grids.png").is_file())
 
     def sides(self, case, *words):
         """[(kind, line)] of the rim of the gas, as they are drawn."""
