@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <map>
@@ -50,7 +51,8 @@ class Sampled {
       const auto found = std::ranges::find(grid.fields, name, &io::NamedPlane::name);
       if (found != grid.fields.end()) planes_.push_back(*found);
     }
-    complete_ = !planes_.empty() && planes_.size() == planes_of(quantity).size();
+    complete_ = !planes_.empty() && planes_.size() == planes_of(quantity).size() &&
+                planes_.front().field.layout == grid.x.layout;
     take(coarsest_for_check());
     straight_ = is_straight();
   }
@@ -181,19 +183,16 @@ class Sampled {
   /// point that is not used.
   double steepness(Point at) const {
     if (!used(at)) return -1;
-    const io::NamedPlane& f = planes_.front();
-    double x[2][2] = {}, df[2] = {};
-    for (const int direction : {0, 1}) {
-      const int a = direction == 0 ? 1 : 0, b = 1 - a;
-      Point low{at.i - a, at.j - b}, high{at.i + a, at.j + b};
-      if (!used(low)) low = at;
-      if (!used(high)) high = at;
-      df[direction] = f.field(f.plane, high.i, high.j) - f.field(f.plane, low.i, low.j);
-      for (const int c : {0, 1}) x[direction][c] = grid_.x(c, high.i, high.j) - grid_.x(c, low.i, low.j);
-    }
-    const double det = x[0][0] * x[1][1] - x[0][1] * x[1][0];
-    const double g1 = df[0] * x[1][1] - df[1] * x[0][1], g2 = df[1] * x[0][0] - df[0] * x[1][0];
-    return std::sqrt(g1 * g1 + g2 * g2) / std::fabs(det);
+    const std::ptrdiff_t here = layout().at(at.i, at.j), line = layout().stride;
+    const std::ptrdiff_t left = used({at.i - 1, at.j}) ? here - 1 : here,
+                         right = used({at.i + 1, at.j}) ? here + 1 : here,
+                         below = used({at.i, at.j - 1}) ? here - line : here,
+                         above = used({at.i, at.j + 1}) ? here + line : here;
+    const double *f = planes_[0].field.plane(planes_[0].plane), *x = grid_.x.plane(0), *y = grid_.x.plane(1);
+    const double across = f[right] - f[left], x1 = x[right] - x[left], y1 = y[right] - y[left];
+    const double up = f[above] - f[below], x2 = x[above] - x[below], y2 = y[above] - y[below];
+    const double g1 = across * y2 - up * y1, g2 = up * x1 - across * x2;
+    return std::sqrt(g1 * g1 + g2 * g2) / std::fabs(x1 * y2 - y1 * x2);
   }
 };
 

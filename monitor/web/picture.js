@@ -6,7 +6,7 @@ const MOST_BACK = 8;       // moments
 const SHARPEST = 1.5;      // pixels of the raster per CSS pixel, at most
 const UNITS = { pressure: "p", speed: "|v|", density: "\u03c1", schlieren: "|grad \u03c1|", stress: "|P|" };
 const live = {
-  frames: [], bytes: 0, version: 0, at: null, box: null, wanted: null, stale: true, seen: false, raster: null, drawn: [], cursor: null,
+  frames: [], outlines: new Map(), bytes: 0, version: 0, at: null, box: null, wanted: null, stale: true, seen: false, raster: null, drawn: [], cursor: null,
   limits: {}, // by "ROLE.QUANTITY": {mode, low, high, seen: [low, high]}
 };
 
@@ -23,13 +23,19 @@ function limitsOf(picture) {
   return (live.limits[`${picture.role}.${picture.quantity}`] ||= { mode: "seen", low: 0, high: 1, seen: [Infinity, -Infinity] });
 }
 
-// One moment is everything of one step.
+// One moment is everything of one step. Interfaces alone are none: they wait until a field of their step comes.
 function keep(picture) {
+  if (picture.role === "coupler" && !live.frames.some((one) => one.step === picture.step)) {
+    live.outlines.set(picture.step, picture);
+    if (live.outlines.size > 64) live.outlines.delete(live.outlines.keys().next().value);
+    return;
+  }
   const limits = limitsOf(picture);
   limits.seen = [Math.min(limits.seen[0], picture.low), Math.max(limits.seen[1], picture.high)];
   let frame = live.frames.find((one) => one.step === picture.step);
   if (!frame) {
     frame = { step: picture.step, t: picture.t, pictures: new Map() };
+    if (live.outlines.has(picture.step)) frame.pictures.set("coupler", live.outlines.get(picture.step));
     live.frames.push(frame);
     live.frames.sort((a, b) => a.step - b.step);
   }
@@ -45,12 +51,11 @@ function thinOut() {
   live.bytes = live.frames.reduce((sum, frame) => sum + [...frame.pictures.values()].reduce((bytes, picture) => bytes + picture.bytes, 0), 0);
 }
 
-// The moment that is shown: the one chosen, else the newest of which as much is there as of the one before.
+// The moment that is shown: the one chosen, else the newest of those of which most is there.
 function currentFrame() {
   if (live.at) return live.at;
-  const [before, last] = live.frames.slice(-2);
-  if (!last) return before || null;
-  return last.pictures.size >= before.pictures.size ? last : before;
+  const latest = live.frames.slice(-MOST_BACK), most = Math.max(0, ...latest.map((frame) => frame.pictures.size));
+  return latest.filter((frame) => frame.pictures.size === most).pop() || null;
 }
 
 // The pictures of a moment. A program that had no time to draw one, or whose picture was lost, is shown as it was shortly before.

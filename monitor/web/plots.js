@@ -199,7 +199,8 @@ function drawShapes(canvas, shapes, range) {
 }
 
 function drawRuler(pen, unit, width, height) {
-  const length = ticks(0, (0.3 * width) / unit, 2)[1];
+  const most = (0.3 * width) / unit, power = Math.pow(10, Math.floor(Math.log10(most)));
+  const length = [5, 2, 1].map((m) => m * power).find((one) => one <= most);
   pen.strokeStyle = theme.dim;
   pen.fillStyle = theme.dim;
   pen.lineWidth = 1;

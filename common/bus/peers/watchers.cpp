@@ -49,9 +49,21 @@ void Watchers::look() {
 void Watchers::show(const Draw& draw, std::uint64_t step, bool always) {
   look();
   begin_pause();
-  if (!always && computed_s() < rest_until_s_) return;
+  if (++shows_ % every_ != 0 && !always) return;
+  if (!always && !has_rested()) return;
   shown_.clear();
   draw_all(draw, step);
+}
+
+/// All programs count alike, and each draws at multiples of a power of two: where they draw unequally often,
+/// there are still steps of which all have a picture.
+bool Watchers::has_rested() {
+  constexpr std::uint64_t seldom = 64;
+  constexpr double enough = 2.5;  // times the rest: twice as often is not too often either
+  const double rested_s = computed_s() - drawn_at_s_;
+  if (rested_s < rest_s_) every_ = std::min(2 * every_, seldom);
+  if (rested_s > enough * rest_s_ && every_ > 1) every_ /= 2;
+  return rested_s >= rest_s_;
 }
 
 void Watchers::show_missing(const Draw& draw, std::uint64_t step) {
@@ -68,7 +80,8 @@ void Watchers::draw_all(const Draw& draw, std::uint64_t step) {
     if (auto picture = draw(wish)) publish(std::move(*picture));
   }
   const double now_s = computed_s();
-  rest_until_s_ = now_s + rest_per_work * (now_s - begun_s);
+  drawn_at_s_ = now_s;
+  rest_s_ = rest_per_work * (now_s - begun_s);
 }
 
 void Watchers::publish(wire::Picture picture) {

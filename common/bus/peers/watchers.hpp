@@ -45,10 +45,14 @@ class Watchers {
   Writer<amp_fsi_Picture> writer_;
   std::map<std::string, Clock::time_point> wishes_;  ///< ROLE.QUANTITY, when it was wished for last
   Clock::time_point next_{};
-  double rest_until_s_ = 0;      ///< of this thread's processor time
+  double drawn_at_s_ = 0,
+         rest_s_ = 0;  ///< of this thread's processor time: the last drawing, and the rest after it
+  std::uint64_t shows_ = 0,
+                every_ = 1;      ///< how often it was to show; of so many it draws one, a power of two
   std::set<std::string> shown_;  ///< of the state of `shown_step_`
   std::uint64_t shown_step_ = 0;
 
+  bool has_rested();
   void draw_all(const Draw& draw, std::uint64_t step);
 };
 
