@@ -111,11 +111,18 @@ function layersOf(frame) {
   return all.sort((a, b) => (a.role > b.role ? 1 : a.role < b.role ? -1 : 0));
 }
 
+// The interfaces at the step of the solids that are drawn.
+function outlineOf(layers, frame) {
+  const { step } = layers.find((picture) => picture.role === "solid") || frame;
+  const same = live.frames.find((one) => one.step === step);
+  return same && same.pictures.get("coupler");
+}
+
 function drawLive() {
   const frame = currentFrame(), canvas = $("picture");
   showScrubber(frame);
   if (!frame) { sayNothing(canvas); return; }
-  const layers = layersOf(frame), outline = picturesAt(frame).find((picture) => picture.role === "coupler");
+  const layers = layersOf(frame), outline = outlineOf(layers, frame);
   const whole = extentOf([...layers, ...(outline ? [outline] : [])]);
   if (!whole) { sayNothing(canvas); return; }
   live.whole = whole;
