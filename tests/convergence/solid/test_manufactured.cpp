@@ -147,18 +147,22 @@ TYPED_TEST(Eq32ManufacturedMotion, LosesOrderOfStressOnlyWhereACornerIsSingular)
   EXPECT_GE(std::log2(coarse.P / fine.P), 1.45);
 }
 
-/// Nearly incompressible, lambda / mu = 100: the p-wave is seven times as fast as with lambda = 1.1 mu, and takes
-/// as many more steps. Pressures are lambda times the change of area, so P is measured in parts of it.
+/// Nearly incompressible, lambda / mu = 100.
+Errors nearly_incompressible(int cells) {
+  return run<MooneyRivlin>({.sides = "tttt", .lambda = 70, .c01 = 0.2, .t_end = 0.4}, cells);
+}
+
+/// The p-wave is six times as fast as with the laws above, and takes as many more steps; pressures are lambda times
+/// the change of area, and their errors a part of that.
 TEST(Eq32NearlyIncompressible, MooneyRivlinIsStableAndOfSecondOrderBetweenLoads) {
-  const Setup setup = {.sides = "tttt", .lambda = 70, .c01 = 0.2, .t_end = 0.4};
-  const Errors coarse = run<MooneyRivlin>(setup, 16), fine = run<MooneyRivlin>(setup, 32);
+  const Errors coarse = nearly_incompressible(16), fine = nearly_incompressible(32);
   const std::string what = fmt::format("u {:.2e} v {:.2e} P {:.2e}", fine.u, fine.v, fine.P);
   EXPECT_GE(std::log2(coarse.u / fine.u), 1.9) << what;
   EXPECT_GE(std::log2(coarse.v / fine.v), 1.9) << what;
   EXPECT_GE(std::log2(coarse.P / fine.P), 1.9) << what;
   EXPECT_LT(fine.u, 1e-4) << what;
   EXPECT_LT(fine.v, 1e-4) << what;
-  EXPECT_LT(fine.P / setup.lambda, 1e-4) << what;
+  EXPECT_LT(fine.P / 70, 1e-4) << what;
 }
 
 /// Trigonometric u, v and P that do not belong to each other, of the same size as the motions above.

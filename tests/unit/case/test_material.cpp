@@ -13,7 +13,7 @@ namespace {
 
 /// The solid of a case with these words in the place of its moduli.
 SolidSpec solid_with(const std::string& law, const std::string& words) {
-  const std::string solid = "solids={body: {law: " + law + ", rho: 2, " + words +
+  const std::string solid = "solids={block: {law: " + law + ", rho: 2, " + words +
                             ", grid: {x: [0, 1], y: [0, 1], spacing: h}, boundary: {left: clamped, right: free, "
                             "bottom: free, top: free}}}";
   return load_case(configs_folder() + "/spinning_block.yaml", {solid, "expect={}"}).solids.front();
