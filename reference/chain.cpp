@@ -27,7 +27,8 @@ std::optional<AnyLaw> law_among(const std::string& name, double lambda, double m
 
 }  // namespace
 
-AnyLaw law_named(const std::string& name, double lambda, double mu, const std::map<std::string, double>& own) {
+AnyLaw law_named(const std::string& name, double lambda, double mu,
+                 const std::map<std::string, double>& own) {
   if (const auto law = law_among(name, lambda, mu, own)) return *law;
   throw UserMistake(
       fmt::format("the one-dimensional reference knows no law '{}'; write linear_elastic, "

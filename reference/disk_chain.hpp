@@ -21,7 +21,7 @@ namespace fsi::reference {
 struct DiskProblem {
   std::string law = "saint_venant_kirchhoff";
   double rho_bar = 1, lambda = 1, mu = 1;    ///< of the solid
-  std::map<std::string, double> own;  ///< numbers of the law besides lambda and mu
+  std::map<std::string, double> own;         ///< numbers of the law besides lambda and mu
   double gamma = 1.4, rho_0 = 1.4, p_0 = 1;  ///< of the gas at rest, t = 0
   double p_e = 1;                            ///< pressure that leaves the solid without stress
   bool load_on_reference = false;            ///< the gas presses on the rim at rest: its area and its normal

@@ -38,7 +38,8 @@ void AddedMass::find_places() {
   for (Eigen::Index point = 0; point < N_.cols(); ++point) {
     for (Entry a(N_, point); a; ++a) {
       for (Entry b = a; b; ++b) {
-        const int* const found = std::lower_bound(rows + starts[a.row()], rows + starts[a.row() + 1], b.row());
+        const int* const found =
+            std::lower_bound(rows + starts[a.row()], rows + starts[a.row() + 1], b.row());
         places_.push_back(found - rows);
       }
     }

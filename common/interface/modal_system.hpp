@@ -1,7 +1,7 @@
 #pragma once
-/// The equations of common/interface/modal.hpp solved step by step for bodies with many modes: what depends on
-/// the places of the entries alone (their order, the fill of the
-/// factors) is found once and kept until the places change.
+/// The equations of common/interface/modal.hpp solved step by step for bodies with many modes: what depends
+/// on the places of the entries alone (their order, the fill of the factors) is found once and kept until the
+/// places change.
 
 #include <Eigen/Core>
 #include <Eigen/SparseCholesky>

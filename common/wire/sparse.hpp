@@ -28,9 +28,9 @@ inline Eigen::SparseMatrix<double> matrix_of(const SparseMatrix& entries, Eigen:
     std::vector<int> starts(static_cast<std::size_t>(columns) + 1);
     for (const std::int32_t column : entries.column) ++starts[static_cast<std::size_t>(column) + 1];
     std::partial_sum(starts.begin(), starts.end(), starts.begin());
-    return Eigen::Map<const Eigen::SparseMatrix<double>>(rows, columns,
-                                                         static_cast<Eigen::Index>(entries.value.size()),
-                                                         starts.data(), entries.row.data(), entries.value.data());
+    return Eigen::Map<const Eigen::SparseMatrix<double>>(
+        rows, columns, static_cast<Eigen::Index>(entries.value.size()), starts.data(), entries.row.data(),
+        entries.value.data());
   }
   std::vector<Eigen::Triplet<double>> triplets;
   triplets.reserve(entries.value.size());

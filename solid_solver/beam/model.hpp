@@ -55,9 +55,9 @@ struct Resultants {
 
 /// Force and stiffness of one element on its degrees of freedom: those of its first node, then of its second.
 struct ElementForce {
-  std::array<Eigen::Index, 6> index{};     ///< among all degrees of freedom
-  Eigen::Matrix<double, 6, 1> force;       ///< -dW/du
-  Eigen::Matrix<double, 6, 6> stiffness;   ///< d^2 W / du^2
+  std::array<Eigen::Index, 6> index{};    ///< among all degrees of freedom
+  Eigen::Matrix<double, 6, 1> force;      ///< -dW/du
+  Eigen::Matrix<double, 6, 6> stiffness;  ///< d^2 W / du^2
 };
 
 /// The first degree of freedom of a node: x, y and theta follow each other.

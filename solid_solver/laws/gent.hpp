@@ -10,13 +10,14 @@
 
 namespace fsi::solid {
 
-/// psi = -mu J_m / 2 ln(1 - (I1 - 3) / J_m) - mu ln J + (lambda
-/// / 2 - mu / J_m) (ln J)^2, I1 - 3 = tr C - 2 in plane strain.
+/// psi = -mu J_m / 2 ln(1 - (I1 - 3) / J_m) - mu ln J + (lambda / 2 - mu / J_m) (ln J)^2, I1 - 3 = tr C - 2
+/// in plane strain.
 ///
 /// The locking resists a change of area too, with 2 mu / J_m at rest, which the coefficient of (ln J)^2 takes
-/// off again: lambda and mu are the Lame constants of the rest state. Needs J_m >= 2 mu / lambda; otherwise the
-/// energy of an element that is squeezed to nothing has no lower bound. J_m -> infinity is the neo-Hookean law. As I1 - 3 goes to J_m energy, stress and stiffness grow without
-/// bound; beyond, and for J <= 0, everything is not-a-number: the solid solver finds and names such points.
+/// off again: lambda and mu are the Lame constants of the rest state. Needs J_m >= 2 mu / lambda; otherwise
+/// the energy of an element that is squeezed to nothing has no lower bound. J_m -> infinity is the
+/// neo-Hookean law. As I1 - 3 goes to J_m energy, stress and stiffness grow without bound; beyond, and for J
+/// <= 0, everything is not-a-number: the solid solver finds and names such points.
 struct Gent {
   static constexpr std::string_view name = "gent";
   static constexpr bool objective = true;

@@ -44,8 +44,8 @@ concept Law = requires(const L law, const Tensor2 F) {
   { law.mu } -> std::convertible_to<double>;
 };
 
-/// The law with the Lame constants and with its own numbers by their keys. Whether they are there and in their
-/// range is checked where a case is read (common/case/read/build_material.hpp).
+/// The law with the Lame constants and with its own numbers by their keys. Whether they are there and in
+/// their range is checked where a case is read (common/case/read/build_material.hpp).
 template <Law L>
 L law_with(double lambda, double mu, const std::map<std::string, double>& numbers) {
   L law{.lambda = lambda, .mu = mu};

@@ -9,11 +9,12 @@
 
 namespace fsi::solid {
 
-/// psi = c10 (I1 - 3) + c01 (I2 - 3) - (2 c10 + 4 c01) ln J + (lambda - 4 c01) / 2 (ln J)^2, c10 = mu/2 - c01.
+/// psi = c10 (I1 - 3) + c01 (I2 - 3) - (2 c10 + 4 c01) ln J + (lambda - 4 c01) / 2 (ln J)^2, c10 = mu/2 -
+/// c01.
 ///
 /// The coefficients of ln J make the rest state free of stress and give it the Lame constants lambda and mu,
-/// and c01 = 0 is the neo-Hookean law. In plane strain C33 = 1 makes I1 = tr C + 1 and I2 = tr C + J^2, so that
-/// c10 and c01 act as their sum, mu / 2, on the shape of an element, and c01 alone on its area:
+/// and c01 = 0 is the neo-Hookean law. In plane strain C33 = 1 makes I1 = tr C + 1 and I2 = tr C + J^2, so
+/// that c10 and c01 act as their sum, mu / 2, on the shape of an element, and c01 alone on its area:
 ///
 ///     psi = mu/2 (tr C - 2) - mu ln J + c01 (J^2 - 1 - 2 ln J) + (lambda - 4 c01) / 2 (ln J)^2.
 ///

@@ -1,6 +1,6 @@
 #pragma once
-/// The numbers of a solid's law: moduli of the rest state, in any of the forms a case may write them, and what
-/// only one law takes.
+/// The numbers of a solid's law: moduli of the rest state, in any of the forms a case may write them, and
+/// what only one law takes.
 
 #include <string>
 

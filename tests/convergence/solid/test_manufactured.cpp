@@ -152,8 +152,8 @@ Errors nearly_incompressible(int cells) {
   return run<MooneyRivlin>({.sides = "tttt", .lambda = 70, .c01 = 0.2, .t_end = 0.4}, cells);
 }
 
-/// The p-wave is six times as fast as with the laws above, and takes as many more steps; pressures are lambda times
-/// the change of area, and their errors a part of that.
+/// The p-wave is six times as fast as with the laws above, and takes as many more steps; pressures are lambda
+/// times the change of area, and their errors a part of that.
 TEST(Eq32NearlyIncompressible, MooneyRivlinIsStableAndOfSecondOrderBetweenLoads) {
   const Errors coarse = nearly_incompressible(16), fine = nearly_incompressible(32);
   const std::string what = fmt::format("u {:.2e} v {:.2e} P {:.2e}", fine.u, fine.v, fine.P);

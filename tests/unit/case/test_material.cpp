@@ -13,9 +13,10 @@ namespace {
 
 /// The solid of a case with these words in the place of its moduli.
 SolidSpec solid_with(const std::string& law, const std::string& words) {
-  const std::string solid = "solids={block: {law: " + law + ", rho: 2, " + words +
-                            ", grid: {x: [0, 1], y: [0, 1], spacing: h}, boundary: {left: clamped, right: free, "
-                            "bottom: free, top: free}}}";
+  const std::string solid =
+      "solids={block: {law: " + law + ", rho: 2, " + words +
+      ", grid: {x: [0, 1], y: [0, 1], spacing: h}, boundary: {left: clamped, right: free, "
+      "bottom: free, top: free}}}";
   return load_case(configs_folder() + "/spinning_block.yaml", {solid, "expect={}"}).solids.front();
 }
 
@@ -37,7 +38,8 @@ TEST(Moduli, OfInvariantsResistPressureAndShearAsTheySay) {
 }
 
 TEST(Moduli, AreTakenByEveryLawInEveryForm) {
-  for (const char* law : {"linear_elastic", "saint_venant_kirchhoff", "neo_hookean", "mooney_rivlin", "gent"}) {
+  for (const char* law :
+       {"linear_elastic", "saint_venant_kirchhoff", "neo_hookean", "mooney_rivlin", "gent"}) {
     for (const char* moduli : {"lambda: 6, mu: 1", "E: 1, nu: 0.4", "c10: 1, bulk: 30"}) {
       EXPECT_GT(solid_with(law, std::string(moduli) + ", c01: 0.1, J_m: 20").mu, 0) << law << ": " << moduli;
     }

@@ -164,28 +164,35 @@ const Mistake values[] = {
     {"ProgramOfALaw", "law: neo_hookean", "law: neo_hookean\n    program: mine",
      "case.yaml:19:14: solids.solid.program: belongs to `law: external`"},
     {"ModulusLeftOutWithALawOfDeformation", "    mu: 1\n", "",
-     "case.yaml:18:5: solids.solid: `mu` is missing; the moduli are `lambda` and `mu`, or `E` and `nu`, or `c10`, `c01` "
+     "case.yaml:18:5: solids.solid: `mu` is missing; the moduli are `lambda` and `mu`, or `E` and `nu`, or "
+     "`c10`, `c01` "
      "and `bulk`"},
     {"NoModuli", "    lambda: 1\n    mu: 1\n", "",
-     "case.yaml:18:5: solids.solid: the moduli are missing; write `lambda` and `mu`, or `E` and `nu`, or `c10`, `c01` "
+     "case.yaml:18:5: solids.solid: the moduli are missing; write `lambda` and `mu`, or `E` and `nu`, or "
+     "`c10`, `c01` "
      "and `bulk`"},
     {"ModuliInTwoForms", "    mu: 1\n", "    mu: 1\n    nu: 0.3\n",
-     "case.yaml:22:9: solids.solid: says its moduli twice; write `lambda` and `mu`, or `E` and `nu`, or `c10`, `c01` "
+     "case.yaml:22:9: solids.solid: says its moduli twice; write `lambda` and `mu`, or `E` and `nu`, or "
+     "`c10`, `c01` "
      "and `bulk`, and leave the others out of the file"},
     {"IncompressibleSolid", "    lambda: 1\n    mu: 1\n", "    E: 1\n    nu: 0.5\n",
      "case.yaml:21:9: solids.solid.nu: must be >= 0 and < 0.5 [-], is 0.5"},
     {"GentWithoutItsLocking", "law: neo_hookean", "law: gent",
-     "case.yaml:18:5: solids.solid: law `gent` needs `J_m`, the largest I1 - 3 [-]; on the command line: --set "
+     "case.yaml:18:5: solids.solid: law `gent` needs `J_m`, the largest I1 - 3 [-]; on the command line: "
+     "--set "
      "solids.solid.J_m=.."},
     {"GentThatLocksTooEarly", "law: neo_hookean", "law: gent\n    J_m: 1.5",
-     "case.yaml:19:10: solids.solid.J_m: must be at least 2 mu / lambda = 2, or the energy has no lower bound"},
+     "case.yaml:19:10: solids.solid.J_m: must be at least 2 mu / lambda = 2, or the energy has no lower "
+     "bound"},
     {"MooneyRivlinWithTooMuchOfItsSecondConstant", "law: neo_hookean", "law: mooney_rivlin\n    c01: 0.6",
      "case.yaml:19:10: solids.solid.c01: must be at most mu / 2 = 0.5: mu / 2 is c10 + c01"},
     {"MooneyRivlinWithTooLittleBulk", "law: neo_hookean", "law: mooney_rivlin\n    c01: 0.3",
-     "case.yaml:19:10: solids.solid.c01: must be at most lambda / 4 = 0.25, or the energy has no lower bound; lambda is "
+     "case.yaml:19:10: solids.solid.c01: must be at most lambda / 4 = 0.25, or the energy has no lower "
+     "bound; lambda is "
      "bulk - 4/3 (c10 + c01)"},
     {"BulkModulusTooSmall", "    lambda: 1\n    mu: 1\n", "    c10: 1\n    c01: 0.5\n    bulk: 1\n",
-     "case.yaml:22:11: solids.solid.bulk: must be at least 4/3 (c10 + c01) = 2, so that lambda is not negative"},
+     "case.yaml:22:11: solids.solid.bulk: must be at least 4/3 (c10 + c01) = 2, so that lambda is not "
+     "negative"},
     {"ExpectedQuantityThatDoesNotExist", "status: completed", "eror.rho: {max: 1}",
      "case.yaml:29:20: expect: summary.json has no `eror.rho` (status, reason, t, steps, dt, wall_s, "
      "participants, errors, interface, counters, "

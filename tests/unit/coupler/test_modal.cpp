@@ -111,7 +111,8 @@ TEST(ModalProjection, ManyModesAreSolvedAsFewAre) {
   EXPECT_LE((S * q_dot - g - 0.3 * (load.f - load.A * q_dot)).norm(), 1e-13);
 }
 
-/// Mode vectors of a chain: each point moves with two neighbouring modes, or with modes `apart` from each other.
+/// Mode vectors of a chain: each point moves with two neighbouring modes, or with modes `apart` from each
+/// other.
 Eigen::SparseMatrix<double> chain(int modes, int points, int apart) {
   Eigen::MatrixXd N = Eigen::MatrixXd::Zero(modes, points);
   for (int i = 0; i < points; ++i) {
