@@ -337,7 +337,9 @@ std::string SolidComponent<L>::trouble(double dt) const {
     for (const auto& [begin, end] : points_.discretised(j)) {
       for (int i = begin; i < end; ++i) {
         if (const std::string what = trouble_at(i, j, dt); !what.empty()) {
-          return fmt::format("grid \"{}\", point ({}, {}): {}", grid_.name(), i, j, what);
+          const ConstFieldView x = grid_.x();
+          return fmt::format("grid \"{}\", point ({}, {}), of the reference ({:.4g}, {:.4g}): {}",
+                             grid_.name(), i, j, x(0, i, j), x(1, i, j), what);
         }
       }
     }

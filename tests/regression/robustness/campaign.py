@@ -8,7 +8,7 @@ pressure on a body in parts of that behind the shock, amplification of implicit 
 
 Exit 1 where a case that `check` calls fine does not come to its end, where the shock did not meet its body, where a refusal has no
 place in the file, or (of twenty cases at least) where `check` calls fewer than 95 % of the roomy cases fine: those with thickness and gaps of four
-spacings and corners of 30 degrees. The same seed makes the same cases. Programs: build/release/bin, or $FSI_BIN.
+spacings and corners of 30 degrees. The same seed makes the same cases. `robustness.outlines` of the suite runs a dozen. Programs: build/release/bin, or $FSI_BIN.
 """
 
 import argparse
@@ -40,7 +40,7 @@ def checked(path):
 
 def ended(path, end, out):
     """Exit code, last words and summary of a run to `end`."""
-    command = [ROOT / "launch" / "fsi", "run", str(path), "--set", f"time.end={end}", "--no-progress", "--out", str(out)]
+    command = [ROOT / "launch" / "fsi", "run", str(path), "--set", f"time.end={end}", "--no-progress", "--overwrite", "--out", str(out)]
     answer = subprocess.run(command, capture_output=True, text=True, check=False, timeout=WATCHDOG,
                             env=os.environ | {"FSI_BIN": str(BIN)})
     summary = out / "summary.json"

@@ -8,6 +8,7 @@
 
 #include "common/case/grids/composite_from_case.hpp"
 #include "common/case/report/cost.hpp"
+#include "common/core/failure.hpp"
 #include "tests/unit/case/cases.hpp"
 
 namespace fsi {
@@ -134,6 +135,57 @@ TEST(OpenOutlines, EndsThatAreNotOnTheirWallAreNamedWithTheirDistance) {
   const std::string message = mistake_in(wall_case("[[-2, -1.9], [0, -2], [1.75, -1.5]]", "[left, right]"));
   EXPECT_NE(message.find("(1.75, -1.5), is 0.25 from the right side of fluid.grid, x = 2"), std::string::npos)
       << message;
+}
+
+std::string circle_above_the_floor(double gap) {
+  return "{kind: circle, centre: [0, " + std::to_string(-2 + 0.5 + gap) + "], radius: 0.5}";
+}
+
+TEST(ChosenGrids, AWallThatABodyIsNearToGetsAGridAlongIt) {
+  const Case near = load_text(bodies_case({circle_above_the_floor(0.1)}));  // two spacings
+  ASSERT_EQ(near.fluid->body_fitted.size(), 2U);
+  const BodyFittedSpec& strip = near.fluid->body_fitted[1];
+  EXPECT_EQ(strip.name, "along_bottom");
+  EXPECT_TRUE(strip.solid.empty());
+  for (int k = 0; k < strip.curve.points(); ++k)
+    EXPECT_EQ(strip.curve.x[static_cast<std::size_t>(strip.curve.points() + k)], -2);
+  EXPECT_NEAR((near.fluid->grid.x_b - near.fluid->grid.x_a) / (near.fluid->grid.n1 - 1), 0.05, 1e-9);
+  EXPECT_NO_THROW(connect_once(near.fluid->grid, near.fluid->body_fitted));
+  EXPECT_TRUE(load_text(near.resolved).chosen.empty());
+  // No body near, no wall, or a grid that the file describes: none.
+  EXPECT_EQ(load_text(bodies_case({circle_above_the_floor(0.6)})).fluid->body_fitted.size(), 1U);
+  EXPECT_EQ(load_text(bodies_case({circle_above_the_floor(0.4)}), {"fluid.boundary.bottom=outflow"})
+                .fluid->body_fitted.size(),
+            1U);
+  EXPECT_EQ(load_text(bodies_case({circle_above_the_floor(0.4)}),
+                      {"fluid.body_fitted=[{name: ring, solid: body_0, lines: 6}]"})
+                .fluid->body_fitted.size(),
+            1U);
+}
+
+TEST(ChosenGrids, BodiesTwoSpacingsApartNeedNoFinerBackground) {
+  const Case problem = load_text(bodies_case(
+      {"{kind: circle, centre: [-0.55, 0], radius: 0.5}", "{kind: circle, centre: [0.55, 0], radius: 0.5}"}));
+  EXPECT_NEAR((problem.fluid->grid.x_b - problem.fluid->grid.x_a) / (problem.fluid->grid.n1 - 1), 0.05, 1e-9);
+  for (const BodyFittedSpec& ring : problem.fluid->body_fitted) EXPECT_NEAR(ring.spacing, 0.05, 1e-9);
+}
+
+TEST(ChosenGrids, GridsThatAmplifyErrorsAreRefusedWithARemedyThatConnects) {
+  // Six lines 0.55 spacings apart: what they and the background take from each other is narrow.
+  const std::string thin = bodies_case({"{kind: circle, centre: [0.013, 0.007], radius: 1}"});
+  int refused = 0;
+  for (const double spacing : {0.02, 0.0225, 0.025, 0.0275, 0.03}) {
+    const std::string given =
+        "fluid.body_fitted=[{name: ring, solid: body_0, lines: 6, spacing: " + std::to_string(spacing) + "}]";
+    try {
+      const Case fine = load_text(thin, {given});
+      EXPECT_NO_THROW(connect_once(fine.fluid->grid, fine.fluid->body_fitted));
+    } catch (const UserMistake& mistake) {
+      ++refused;
+      EXPECT_NE(std::string(mistake.what()).find("write `spacing: "), std::string::npos) << mistake.what();
+    }
+  }
+  EXPECT_GT(refused, 0);
 }
 
 /// An elastic square alone, its waves of speed 2, without stabilisation.

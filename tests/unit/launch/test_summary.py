@@ -51,6 +51,20 @@ class Summary(InScratch):
         self.assertIn('warning: noise of the grid\'s scale: v1 of solid ripples by 4.1 % of its range, grid "outline", point (3, 40)'
                       ' at (0.25, 1.5), t = 6.5', summary.describe(merged, self.folder))
 
+    def test_overlap_is_told_where_it_was_poor_and_only_there(self):
+        sound = {"amplification": 2.9, "implicit": 40, "narrowed": 0, "lines_left_out": 0,
+                 "grid": "ring", "point": [3, 6], "place": [0.25, 1.5], "t": 0.5}
+        self.part("fluid", overlap=sound)
+        self.part("body", overlap=sound | {"amplification": 1.0})
+        merged = self.merged()
+        self.assertEqual(merged["overlap"], {"fluid": sound})  # `body` is none of the piston's programs
+        self.assertNotIn("overlap", summary.describe(merged, self.folder))
+        self.part("fluid", overlap=sound | {"amplification": 41.5, "narrowed": 7, "lines_left_out": 3})
+        self.assertIn('overlap of fluid\'s grids: interpolation amplified errors 41.5 times (sound: 3.125), grid "ring", point (3, 6) at '
+                      "(0.25, 1.5), t = 0.5; 7 points with fewer donors; 3 grid lines left out", summary.describe(self.merged(), self.folder))
+        self.part("fluid", overlap=sound | {"amplification": None})
+        self.assertIn("amplified errors", summary.describe(self.merged(), self.folder))
+
     def test_jumps_are_said_to_be_before_the_projection_and_have_a_scale(self):
         self.part("coupler", interface={"max_velocity_jump": 67.3, "max_traction_jump": 7.3e6, "max_gap": 1e-6,
                                         "velocity_scale": 673.0, "traction_scale": 1e7})
