@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "common/core/failure.hpp"
 #include "common/grid/geometry/near_curves.hpp"
@@ -91,7 +92,14 @@ std::vector<grid::BodyFittedGrid> bodies_of(const std::vector<BodyFittedSpec>& s
   return bodies;
 }
 
-std::vector<grid::MovingGrid> grids_at_start(const std::vector<BodyFittedSpec>& specs) {
+namespace {
+
+struct StartingGrids {
+  std::vector<grid::MovingGrid> grids;
+  grid::NearCurves near;
+};
+
+StartingGrids start(const std::vector<BodyFittedSpec>& specs) {
   std::vector<grid::MovingGrid> grids;
   std::vector<grid::MovingGrid*> pointers;
   for (const BodyFittedSpec& spec : specs) {
@@ -99,15 +107,22 @@ std::vector<grid::MovingGrid> grids_at_start(const std::vector<BodyFittedSpec>& 
     if (!spec.map) check_corners(spec, grids.back().x());
   }
   for (grid::MovingGrid& grid : grids) pointers.push_back(&grid);
-  leave_room(pointers, bodies_of(specs), 0);
-  return grids;
+  grid::NearCurves near = leave_room(pointers, bodies_of(specs), 0);
+  return {std::move(grids), std::move(near)};
+}
+
+}  // namespace
+
+std::vector<grid::MovingGrid> grids_at_start(const std::vector<BodyFittedSpec>& specs) {
+  return start(specs).grids;
 }
 
 void connect_once(const GridSpec& background, const std::vector<BodyFittedSpec>& specs) {
-  const std::vector<grid::MovingGrid> grids = grids_at_start(specs);
+  const auto [grids, near] = start(specs);
   std::vector<ConstFieldView> views;
   for (const grid::MovingGrid& grid : grids) views.push_back(grid.x());
   grid::CompositeGrid composite(background_of(background), bodies_of(specs));
+  report_too_near(near, composite, 0);
   composite.connect(views, 0);
   const grid::OverlapRecord& worst = composite.record();
   if (worst.amplification <= grid::CompositeGrid::sound_amplification) return;

@@ -23,8 +23,8 @@ std::vector<grid::BodyFittedGrid> bodies_of(const std::vector<BodyFittedSpec>& s
 std::vector<grid::MovingGrid> grids_at_start(const std::vector<BodyFittedSpec>& specs);
 
 /// Marches the grids from their curves and connects them with the background at t = 0, to see whether that
-/// can be done. @throws NumbersBroke for folds, points without donors, and where points that interpolate from
-/// each other amplify errors more than is sound
+/// can be done. @throws NumbersBroke for folds, curves nearer to each other than is computed, points without
+/// donors, and where points that interpolate from each other amplify errors more than is sound
 void connect_once(const GridSpec& background, const std::vector<BodyFittedSpec>& specs);
 
 /// Whether that succeeds.

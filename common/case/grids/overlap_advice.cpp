@@ -9,6 +9,7 @@
 
 #include "common/case/grids/composite_from_case.hpp"
 #include "common/core/failure.hpp"
+#include "common/grid/geometry/near_curves.hpp"
 #include "common/grid/geometry/outline.hpp"
 
 namespace fsi {
@@ -97,6 +98,29 @@ std::string name_of_curve(const BodyFittedSpec& spec) {
 
 Vec2 without_noise(const Vec2& x, double unit) {
   return (unit * (x / unit).array().round() + 0.0).matrix();  // + 0: no -0
+}
+
+/// Two curves in the gas between which there is less than nothing can be computed with.
+std::optional<Advice> almost_touching(const OverlapCheck& check, const Node& list) {
+  const double least = grid::NearCurves::fewest_cells * spacing_of(check.background);
+  for (std::size_t k = 1; k < check.body_fitted.size(); ++k) {
+    for (std::size_t l = 0; l < k; ++l) {
+      const BodyFittedSpec &a = check.body_fitted[k], &b = check.body_fitted[l];
+      const grid::Gap gap = grid::gap_between(a.curve.x, b.curve.x);
+      constexpr double touching = 1e-6;  // one stands on the other
+      if (gap.distance >= least || gap.distance <= touching * least) continue;
+      const Vec2 x = without_noise(gap.x, 1e-2 * least);
+      constexpr double margin = 1.05;  // of the three digits
+      return Advice{
+          list.items[k], fmt::format("{}.body_fitted[{}]", check.path, k),
+          fmt::format("{} and {} are {:.3g} apart at ({:.4g}, {:.4g}); move them {:.3g} apart, {} of a "
+                      "cell of {}.grid, or take a greater grid.factor",
+                      name_of_curve(a), name_of_curve(b), gap.distance, x[0], x[1], margin * least,
+                      grid::NearCurves::fewest_cells, check.path),
+          least - gap.distance};
+    }
+  }
+  return std::nullopt;
 }
 
 /// Two curves in the gas nearer to each other than their grids are deep.
@@ -197,6 +221,7 @@ Advice advice_for(const OverlapCheck& check) {
   const Node& place = list != nullptr ? *list : *shape;
   const std::string path = fmt::format("{}.{}", check.path, list != nullptr ? "body_fitted" : "shape");
   if (shape == nullptr) {  // the gas
+    if (const auto touching = almost_touching(check, *list)) return *touching;
     const auto to_other = too_near(check, *list), to_side = too_near_to_side(check, *list);
     if (to_side && (!to_other || to_side->missing > to_other->missing)) return *to_side;
     if (to_other) return *to_other;
