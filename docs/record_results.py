@@ -475,9 +475,11 @@ How to read it:
 - Defects of mass, momentum and energy: [what they hold](output.md#budgets).
 - The sections about the shock and the ellipse but for the symmetries are older than the case's present angle: the long axis then stood at +45 degrees,
   the mirror image. `--set parameters.angle=45` repeats them; now `centre2`, `velocity2` and `angle` have the other sign.
-- Sections with a deforming solid are older than the solid's present step (the mean velocity in (37), the slide of the interface): errors changed by some
-  per cent, P of the manufactured piston to a half. The commands are the same.
-- Times in seconds come from a machine with two cores and AVX2; those of single runs vary by some per cent.
+- Sections with a deforming solid are older than the solid's present step (the mean velocity in (37), the slide of the interface), unless they begin with
+  "Elastic piston, density ratio", "Manufactured piston", "piston_", "Solid: manufactured" or "Rotating disk" and a delta or a law. Elsewhere errors changed by some
+  per cent. The commands are the same.
+- Times in seconds come from machines with two cores. Those in tables of errors were taken beside other work and say nothing but the order of size; those of
+  "time of each program" and of the benchmarks come from a quiet machine and vary by some per cent.
 
 """
 
