@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -17,18 +16,10 @@
 #include "common/bus/sessions/listener.hpp"
 #include "common/bus/sessions/solo_session.hpp"
 #include "tests/unit/bus/seats.hpp"
+#include "tests/waiting.hpp"
 
 namespace fsi::bus::test {
 namespace {
-
-/// Waits for what must come at some time.
-bool comes(const std::function<bool()>& condition) {
-  const auto start = std::chrono::steady_clock::now();
-  while (!condition()) {
-    if (std::chrono::steady_clock::now() - start > std::chrono::seconds(50)) return false;
-  }
-  return true;
-}
 
 wire::Picture square(const std::string& quantity) {
   wire::Picture picture;
@@ -73,13 +64,13 @@ TEST_F(Watched, NothingIsDrawnUntilSomebodyWatches) {
   Listener listener(own_run());
   listener.wait(0);  // it listens, but watches no pictures
   EXPECT_FALSE(due());
-  ASSERT_TRUE(comes([&] {
+  ASSERT_TRUE(fsi::test::until([&] {
     listener.watch({"fluid.pressure"});
     listener.wait(0.05);
     return due();
   }));
   std::vector<wire::Picture> pictures;
-  ASSERT_TRUE(comes([&] {
+  ASSERT_TRUE(fsi::test::until([&] {
     listener.watch({"fluid.pressure"});
     solver_.show(draw_, 1, true);
     return seen(listener, pictures);
@@ -92,7 +83,7 @@ TEST_F(Watched, NothingIsDrawnUntilSomebodyWatches) {
 
 TEST_F(Watched, WhatWasShownOfAPausedStateIsNotDrawnAgain) {
   Listener listener(own_run());
-  ASSERT_TRUE(comes([&] {
+  ASSERT_TRUE(fsi::test::until([&] {
     listener.watch({"fluid.pressure"});
     listener.wait(0.05);
     return due();
@@ -112,7 +103,7 @@ TEST_F(Watched, DamagedPicturesAreLeftOut) {
   damaged.run = sound.run = own_run();
   damaged.grids[0].n2 = 40000;
   std::vector<wire::Picture> pictures;
-  ASSERT_TRUE(comes([&] {
+  ASSERT_TRUE(fsi::test::until([&] {
     listener.watch({"fluid.pressure"});
     forger.write(borrow(damaged).sample);
     forger.write(borrow(sound).sample);
@@ -172,7 +163,7 @@ TEST(Traffic, IsCountedPerInterfaceAndDirection) {
       session.gather(step);
       session.scatter(std::vector{projected("fluid", step), projected("beam", step)});
     }
-    ASSERT_TRUE(comes([&] {
+    ASSERT_TRUE(fsi::test::until([&] {
       session.publish(wire::Telemetry{});
       for (wire::Telemetry& one : listener.wait(0.05)) {
         if (one.role == "coupler") heard.push_back(std::move(one));
