@@ -149,12 +149,12 @@ TYPED_TEST(Eq32ManufacturedMotion, LosesOrderOfStressOnlyWhereACornerIsSingular)
 
 /// Nearly incompressible, lambda / mu = 100.
 Errors nearly_incompressible(int cells) {
-  return run<MooneyRivlin>({.sides = "tttt", .lambda = 70, .c01 = 0.2, .t_end = 0.4}, cells);
+  return run<MooneyRivlin>({.sides = "dddd", .lambda = 70, .c01 = 0.2, .t_end = 0.4}, cells);
 }
 
 /// The p-wave is six times as fast as with the laws above, and takes as many more steps; pressures are lambda
 /// times the change of area, and their errors a part of that.
-TEST(Eq32NearlyIncompressible, MooneyRivlinIsStableAndOfSecondOrderBetweenLoads) {
+TEST(Eq32NearlyIncompressible, MooneyRivlinIsStableAndOfSecondOrder) {
   const Errors coarse = nearly_incompressible(16), fine = nearly_incompressible(32);
   const std::string what = fmt::format("u {:.2e} v {:.2e} P {:.2e}", fine.u, fine.v, fine.P);
   EXPECT_GE(std::log2(coarse.u / fine.u), 1.9) << what;
