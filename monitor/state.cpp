@@ -81,7 +81,10 @@ void RunState::note_timeline(const wire::Telemetry& telemetry, double now) {
 }
 
 void RunState::count_programs(int programs, double now) {
-  if (programs > 0 || programs_.empty()) {
+  const auto lives = [](const auto& seen) {
+    return seen.second == Process::lives || seen.second == Process::stopped;
+  };
+  if (programs > 0 || programs_.empty() || std::ranges::any_of(processes_, lives)) {
     empty_since_.reset();
     return;
   }

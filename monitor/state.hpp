@@ -36,7 +36,8 @@ class RunState {
 
   void hear(const wire::Telemetry& telemetry, double now);
   void hear(const wire::Abort& abort) { abort_ = abort; }
-  /// Programs the bus can hear now; none after there were some: the run is over.
+  /// Programs the bus can hear now; none after there were some: the run is over, unless a process was seen
+  /// that lives. (On a busy machine all of them may be silent for longer than their leases.)
   void count_programs(int programs, double now);
   void see_process(const std::string& program, Process process) { processes_[program] = process; }
   /// The run is over, known from elsewhere than the bus.

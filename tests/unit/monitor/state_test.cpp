@@ -48,6 +48,19 @@ TEST(RunState, RunIsOverWhenItsProgramsAreGoneOrOneAborts) {
   state.count_programs(0, 102);
   EXPECT_EQ(state.status(), "ended");
 
+  RunState busy(entry("r"));
+  busy.hear(telemetry("fluid", "fluid", 1, 1), 100);
+  for (const Process process : {Process::lives, Process::stopped}) {
+    busy.see_process("fluid", process);
+    busy.count_programs(0, 101);
+    busy.count_programs(0, 200);
+    EXPECT_FALSE(busy.over()) << "a program that lives may be silent for a while";
+  }
+  busy.see_process("fluid", Process::gone);
+  busy.count_programs(0, 201);
+  busy.count_programs(0, 202);
+  EXPECT_EQ(busy.status(), "ended");
+
   wire::Abort abort;
   abort.from = "fluid";
   RunState other(entry("r"));
