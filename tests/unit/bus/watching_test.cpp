@@ -142,16 +142,16 @@ TEST(Pictures, AreSoundOnlyWithArraysOfTheLengthsTheyPromise) {
 
 TEST(Traffic, IsCountedPerInterfaceAndDirection) {
   const std::string run = own_run();
-  constexpr std::uint64_t steps = 5;
+  constexpr std::uint64_t exchanged = 5;
   Listener listener(run);
   const auto solve = [&run](const wire::Hello& self) {
     SolverSession session(options(run), self);
-    for (std::uint64_t step = 0; step < steps; ++step) {
+    for (std::uint64_t step = 0; step < exchanged; ++step) {
       session.publish(predicted(step));
       session.receive("beam", step);
     }
     const Statistics all = session.statistics();
-    EXPECT_EQ(all.messages, 2 * steps);
+    EXPECT_EQ(all.messages, 2 * exchanged);
     session.publish(wire::Telemetry{});
     session.leave();
   };
@@ -159,7 +159,7 @@ TEST(Traffic, IsCountedPerInterfaceAndDirection) {
   std::vector<wire::Telemetry> heard;
   auto coupler = in_thread([&] {
     CouplerSession session(options(run), gas_and_solid(), "one case");
-    for (std::uint64_t step = 0; step < steps; ++step) {
+    for (std::uint64_t step = 0; step < exchanged; ++step) {
       session.gather(step);
       session.scatter(std::vector{projected("fluid", step), projected("beam", step)});
     }
@@ -176,8 +176,8 @@ TEST(Traffic, IsCountedPerInterfaceAndDirection) {
   ASSERT_EQ(heard.at(0).traffic.size(), 2U);
   for (const wire::Traffic& one : heard[0].traffic) {
     EXPECT_EQ(one.interface, "beam");
-    EXPECT_EQ(one.messages, steps);
-    EXPECT_EQ(one.bytes, steps * 6 * sizeof(double));  // v of three points
+    EXPECT_EQ(one.messages, exchanged);
+    EXPECT_EQ(one.bytes, exchanged * 6 * sizeof(double));  // v of three points
     EXPECT_GE(one.latency_p99_us, one.latency_p50_us);
   }
   EXPECT_EQ(heard[0].traffic[0].from, "fluid");
