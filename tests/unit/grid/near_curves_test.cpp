@@ -75,8 +75,8 @@ struct TwoRings {
   CompositeGrid composite;
 
   explicit TwoRings(double gap)
-      : bodies{{"one", points, lines, Side::top, Curve::closed, "body `one`"},
-               {"two", points, lines, Side::top, Curve::closed, "body `two`"}},
+      : bodies{{.name = "one", .n1 = points, .n2 = lines, .curve = Side::top, .of = "body `one`"},
+               {.name = "two", .n1 = points, .n2 = lines, .curve = Side::top, .of = "body `two`"}},
         composite({.n1 = 81, .n2 = 61, .x_a = -2, .x_b = 2, .y_a = -1.5, .y_b = 1.5}, bodies) {
     for (const double side : {-1, 1}) {
       const HyperbolicGrid ring{.name = side < 0 ? "one" : "two",
