@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "common/core/failure.hpp"
 #include "common/grid/shapes/circle.hpp"
@@ -158,6 +161,57 @@ TEST(MovingGrid, NamesGridPointAndTimeOfAFoldedCell) {
     EXPECT_NE(words.find("square"), std::string::npos);
     EXPECT_NE(words.find("t = 0.5"), std::string::npos);
     EXPECT_NE(words.find("folded"), std::string::npos);
+  }
+}
+
+/// A strip above a line that rises by one half from the wall x = 0 to the wall x = 1.
+MovingGrid strip_between_walls(std::vector<double>& curve) {
+  constexpr int n = 21;
+  curve.assign(2 * n, 0.0);
+  for (std::size_t k = 0; k < n; ++k) {
+    curve[k] = static_cast<double>(k) / (n - 1);
+    curve[n + k] = 0.5 * curve[k];
+  }
+  const HyperbolicGrid strip{.name = "strip",
+                             .points = n,
+                             .lines = 6,
+                             .curve = Side::bottom,
+                             .ends = Curve::open,
+                             .spacing = 0.05,
+                             .walls = {Vec2(0, 1), Vec2(0, 1)}};
+  return MovingGrid(marched_from(strip, curve), 0);
+}
+
+TEST(MovingGrid, AnEndThatIsToldToLeaveItsWallGoesAlongItsCurveToTheWall) {
+  std::vector<double> curve;
+  MovingGrid grid = strip_between_walls(curve);
+  const std::size_t n = curve.size() / 2;
+  // Everything along the normal, (-1, 2): both ends leave their walls, the last one inwards.
+  for (std::size_t k = 0; k < n; ++k) curve[k] -= 0.01, curve[n + k] += 0.02;
+  grid.move(0.1, std::array{SideCommand{Side::bottom, curve}});
+  const std::vector<double> x = grid.side_points(Side::bottom);
+  EXPECT_NEAR(x[0], 0, 1e-15);
+  EXPECT_NEAR(x[n - 1], 1, 1e-15);
+  // The line y = x / 2 + 0.025, which was told, meets the walls at 0.025 and 0.525.
+  EXPECT_NEAR(x[n], 0.025, 1e-15);
+  EXPECT_NEAR(x[2 * n - 1], 0.525, 1e-15);
+  for (std::size_t k = 1; k + 1 < n; ++k) EXPECT_EQ(x[k], curve[k]);
+  for (const int j : {0, 3, 5}) {
+    EXPECT_NEAR(grid.x()(0, 0, j), 0, 1e-14);
+    EXPECT_NEAR(grid.x()(0, static_cast<int>(n) - 1, j), 1, 1e-14);
+  }
+}
+
+TEST(MovingGrid, AnEndFarFromItsWallEndsTheRunByName) {
+  std::vector<double> curve;
+  MovingGrid grid = strip_between_walls(curve);
+  for (std::size_t k = 0; k < curve.size() / 2; ++k) curve[k] *= 0.9;
+  try {
+    grid.move(0.1, std::array{SideCommand{Side::bottom, curve}});
+    FAIL() << "the end is two cells from its wall";
+  } catch (const NumbersBroke& failure) {
+    EXPECT_NE(std::string(failure.what()).find("has left the wall it stands on, by 0.1"), std::string::npos)
+        << failure.what();
   }
 }
 

@@ -90,7 +90,7 @@ TEST(RoundedPolygon, SaysWhichRadiusFits) {
   }
   EXPECT_THROW(rounded_polygon({.corners = {{0, 0}, {1, 0}, {0, 0}}, .radius = 0.1}), UserMistake);
   EXPECT_THROW(rounded_polygon({.corners = {{0, 0}, {0, 0}}, .radius = 0.1}), UserMistake);
-  EXPECT_THROW(rounded_polygon({.corners = {{0, 0}, {1, 0}}, .radius = 0}), UserMistake);
+  EXPECT_THROW(rounded_polygon({.corners = {{0, 0}, {1, 0}}, .radius = -0.1}), UserMistake);
 }
 
 TEST(Outline, IsAsThickAsItsNarrowestNormal) {

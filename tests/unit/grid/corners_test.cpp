@@ -1,0 +1,151 @@
+// Sharp corners of curves, and grids that fan around them.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/core/failure.hpp"
+#include "common/grid/marching/hyperbolic.hpp"
+#include "common/grid/geometry/outline.hpp"
+#include "common/grid/geometry/quality.hpp"
+#include "common/grid/shapes/blunted.hpp"
+#include "common/grid/shapes/rounded_polygon.hpp"
+#include "common/grid/shapes/spline.hpp"
+
+namespace fsi::grid {
+namespace {
+
+Vec2 point(const std::vector<double>& x, int k) {
+  const auto at = static_cast<std::size_t>(k);
+  return {x[at], x[x.size() / 2 + at]};
+}
+
+PlaneCurve sharp(std::vector<Vec2> corners, Curve ends = Curve::closed) {
+  return rounded_polygon({.corners = std::move(corners), .ends = ends, .radius = 0});
+}
+
+const std::vector<Vec2> box{{0, 0}, {2, 0}, {2, 1}, {0, 1}};
+
+TEST(Corners, EachIsAPointAndThePointsBetweenTwoOfThemAreEven) {
+  const PlaneCurve curve = sharp(box);
+  EXPECT_NEAR(length_of(curve), 6, 1e-14);
+  for (const int n : {9, 32, 101}) {
+    const std::vector<double> s = distribute(curve, n), x = points_at(curve, s);
+    const std::vector<int> corners = corners_among(curve, s);
+    ASSERT_EQ(corners.size(), 4U);
+    for (std::size_t k = 0; k < 4; ++k) EXPECT_EQ(point(x, corners[k]), box[(k + 1) % 4]) << n;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double step = (point(x, corners[k] + 1) - point(x, corners[k])).norm();
+      for (int i = corners[k]; i < corners[k + 1]; ++i)
+        EXPECT_NEAR((point(x, i + 1) - point(x, i)).norm(), step, 1e-14);
+    }
+  }
+  EXPECT_THROW(distribute(curve, 4), UserMistake);
+}
+
+/// Two arcs of the circles of radius 1 around (0, -c) and (0, c) that meet at the tips (+-sqrt(1 - c^2), 0).
+std::vector<Vec2> lens(double c, int points) {
+  std::vector<Vec2> list;
+  const double half = std::acos(c);  // angle of a tip against the axis through the centres
+  for (const double side : {1.0, -1.0}) {
+    for (int k = 0; k < points; ++k) {
+      const double angle = half * (1 - 2.0 * k / points);
+      list.emplace_back(side * std::sin(angle), side * (std::cos(angle) - c));
+    }
+  }
+  return list;
+}
+
+TEST(Corners, ASplineWithCornersStaysOnItsArcsUpToTheTips) {
+  constexpr double c = 0.9;
+  const auto off = [](const PlaneCurve& curve) {
+    double worst = 0;
+    for (double s = 0.001; s < 1; s += 0.002) {
+      const Vec2 x = curve.position(s);
+      worst = std::max(worst, std::abs((Vec2(x[0], std::abs(x[1])) - Vec2(0, -c)).norm() - 1));
+    }
+    return worst;
+  };
+  const PlaneCurve with = spline(lens(c, 12), Curve::closed, std::numbers::pi / 3),
+                   without = spline(lens(c, 12), Curve::closed);
+  EXPECT_EQ(with.corners.size(), 2U);
+  EXPECT_TRUE(without.corners.empty());
+  EXPECT_LT(off(with), 1e-5);  // a cubic spline's fourth order
+  EXPECT_GT(off(without), 1e-3);
+  // The circles' tangents at the tip, an angle of acos(c) from the axis.
+  const Vec2 slope = with.slope(with.corners[1]).normalized();
+  EXPECT_NEAR(std::abs(slope[0]), c, 1e-3);
+}
+
+TEST(Corners, AStretchOfTwoPointsIsStraight) {
+  const PlaneCurve curve = spline({{0, 0}, {1, 0}, {1, 1}, {0, 1}}, Curve::closed, 1);
+  EXPECT_EQ(curve.corners.size(), 4U);
+  EXPECT_NEAR(length_of(curve), 4, 1e-13);
+}
+
+TEST(Blunted, CutsSharpEndsOffAsWideAsItIsTold) {
+  // A dart whose tail at the origin has an angle of 2 atan(0.1); its other corners are blunt enough.
+  const PlaneCurve dart = sharp({{0, 0}, {-1, 0.1}, {-1.2, 0}, {-1, -0.1}});
+  constexpr double width = 0.05;
+  const PlaneCurve cut = blunted(dart, width);
+  const std::vector<double> s = distribute(cut, 81), x = points_at(cut, s);
+  const std::vector<int> corners = corners_among(cut, s);
+  ASSERT_EQ(corners.size(), 5U);
+  int faces = 0;
+  for (std::size_t k = 0; k < 5; ++k) {
+    const Vec2 a = point(x, corners[k]), b = point(x, corners[(k + 1) % 5]);
+    if (std::abs((a - b).norm() - width) > 1e-9) continue;
+    ++faces;
+    // Straight across, at the place where the sides, 0.2 of their length along x apart, are so far apart.
+    EXPECT_NEAR(a[0], -width / 0.2, 1e-9);
+    EXPECT_NEAR(b[0], a[0], 1e-9);
+  }
+  EXPECT_EQ(faces, 1);
+  for (int k = 0; k < 81; ++k) {
+    const bool on_face = std::abs(point(x, k)[0] + width / 0.2) < 1e-9;
+    if (on_face) continue;
+    EXPECT_LT(distance_to(points_on(dart, 4001), point(x, k)), 1e-4);
+  }
+  EXPECT_NEAR(length_of(cut), length_of(dart) - 2 * std::hypot(0.25, 0.025) + width, 1e-9);
+  EXPECT_THROW(blunted(dart, 0.3), UserMistake);
+}
+
+TEST(Blunted, LeavesRightAnglesAlone) {
+  EXPECT_EQ(blunted(sharp(box), 0.1).corners, sharp(box).corners);
+}
+
+TEST(Outline, ACornerIsNoBend) {
+  const PlaneCurve curve = sharp(box);
+  const std::vector<double> s = distribute(curve, 61), x = points_at(curve, s);
+  EXPECT_LT(sharpest_bend(x, Curve::closed, 1).radius, 0.2);
+  EXPECT_TRUE(std::isinf(sharpest_bend(x, Curve::closed, 1, corners_among(curve, s)).radius));
+}
+
+/// A grid on the outer side of a right-angled edge, points 0.05 apart.
+std::optional<CrowdedCorner> corner_of_grid(double spacing, double angle) {
+  const Vec2 down(-std::cos(angle), -std::sin(angle));
+  const auto x = points_on(sharp({{-1, 0}, {0, 0}, down}, Curve::open), 41);
+  HyperbolicMarch march(
+      {.points = 41, .lines = 6, .curve = Side::bottom, .ends = Curve::open, .spacing = spacing});
+  Field grid(march.layout(), 2);
+  march.march(x, grid.view(), 0);
+  return crowded_corner(grid.view(), Side::bottom);
+}
+
+TEST(CrowdedCorner, WideLinesFoldBehindACornerAndTheSpacingItNamesDoesNot) {
+  const double right = std::numbers::pi / 2, sharp_edge = std::numbers::pi / 6;
+  EXPECT_FALSE(corner_of_grid(0.05, right));
+  const auto wide = corner_of_grid(0.15, sharp_edge);
+  ASSERT_TRUE(wide);
+  EXPECT_EQ(wide->point, 20);
+  EXPECT_LT(wide->spacing, 0.15);
+  EXPECT_FALSE(corner_of_grid(0.9 * wide->spacing, sharp_edge));
+}
+
+}  // namespace
+}  // namespace fsi::grid
