@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "common/core/failure.hpp"
-#include "common/grid/marching/hyperbolic.hpp"
 #include "common/grid/geometry/outline.hpp"
 #include "common/grid/geometry/quality.hpp"
+#include "common/grid/marching/hyperbolic.hpp"
 #include "common/grid/shapes/blunted.hpp"
 #include "common/grid/shapes/rounded_polygon.hpp"
 #include "common/grid/shapes/spline.hpp"
@@ -90,7 +90,7 @@ TEST(Corners, AStretchOfTwoPointsIsStraight) {
 
 TEST(Blunted, CutsSharpEndsOffAsWideAsItIsTold) {
   // A dart whose tail at the origin has an angle of 2 atan(0.1); its other corners are blunt enough.
-  const PlaneCurve dart = sharp({{0, 0}, {-1, 0.1}, {-1.2, 0}, {-1, -0.1}});
+  const PlaneCurve dart = sharp({{0, 0}, {-1, 0.1}, {-1.05, 0}, {-1, -0.1}});
   constexpr double width = 0.05;
   const PlaneCurve cut = blunted(dart, width);
   const std::vector<double> s = distribute(cut, 81), x = points_at(cut, s);
