@@ -4,24 +4,24 @@ Each is (area, file, text, replacement, target, tests): `text` occurs exactly on
 holds the tests, `tests` its filter. structure.mutations checks that this table fits the tree.
 """
 
-GAS, SOLID = "fluid_solver/kernels", "solid_solver"
+GAS, SOLID = "fluid_solver/kernels", "solid_solver/kernels"
 
 MUTATIONS = [
     # --- gas: Riemann solvers
-    ("Roe flux: strength of the left sound wave", f"{GAS}/riemann_roe.hpp",
+    ("Roe flux: strength of the left sound wave", f"{GAS}/riemann/riemann_roe.hpp",
      "alpha_minus = 0.5 * (dp - du)", "alpha_minus = 0.5 * (dp + du)", "test_gas_kernels", "Eq1Riemann*"),
-    ("Roe flux: work of the sound waves", f"{GAS}/riemann_roe.hpp",
+    ("Roe flux: work of the sound waves", f"{GAS}/riemann/riemann_roe.hpp",
      "acoustic * H + difference * u", "acoustic * H - difference * u", "test_gas_kernels", "Eq1Riemann*"),
-    ("Roe flux: shear wave", f"{GAS}/riemann_roe.hpp",
+    ("Roe flux: shear wave", f"{GAS}/riemann/riemann_roe.hpp",
      "(all * v + shear)),", "(all * v - shear)),", "test_gas_kernels", "Eq1Riemann*"),
-    ("Roe flux: grid velocity in the speeds", f"{GAS}/riemann_roe.hpp",
+    ("Roe flux: grid velocity in the speeds", f"{GAS}/riemann/riemann_roe.hpp",
      "speed = u - g_n;", "speed = u + g_n;", "test_gas_kernels", "Eq1Riemann*"),
-    ("Roe flux: sonic-point fix", f"{GAS}/riemann_roe.hpp",
+    ("Roe flux: sonic-point fix", f"{GAS}/riemann/riemann_roe.hpp",
      "return lambda < width ? parabola : lambda;", "return lambda < width ? lambda : parabola;",
      "test_gas_kernels", "Eq1Riemann*"),
-    ("HLLC flux: side of the contact", f"{GAS}/riemann_hllc.hpp",
+    ("HLLC flux: side of the contact", f"{GAS}/riemann/riemann_hllc.hpp",
      "m_K = left ? m_L : m_R", "m_K = left ? m_R : m_L", "test_gas_kernels", "Eq1Riemann*"),
-    ("split flux: direction", f"{GAS}/riemann_split.hpp",
+    ("split flux: direction", f"{GAS}/riemann/riemann_split.hpp",
      "0.5 * (w + direction * fastest)", "0.5 * (w - direction * fastest)", "test_fluid", "SplitFlux*"),
     ("wave curve: shock", "common/interface/wave_curve.hpp",
      "const double m = 0.25 * (gamma + 1)", "const double m = 0.25 * (gamma - 1)", "test_coupler", "WaveCurve*"),
@@ -131,7 +131,7 @@ MUTATIONS = [
     # --- coupler
     ("Robin data: sign of the velocity", "coupler/exchange/interface_exchange.cpp",
      "then.w_n[k] + z_f_[k] * then.v_n[k]", "then.w_n[k] - z_f_[k] * then.v_n[k]", "test_coupler", "Coupler.Robin*"),
-    ("Robin data: extrapolation in time", f"{SOLID}/robin.cpp",
+    ("Robin data: extrapolation in time", "solid_solver/boundary/robin.cpp",
      "(now - t[l]) / (t[k] - t[l])", "(now - t[k]) / (t[k] - t[l])", "test_program", "Robin*"),
     ("motion: trend of the acceleration", "coupler/interface_motion.cpp",
      "mean + reach * (mean - mean_[k])", "mean - reach * (mean - mean_[k])", "test_coupler", "InterfaceMotion*"),

@@ -7,6 +7,7 @@
 
 #include "common/core/failure.hpp"
 #include "common/grid/geometry/near_curves.hpp"
+#include "common/grid/geometry/outline.hpp"
 #include "common/grid/geometry/quality.hpp"
 
 namespace fsi {
@@ -29,6 +30,24 @@ void check_corners(const BodyFittedSpec& spec, ConstFieldView x) {
       "grid \"{}\": its curve turns too sharply at ({:.4g}, {:.4g}) for the distance of its lines; write "
       "at most `spacing: {:.2g}` for it",
       spec.name, corner->x[0], corner->x[1], corner->spacing));
+}
+
+/// The ends of a grid that stands on a wall lie on it, as far as the grid is deep.
+void check_feet(const BodyFittedSpec& spec, const std::vector<BodyFittedSpec>& specs, ConstFieldView x) {
+  const auto wall = std::ranges::find(specs, spec.curve.on, &BodyFittedSpec::name);
+  if (spec.curve.on.empty() || wall == specs.end()) return;
+  constexpr double close = 1e-6;
+  for (const int i : {0, x.layout.n1 - 1}) {
+    for (int j = 0; j < x.layout.n2; ++j) {
+      const Vec2 end(x(0, i, j), x(1, i, j));
+      if (grid::distance_to(wall->curve.x, end) <= close * wall->curve.spacing) continue;
+      throw UserMistake(
+          fmt::format("grid \"{}\" reaches ({:.4g}, {:.4g}) along the wall of grid \"{}\", which bends "
+                      "before; let the body stand "
+                      "farther from the bend, or make the grid less deep with a smaller `spacing`",
+                      spec.name, end[0], end[1], wall->name));
+    }
+  }
 }
 
 }  // namespace
@@ -105,6 +124,7 @@ StartingGrids start(const std::vector<BodyFittedSpec>& specs) {
   for (const BodyFittedSpec& spec : specs) {
     grids.emplace_back(grid_of(spec), 0);
     if (!spec.map) check_corners(spec, grids.back().x());
+    check_feet(spec, specs, grids.back().x());
   }
   for (grid::MovingGrid& grid : grids) pointers.push_back(&grid);
   grid::NearCurves near = leave_room(pointers, bodies_of(specs), 0);

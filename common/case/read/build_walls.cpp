@@ -86,14 +86,13 @@ Side side_facing(const Vec2& inwards) {
 }
 
 /// Where the wall bends between the feet, if it does.
-std::optional<Vec2> bend_between(const CurveSpec& wall, const std::array<Foot, 2>& feet, const Vec2& base) {
+std::optional<Vec2> bend_between(const CurveSpec& wall, const std::array<Foot, 2>& feet) {
   const auto [first, last] = std::minmax(feet[0].segment, feet[1].segment);
-  const Vec2 along = feet[0].along;
   constexpr double straight = 1e-9;
   for (int k = first + 1; k <= last; ++k) {
-    const Vec2 away = point_of(wall, k) - base;
-    if (std::abs(away[0] * along[1] - away[1] * along[0]) > straight * wall.spacing * wall.points())
-      return point_of(wall, k);
+    const Vec2 here = point_of(wall, k), before = (here - point_of(wall, k - 1)).normalized(),
+               after = (point_of(wall, k + 1) - here).normalized();
+    if (std::abs(before[0] * after[1] - before[1] * after[0]) > straight) return here;
   }
   return std::nullopt;
 }
@@ -155,7 +154,7 @@ void stand_on_wall(const Reader& reader, const Node& shape, const std::string& p
               ends[end][0], ends[end][1], feet[end].distance, in_ticks(curve.on)));
     }
   }
-  if (const auto bend = bend_between(wall, feet, ends[0])) {
+  if (const auto bend = bend_between(wall, feet)) {
     fail(walls.place, where,
          fmt::format(
              "the wall of grid {} bends at ({:.4g}, {:.4g}), between the ends of the outline; let the body "

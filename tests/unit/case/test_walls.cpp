@@ -88,9 +88,11 @@ TEST(Walls, MistakesNameThePlaceAndWhatToWrite) {
             "no grid with a `shape` in fluid.body_fitted `flor`; did you mean"},
            {floor_case(panel, "[floor, bottom]"), "both on the wall of one grid: write its name twice"},
            {floor_case("[[-0.5, 0.1], [-0.5, 0.6], [-0.3, 0.6], [-0.3, 0.1]]"),
-            "(-0.3, 0.1), is 0.1 from the wall of grid `floor`"},
+            "0.1), is 0.1 from the wall of grid `floor`"},
            {floor_case("[[0.9, 0], [0.9, 0.6], [1.3, 0.6], [1.3, -0.2]]"),
-            "the wall of grid `floor` bends at (0.996, 0), between the ends"},
+            "the wall of grid `floor` bends at (1, 0), between the ends"},
+           {floor_case("[[0.7, 0], [0.7, 0.6], [0.98, 0.6], [0.98, 0]]"),
+            "along the wall of grid \"floor\", which bends"},
            {floor_case(panel, "[floor, floor]", "motion: free"), "nothing holds it there"}}) {
     const std::string message = mistake_in(text);
     EXPECT_NE(message.find(says), std::string::npos) << message << "\nexpected: " << says;
