@@ -5,14 +5,17 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "common/core/failure.hpp"
+#include "common/grid/cartesian_grid.hpp"
 #include "common/grid/geometry/outline.hpp"
 #include "common/grid/geometry/quality.hpp"
 #include "common/grid/marching/hyperbolic.hpp"
+#include "common/grid/overlap/hole_cutting.hpp"
 #include "common/grid/shapes/blunted.hpp"
 #include "common/grid/shapes/rounded_polygon.hpp"
 #include "common/grid/shapes/spline.hpp"
@@ -145,6 +148,31 @@ TEST(CrowdedCorner, WideLinesFoldBehindACornerAndTheSpacingItNamesDoesNot) {
   EXPECT_EQ(wide->point, 20);
   EXPECT_LT(wide->spacing, 0.15);
   EXPECT_FALSE(corner_of_grid(0.9 * wide->spacing, sharp_edge));
+}
+
+TEST(CurveCut, ACurveOnAWallIsClosedALittleBehindIt) {
+  const CartesianGrid background{.name = "gas", .n1 = 21, .n2 = 21, .x_a = -1, .x_b = 1, .y_a = -1, .y_b = 1};
+  // A box on y = 0, in both directions: the wall between its ends is behind it, what is deeper is not.
+  for (const bool domain_left : {false, true}) {
+    const double first = domain_left ? 0.33 : -0.33;
+    const auto x =
+        points_on(sharp({{-first, 0}, {-first, 0.52}, {first, 0.52}, {first, 0}}, Curve::open), 41);
+    CurveCut cut;
+    cut.cut(background,
+            {.x = x.data(),
+             .y = x.data() + 41,
+             .points = 41,
+             .ends = Curve::open,
+             .domain_left = domain_left,
+             .on_wall = true},
+            "box", 0);
+    for (const double place : {-0.3, 0.0, 0.17}) {
+      for (const double y : {0.3, 1e-12, -1e-12, -0.005})
+        EXPECT_TRUE(cut.behind(background, {place, y})) << y;
+      for (const double y : {0.6, -0.02, -0.5}) EXPECT_FALSE(cut.behind(background, {place, y})) << y;
+    }
+    EXPECT_FALSE(cut.behind(background, {0.4, 0}));
+  }
 }
 
 }  // namespace
