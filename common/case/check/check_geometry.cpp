@@ -233,6 +233,21 @@ void check_apart(const CheckedOutline& outline, const CheckedOutline& other) {
                    outline.name, other.name, overlap.distance, overlap.x[0], overlap.x[1]));
 }
 
+/// Grids fan around corners on the outside; on the inside their lines would meet.
+void check_corners_inside(const Outline& outline) {
+  if (outline.curve.corners.empty()) return;
+  const Vec2 x = rounded(outline.point(static_cast<std::size_t>(outline.curve.corners.front())));
+  const bool polygon = outline.node.find("corners") != nullptr;
+  fail(outline.node.place, outline.path,
+       fmt::format("the outline has a sharp corner at ({:.4g}, {:.4g}), around which no grid inside an "
+                   "elastic body can be "
+                   "laid; {}, or take `law: rigid`",
+                   x[0], x[1],
+                   polygon ? fmt::format("round the corners with a `radius`, {:.2g} for example",
+                                         2 * outline.curve.spacing)
+                           : "leave out `corner_angle`, which makes it smooth"));
+}
+
 }  // namespace
 
 void check_geometry(const Case& problem, const Node& root) {
@@ -240,6 +255,7 @@ void check_geometry(const Case& problem, const Node& root) {
     if (solid.body_fitted.empty()) continue;
     check_crossing_itself(outline_of(solid, root));
     const bool has_core = is_continuum(solid.law);
+    if (has_core) check_corners_inside(outline_of(solid, root));
     if (has_core && is_upright(solid.grid)) check_core(solid, root);
   }
   if (!problem.fluid) return;

@@ -99,6 +99,24 @@ TEST(Walls, MistakesNameThePlaceAndWhatToWrite) {
   }
 }
 
+TEST(Walls, AnElasticBodyHasNoSharpCornersAndTheRadiusThatIsNamedWorks) {
+  const auto box = [](const std::string& radius) {
+    return "time: {end: 1}\ngrid: {factor: 2}\nsolids:\n  box:\n    law: neo_hookean\n    rho: 1\n    "
+           "lambda: 1\n"
+           "    mu: 1\n    body_fitted: {boundary: free}\n"
+           "    shape: {kind: polygon, corners: [[0, 0], [1, 0], [1, 0.7], [0, 0.7]], radius: " +
+           radius + "}\n";
+  };
+  const std::string message = mistake_in(box("0"));
+  EXPECT_NE(message.find("sharp corner at (1, 0)"), std::string::npos) << message;
+  const std::string before = "with a `radius`, ";
+  const std::size_t at = message.find(before);
+  ASSERT_NE(at, std::string::npos) << message;
+  const std::string radius =
+      message.substr(at + before.size(), message.find(" for example") - at - before.size());
+  EXPECT_EQ(mistake_in(box(radius)), "") << radius;
+}
+
 /// An elastic ramp between two sides of the gas's rectangle.
 std::string ramp_case(const std::string& right) {
   return "time: {end: 1}\n"
