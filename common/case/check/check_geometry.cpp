@@ -234,7 +234,7 @@ void check_apart(const CheckedOutline& outline, const CheckedOutline& other) {
 }
 
 /// Grids fan around corners on the outside; on the inside their lines would meet.
-void check_corners_inside(const Outline& outline) {
+void check_corners_inside(const CheckedOutline& outline) {
   if (outline.curve.corners.empty()) return;
   const Vec2 x = rounded(outline.point(static_cast<std::size_t>(outline.curve.corners.front())));
   const bool polygon = outline.node.find("corners") != nullptr;
