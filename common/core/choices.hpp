@@ -50,38 +50,38 @@ inline constexpr std::array<Named<E>, 0> names_of{};
 
 template <>
 inline constexpr std::array names_of<RiemannSolver>{
-    Named{RiemannSolver::roe, "roe"},
-    Named{RiemannSolver::hllc, "hllc"},
+    Named<RiemannSolver>{RiemannSolver::roe, "roe"},
+    Named<RiemannSolver>{RiemannSolver::hllc, "hllc"},
 };
 template <>
 inline constexpr std::array names_of<GasLimiter>{
-    Named{GasLimiter::none, "none"},
-    Named{GasLimiter::minmod, "minmod"},
-    Named{GasLimiter::mc, "mc"},
-    Named{GasLimiter::van_leer, "van_leer"},
+    Named<GasLimiter>{GasLimiter::none, "none"},
+    Named<GasLimiter>{GasLimiter::minmod, "minmod"},
+    Named<GasLimiter>{GasLimiter::mc, "mc"},
+    Named<GasLimiter>{GasLimiter::van_leer, "van_leer"},
 };
 template <>
 inline constexpr std::array names_of<SolidLimiter>{
-    Named{SolidLimiter::none, "none"},
-    Named{SolidLimiter::minmod, "minmod"},
+    Named<SolidLimiter>{SolidLimiter::none, "none"},
+    Named<SolidLimiter>{SolidLimiter::minmod, "minmod"},
 };
 template <>
 inline constexpr std::array names_of<Projection>{
-    Named{Projection::full, "full"},
-    Named{Projection::simplified, "simplified"},
-    Named{Projection::traditional, "traditional"},
+    Named<Projection>{Projection::full, "full"},
+    Named<Projection>{Projection::simplified, "simplified"},
+    Named<Projection>{Projection::traditional, "traditional"},
 };
 template <>
 inline constexpr std::array names_of<GasResponse>{
-    Named{GasResponse::exact, "exact"},
-    Named{GasResponse::linear, "linear"},
+    Named<GasResponse>{GasResponse::exact, "exact"},
+    Named<GasResponse>{GasResponse::linear, "linear"},
 };
 template <>
 inline constexpr std::array names_of<BeamEnd>{
-    Named{BeamEnd::free, "free"},
-    Named{BeamEnd::pinned, "pinned"},
-    Named{BeamEnd::clamped, "clamped"},
-    Named{BeamEnd::guided, "guided"},
+    Named<BeamEnd>{BeamEnd::free, "free"},
+    Named<BeamEnd>{BeamEnd::pinned, "pinned"},
+    Named<BeamEnd>{BeamEnd::clamped, "clamped"},
+    Named<BeamEnd>{BeamEnd::guided, "guided"},
 };
 
 /// An enumeration with such a table.

@@ -166,20 +166,20 @@ TEST(MovingGrid, NamesGridPointAndTimeOfAFoldedCell) {
 
 /// A strip above a line that rises by one half from the wall x = 0 to the wall x = 1.
 MovingGrid strip_between_walls(std::vector<double>& curve) {
-  constexpr int n = 21;
+  constexpr std::size_t n = 21;
   curve.assign(2 * n, 0.0);
   for (std::size_t k = 0; k < n; ++k) {
-    curve[k] = static_cast<double>(k) / (n - 1);
+    curve[k] = static_cast<double>(k) / static_cast<double>(n - 1);
     curve[n + k] = 0.5 * curve[k];
   }
   const HyperbolicGrid strip{.name = "strip",
-                             .points = n,
+                             .points = static_cast<int>(n),
                              .lines = 6,
                              .curve = Side::bottom,
                              .ends = Curve::open,
                              .spacing = 0.05,
                              .walls = {Vec2(0, 1), Vec2(0, 1)}};
-  return MovingGrid(marched_from(strip, curve), 0);
+  return {marched_from(strip, curve), 0};
 }
 
 TEST(MovingGrid, AnEndThatIsToldToLeaveItsWallGoesAlongItsCurveToTheWall) {

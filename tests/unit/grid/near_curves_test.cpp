@@ -87,7 +87,7 @@ struct TwoRings {
       grids.emplace_back(marched_from(ring, circle_at(side * (0.5 + 0.5 * gap))), 0);
     }
   }
-  NearCurves leave_room() { return grid::leave_room(std::vector{&grids[0], &grids[1]}, bodies, 0); }
+  NearCurves leave_room() { return grid::leave_room(std::vector{grids.data(), grids.data() + 1}, bodies, 0); }
   void connect() { composite.connect(std::vector{grids[0].x(), grids[1].x()}, 0); }
 };
 
