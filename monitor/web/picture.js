@@ -194,7 +194,10 @@ function showBars(layers) {
 }
 
 function prepareBar(role, id) {
-  const chosen = () => live.drawn.find((picture) => picture.role === role);
+  const chosen = () => { // what is drawn, or about to be
+    const frame = currentFrame();
+    return frame && layersOf(frame).find((picture) => picture.role === role);
+  };
   $(`${id}-limits`).onchange = () => {
     const picture = chosen();
     if (!picture) return;
