@@ -10,7 +10,7 @@
 
 namespace fsi::wire {
 
-inline constexpr std::uint32_t protocol_version = 9;
+inline constexpr std::uint32_t protocol_version = 10;
 
 /// Where one program meets the gas or a solid.
 struct InterfaceInfo {
@@ -107,10 +107,10 @@ struct ProjectedInterface {
   std::vector<double> n;      ///< unit normal, solid -> gas, n_d * n
   std::vector<double> v_n;    ///< normal velocity v_n^I, n
   std::vector<double> w_n;    ///< normal traction w_n^I = p_e - p^I, n
-  std::vector<double> v;      ///< velocity of the interface points at t, n_d * n
-  std::vector<double> a;      ///< their acceleration at t, n_d * n
+  std::vector<double> v;      ///< gas: velocity of the interface points at t, n_d * n
+  std::vector<double> a;      ///< gas: their acceleration at t, n_d * n
   std::vector<double> q_dot;  ///< solid with degrees of freedom: their velocities at t, k
-  // The gas characteristic as Robin data for substeps: w_n + z_f v_n = r(t), r_k at t_k, newest first.
+  // To a solid: the gas characteristic w_n + z_f v_n = r(t); where it takes substeps with r_k at t_k, newest first.
   std::vector<double> z_f;      ///< n
   std::vector<double> robin_t;  ///< times t_k, 1 to 3 of them
   std::vector<double> robin_r;  ///< r_k = w_k + z_f v_k with the newest z_f for every k, levels * n
@@ -118,7 +118,7 @@ struct ProjectedInterface {
   double dt_next = 0;
   double t_next = 0;  ///< time after it: exactly an output time where one is hit
   std::int32_t substeps_next = 1;
-  std::vector<double> x_next;  ///< commanded positions at t + dt_next, n_d * n
+  std::vector<double> x_next;  ///< gas: commanded positions at t + dt_next, n_d * n
   bool write_output = false;   ///< write fields of the state at t
   bool write_checkpoint = false;
   bool show = false;  ///< somebody watches: send pictures of the state at t
