@@ -117,6 +117,8 @@ function(fsi_test name)
   fsi_program(${name} SOURCES ${ARG_SOURCES} DEPENDS ${ARG_DEPENDS} GTest::gtest_main PRECOMPILED fsi_precompiled_tests)
   if(ARG_TOGETHER)
     fsi_together(${name})
+    # A local name may be that of something in another test.
+    target_compile_options(${name} PRIVATE $<$<BOOL:${FSI_PRECOMPILED}>:-Wno-shadow>)
   endif()
   add_dependencies(tests_${ARG_LABEL} ${name})
   gtest_discover_tests(${name} PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT} DISCOVERY_TIMEOUT 60)

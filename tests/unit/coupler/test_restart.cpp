@@ -18,7 +18,7 @@ using namespace testing;
 constexpr std::size_t n = 4;
 constexpr std::uint64_t stop = 5, end = 9;
 
-CouplerOptions options() {
+CouplerOptions restart_options() {
   CouplerOptions options;
   options.time = {.end = 100, .output_times = {}, .growth = 1.2, .dt_max = 0};
   options.multirate = true;
@@ -62,8 +62,8 @@ Told told(Coupler& coupler, std::uint64_t step, bool modal) {
 class CouplerRestart : public ::testing::TestWithParam<bool> {};
 
 TEST_P(CouplerRestart, ContinuesBitForBit) {
-  Coupler whole(options(), piston_hellos(n)), first(options(), piston_hellos(n)),
-      second(options(), piston_hellos(n));
+  Coupler whole(restart_options(), piston_hellos(n)), first(restart_options(), piston_hellos(n)),
+      second(restart_options(), piston_hellos(n));
   for (std::uint64_t step = 0; step < stop; ++step)
     EXPECT_EQ(told(first, step, GetParam()), told(whole, step, GetParam()));
   Archive saved;

@@ -85,7 +85,7 @@ struct Sides {
   }
 };
 
-CouplerOptions options() {
+CouplerOptions transfer_options() {
   CouplerOptions result;
   result.time.end = 1;
   result.multirate = true;
@@ -156,7 +156,7 @@ class PointRatio : public ::testing::TestWithParam<std::pair<std::size_t, std::s
 };
 
 TEST_P(PointRatio, BothSidesFeelTheSameForceToRoundOff) {
-  Coupler coupler(options(), sides.hellos());
+  Coupler coupler(transfer_options(), sides.hellos());
   const auto answers = coupler.step(std::vector{sides.of_gas({0.3, 0.1}, 0.5), sides.of_solid({0, 0})});
   const Vec2 on_gas = force_on(sides.gas, answers[0]), on_solid = force_on(sides.solid, answers[1]);
   EXPECT_GT(on_gas.norm(), 0.01);
@@ -165,7 +165,7 @@ TEST_P(PointRatio, BothSidesFeelTheSameForceToRoundOff) {
 }
 
 TEST_P(PointRatio, AUniformMotionStaysOneOnBothSides) {
-  Coupler coupler(options(), sides.hellos());
+  Coupler coupler(transfer_options(), sides.hellos());
   const Vec2 v(0.7, -0.4);
   const auto answers = coupler.step(std::vector{sides.of_gas(v, 0), sides.of_solid(v)});
   for (const wire::ProjectedInterface& answer : answers) {
@@ -182,7 +182,7 @@ TEST_P(PointRatio, AUniformMotionStaysOneOnBothSides) {
 }
 
 TEST_P(PointRatio, TheRobinDataOfTheSolidBelongsToItsProjectedState) {
-  Coupler coupler(options(), sides.hellos());
+  Coupler coupler(transfer_options(), sides.hellos());
   wire::PredictedInterface body = sides.of_solid({0, 0});
   body.dt_bid = 0.03;  // substeps
   const auto answers = coupler.step(std::vector{sides.of_gas({0.3, 0.1}, 0.5), body});
@@ -205,7 +205,7 @@ TEST_P(PointRatio, AModalBodyOnOtherPointsMovesAsOnThoseOfTheGas) {
     std::vector<double> N(n);
     for (std::size_t k = 0; k < n; ++k) N[k] = direction.dot(Vec2(normals[k], normals[n + k]));
     BdfBody motion{.mass = 0.2};
-    Coupler coupler(options(), both.hellos());
+    Coupler coupler(transfer_options(), both.hellos());
     double speed = 0;
     for (std::uint64_t step = 0; step < 5; ++step) {
       wire::PredictedInterface gas = both.of_gas({0, 0}, 0.5);

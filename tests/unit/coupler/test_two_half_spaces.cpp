@@ -18,23 +18,23 @@ namespace {
 
 using namespace testing;
 
-constexpr std::size_t n = 3;
+constexpr std::size_t points = 3;
 constexpr double angle = 0.5;
 constexpr double t_end = 1.0;
 constexpr double amplitude = 1e-3;  ///< of the pulse: the motion stays small against h
 
 /// Vector of length `along` in the direction of the interface normal at every point.
 std::vector<double> along_normal(double along) {
-  return everywhere(n, along * std::cos(angle), along * std::sin(angle));
+  return everywhere(points, along * std::cos(angle), along * std::sin(angle));
 }
 
 /// Positions of the interface points, moved by u along the normal.
 std::vector<double> interface_at(double u) {
-  std::vector<double> x(2 * n);
-  for (std::size_t k = 0; k < n; ++k) {
+  std::vector<double> x(2 * points);
+  for (std::size_t k = 0; k < points; ++k) {
     const double s = 0.1 * static_cast<double>(k);
     x[k] = u * std::cos(angle) - s * std::sin(angle);
-    x[n + k] = u * std::sin(angle) + s * std::cos(angle);
+    x[points + k] = u * std::sin(angle) + s * std::cos(angle);
   }
   return x;
 }
@@ -94,7 +94,7 @@ class ModelProblem {
       if (outcome.blown_up || coupler_.finished()) return outcome;
       gas_.advance(answers[0].dt_next);
       advance_solid(answers[1]);
-      x_gas = std::cos(angle) * answers[0].x_next[1] + std::sin(angle) * answers[0].x_next[n + 1];
+      x_gas = std::cos(angle) * answers[0].x_next[1] + std::sin(angle) * answers[0].x_next[points + 1];
     }
   }
 
@@ -109,16 +109,16 @@ class ModelProblem {
         solid_hello("solid", {.name = "solid", .dimension = 2, .x = interface_at(0), .n = along_normal(1)})};
   }
   wire::PredictedInterface gas_message(std::uint64_t step, double x) {
-    wire::PredictedInterface state = gas_state(n, step);
+    wire::PredictedInterface state = gas_state(points, step);
     state.x = interface_at(x);
     state.v = along_normal(gas_.v(0));
-    state.p.assign(n, 1 - gas_.s(0));
-    state.z_f.assign(n, gas_.medium().z());
+    state.p.assign(points, 1 - gas_.s(0));
+    state.z_f.assign(points, gas_.medium().z());
     state.dt_bid = gas_.largest_step();
     return state;
   }
   wire::PredictedInterface solid_message(std::uint64_t step) {
-    wire::PredictedInterface state = solid_state(n, step);
+    wire::PredictedInterface state = solid_state(points, step);
     const double c = std::cos(angle);
     const double s = std::sin(angle);
     const double z_p = solid_.medium().z();
@@ -126,10 +126,10 @@ class ModelProblem {
     state.x = interface_at(solid_.u());
     state.v = along_normal(solid_.v(0));
     state.w = along_normal(solid_.s(0));
-    for (std::size_t k = 0; k < n; ++k) {
+    for (std::size_t k = 0; k < points; ++k) {
       state.Z[k] = z_p * c * c + z_s * s * s;
-      state.Z[n + k] = (z_p - z_s) * c * s;
-      state.Z[2 * n + k] = z_p * s * s + z_s * c * c;
+      state.Z[points + k] = (z_p - z_s) * c * s;
+      state.Z[2 * points + k] = z_p * s * s + z_s * c * c;
     }
     state.z_p = z_p;
     state.dt_bid = solid_.largest_step();
@@ -144,7 +144,7 @@ class ModelProblem {
       for (std::size_t l = 0; l < answer.robin_t.size(); ++l) {
         if (l != k) weight *= (t - answer.robin_t[l]) / (answer.robin_t[k] - answer.robin_t[l]);
       }
-      sum += weight * answer.robin_r[k * n + 1];
+      sum += weight * answer.robin_r[k * points + 1];
     }
     return sum;
   }
