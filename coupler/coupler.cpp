@@ -30,12 +30,16 @@ void leave_out_what_the_other_needs(wire::ProjectedInterface& to_fluid, wire::Pr
 Coupler::Coupler(const CouplerOptions& options, std::span<const wire::Hello> hellos)
     : options_(options), agreement_(options.time, options.start) {
   for (InterfacePair& pair : match_interfaces(hellos, options.periodic)) {
-    if (participants_.empty()) participants_.push_back(pair.fluid);
-    if (std::ranges::find(participants_, pair.solid) == participants_.end())
-      participants_.push_back(pair.solid);
+    if (std::ranges::find(participants_, pair.fluid) == participants_.end())
+      participants_.push_back(pair.fluid);
+    if (std::ranges::find(solids_, pair.solid, &Solid::name) == solids_.end())
+      solids_.push_back({.name = pair.solid, .interfaces = {}, .modes = {}});
+    std::ranges::find(solids_, pair.solid, &Solid::name)->interfaces.push_back(interfaces_.size());
     interfaces_.emplace_back(std::move(pair), options.combination,
                              options.multirate ? options.robin_order + 1 : 1, options.path);
   }
+  gases_ = participants_.size();
+  for (const Solid& solid : solids_) participants_.push_back(solid.name);
   bids_.resize(participants_.size());
   answers_.resize(2 * interfaces_.size());
   moment_.t = options.start;
@@ -77,11 +81,44 @@ const wire::PredictedInterface& Coupler::find(std::span<const wire::PredictedInt
 }
 
 void Coupler::project_interface(std::span<const wire::PredictedInterface> predicted) {
-  for (InterfaceExchange& interface : interfaces_) {
-    const InterfacePair& pair = interface.pair();
-    interface.project_interface(moment_, find(predicted, pair.fluid, pair.name),
-                                find(predicted, pair.solid, pair.name));
+  for (Solid& solid : solids_) {
+    for (const std::size_t k : solid.interfaces) {
+      const InterfacePair& pair = interfaces_[k].pair();
+      interfaces_[k].take(moment_, find(predicted, pair.fluid, pair.name),
+                          find(predicted, pair.solid, pair.name));
+    }
+    const Eigen::VectorXd q_dot = project_modes(solid);
+    for (const std::size_t k : solid.interfaces) interfaces_[k].project_interface(moment_, q_dot);
   }
+}
+
+/// Velocities of the degrees of freedom, which all interfaces of the solid move with; empty for a deformable
+/// one. What it says of itself beside its mode vectors is the same at each of them.
+Eigen::VectorXd Coupler::project_modes(Solid& solid) const {
+  const InterfaceExchange& first = interfaces_[solid.interfaces.front()];
+  std::vector<ModalSide> sides;
+  for (const std::size_t k : solid.interfaces) {
+    const InterfaceExchange& interface = interfaces_[k];
+    if (interface.modal().modes != first.modal().modes) {
+      throw PeerLost(
+          fmt::format("\"{}\" sent modal.modes = {} for interface \"{}\" and {} for \"{}\"; a solid "
+                      "has the same modes at all its interfaces",
+                      solid.name, first.modal().modes, first.pair().name, interface.modal().modes,
+                      interface.pair().name));
+    }
+    if (first.modal().modes > 0) sides.push_back(interface.modal_side());
+  }
+  const wire::ModalResponse& modal = first.modal();
+  if (modal.modes == 0) return {};
+  if (moment_.dt == 0) return Eigen::Map<const Eigen::VectorXd>(modal.q_dot.data(), modal.modes);
+  Eigen::VectorXd q_dot = solid.modes.project(modal, sides, moment_.dt);
+  if (q_dot.size() == 0) {
+    throw NumbersBroke(fmt::format(
+        "step {}, t = {:.6g}: \"{}\" at interface \"{}\": nothing resists one of its {} modes, no "
+        "mass, no stiffness, no gas",
+        moment_.step, moment_.t, solid.name, first.pair().name, modal.modes));
+  }
+  return q_dot;
 }
 
 void Coupler::agree_on_time_step(std::span<const wire::PredictedInterface> predicted) {
@@ -90,7 +127,7 @@ void Coupler::agree_on_time_step(std::span<const wire::PredictedInterface> predi
     bids_[k] = {.from = participants_[k],
                 .dt = state->dt_bid,
                 .reason = state->dt_reason,
-                .may_substep = options_.multirate && k > 0};
+                .may_substep = options_.multirate && k >= gases_};
   }
   next_ = agreement_.agree(bids_);
 }

@@ -74,7 +74,15 @@ class Coupler {
  private:
   const wire::PredictedInterface& find(std::span<const wire::PredictedInterface> predicted,
                                        const std::string& from, const std::string& interface) const;
+  /// The interfaces of one solid.
+  struct Solid {
+    std::string name;
+    std::vector<std::size_t> interfaces;
+    ModalBody modes;  ///< where it has some
+  };
+
   void project_interface(std::span<const wire::PredictedInterface> predicted);
+  Eigen::VectorXd project_modes(Solid& solid) const;
   void agree_on_time_step(std::span<const wire::PredictedInterface> predicted);
   void answer();
   std::int32_t substeps_of(const std::string& participant) const;
@@ -82,7 +90,9 @@ class Coupler {
   CouplerOptions options_;
   TimeStepAgreement agreement_;
   std::vector<InterfaceExchange> interfaces_;
-  std::vector<std::string> participants_;  ///< the gas first
+  std::vector<Solid> solids_;
+  std::vector<std::string> participants_;  ///< the gases first
+  std::size_t gases_ = 0;                  ///< so many
   std::vector<Bid> bids_;                  ///< of the participants
   std::vector<wire::ProjectedInterface> answers_;
   Moment moment_;

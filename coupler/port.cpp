@@ -18,7 +18,8 @@ constexpr std::string_view terminate = "terminate ";
 
 bus::CouplerSession join(const Setup& setup) {
   const Case& problem = setup.problem;
-  std::vector<bus::Expected> who{{.role = "fluid", .name = "fluid"}};
+  std::vector<bus::Expected> who;
+  for (const FluidSpec& fluid : problem.fluids) who.push_back({.role = "fluid", .name = fluid.name});
   for (const SolidSpec& solid : problem.solids) who.push_back({.role = "solid", .name = solid.name});
   return {bus_options(setup), std::move(who), problem.digest};
 }
@@ -30,13 +31,26 @@ Path path_of(const InterfaceSpec& interface) {
   };
 }
 
-/// Interfaces between two periodic sides of the gas.
+/// Interfaces between two periodic sides of a gas.
 std::vector<std::string> periodic_interfaces(const Case& problem) {
   std::vector<std::string> names;
-  for (const Side side : all_sides) {
-    const BoundarySpec& boundary = problem.fluid->boundary[static_cast<std::size_t>(side)];
-    const bool goes_on = problem.fluid->grid.periodic[static_cast<std::size_t>(1 - direction_of(side))];
-    if (boundary.kind == BoundaryKind::interface && goes_on) names.push_back(boundary.solid);
+  for (const FluidSpec& fluid : problem.fluids) {
+    for (const Side side : all_sides) {
+      const BoundarySpec& boundary = fluid.boundary[static_cast<std::size_t>(side)];
+      const bool goes_on = fluid.grid.periodic[static_cast<std::size_t>(1 - direction_of(side))];
+      if (boundary.kind != BoundaryKind::interface || !goes_on) continue;
+      const auto solid = std::ranges::find(problem.solids, boundary.solid, &SolidSpec::name);
+      names.push_back(interface_name(*solid, fluid.name));
+    }
+  }
+  return names;
+}
+
+/// All interfaces of the case, solid by solid.
+std::vector<std::string> interface_names(const Case& problem) {
+  std::vector<std::string> names;
+  for (const SolidSpec& solid : problem.solids) {
+    for (const std::string& fluid : gases_at(solid)) names.push_back(interface_name(solid, fluid));
   }
   return names;
 }
@@ -69,10 +83,10 @@ Coupler coupler_of(const Case& problem, bus::CouplerSession& session) {
 
 std::vector<std::string> columns_of(const Case& problem) {
   std::vector<std::string> columns{"step", "t [time]", "dt [time]"};
-  for (const SolidSpec& solid : problem.solids) {
+  for (const std::string& name : interface_names(problem)) {
     for (const char* quantity : {"velocity_jump [length/time]", "traction_jump [force/area]", "gap [length]",
                                  "power [power/depth]"}) {
-      columns.push_back(fmt::format("{}.{}", solid.name, quantity));
+      columns.push_back(fmt::format("{}.{}", name, quantity));
     }
   }
   return columns;
@@ -191,8 +205,8 @@ void CoupledRun::record() {
   std::vector<double> row{static_cast<double>(coupler_.step_number()), coupler_.t(), coupler_.dt()};
   io::InterfaceExtremes& extremes = *part_.interface;
   const std::vector<InterfaceReport> reports = coupler_.reports();
-  for (const SolidSpec& solid : setup_.problem.solids) {
-    const auto report = std::ranges::find(reports, solid.name, &InterfaceReport::name);
+  for (const std::string& name : interface_names(setup_.problem)) {
+    const auto report = std::ranges::find(reports, name, &InterfaceReport::name);
     if (report == reports.end()) continue;
     row.insert(row.end(), {report->velocity_jump, report->traction_jump, report->gap, report->power});
     extremes.max_velocity_jump = std::max(extremes.max_velocity_jump, report->velocity_jump);

@@ -81,7 +81,7 @@ void expect_rotation(const Case& problem, const SolidSpec& solid, double omega_0
 }
 
 void read_gas(const Case& problem, DiskProblem& disk) {
-  const FluidSpec& fluid = *problem.fluid;
+  const FluidSpec& fluid = problem.fluids.front();
   if (!fluid.initial) throw UserMistake("the rotating disk reference needs `fluid.initial`");
   disk.gamma = fluid.gamma;
   disk.p_e = fluid.p_e;
@@ -115,7 +115,7 @@ double angular_velocity(double omega_0, double r_bar) {
 }
 
 DiskProblem disk_from_case(const Case& problem) {
-  if (!problem.fluid || problem.solids.size() != 1) {
+  if (problem.fluids.size() != 1 || problem.solids.size() != 1) {
     throw UserMistake(
         fmt::format("{}: the rotating disk reference needs one gas and one solid", problem.path));
   }

@@ -96,11 +96,11 @@ std::function<exact::TubeState(double)> gas_of(const FluidSpec& fluid,
 }  // namespace
 
 PistonProblem piston_from_case(const Case& problem) {
-  if (!problem.fluid || problem.solids.size() != 1) {
+  if (problem.fluids.size() != 1 || problem.solids.size() != 1) {
     throw UserMistake(
         fmt::format("{}: the one-dimensional reference needs one gas and one solid", problem.path));
   }
-  const FluidSpec& fluid = *problem.fluid;
+  const FluidSpec& fluid = problem.fluids.front();
   const SolidSpec& solid = problem.solids.front();
   expect_side_by_side(problem.path, fluid, solid);
   expect_no_body_force(problem.path, solid);

@@ -38,7 +38,7 @@ std::vector<std::string> keys_of(const Node& map) {
   return keys;
 }
 
-/// Parameters and solids are named by the file: the command line may change one, not invent one.
+/// Parameters, gases and solids are named by the file: the command line may change one, not invent one.
 void require_known_name(const Node& root, const std::string& key, const std::string& section,
                         const std::string& option) {
   if (!key.starts_with(section + ".")) return;
@@ -88,6 +88,7 @@ void apply_options(Node& root, const std::vector<std::string>& overrides,
     const std::string option = "--set " + shown(key);
     require_known_name(root, key, "parameters", option);
     require_known_name(root, key, "solids", option);
+    require_known_name(root, key, "fluids", option);
     config::assign(root, words_of(key), value, option);
   }
   for (const std::string& text : laws) {
@@ -126,6 +127,42 @@ std::vector<std::string> names_in_folders(const std::vector<std::string>& folder
 }
 
 }  // namespace
+
+const FluidSpec* fluid_named(const Case& problem, const std::string& name) {
+  const auto found = std::ranges::find(problem.fluids, name, &FluidSpec::name);
+  return found == problem.fluids.end() ? nullptr : &*found;
+}
+
+std::string fields_name(const FluidSpec& fluid) {
+  return fluid.path == "fluid" ? "fluid" : "fluid_" + fluid.name;
+}
+
+std::optional<Side> side_to(const SolidSpec& solid, const std::string& fluid) {
+  if (!solid.body_fitted.empty()) return std::nullopt;
+  for (const Side side : all_sides) {
+    const BoundarySpec& spec = solid.boundary[static_cast<std::size_t>(side)];
+    const bool open = spec.fluid.empty();  // while the file is read
+    if (spec.kind == BoundaryKind::interface && (open || spec.fluid == fluid)) return side;
+  }
+  return std::nullopt;
+}
+
+std::vector<std::string> gases_at(const SolidSpec& solid) {
+  std::vector<std::string> gases;
+  const auto look = [&](const std::array<BoundarySpec, 4>& boundary) {
+    for (const BoundarySpec& spec : boundary) {
+      const bool meets = spec.kind == BoundaryKind::interface && !spec.fluid.empty();
+      if (meets && std::ranges::find(gases, spec.fluid) == gases.end()) gases.push_back(spec.fluid);
+    }
+  };
+  if (solid.body_fitted.empty()) look(solid.boundary);
+  for (const BodyFittedSpec& fitted : solid.body_fitted) look(fitted.boundary);
+  return gases;
+}
+
+std::string interface_name(const SolidSpec& solid, const std::string& fluid) {
+  return gases_at(solid).size() > 1 ? fmt::format("{}.{}", solid.name, fluid) : solid.name;
+}
 
 std::string configs_folder() {
   const char* const told = std::getenv("FSI_CONFIGS");  // by the launcher that was installed

@@ -78,7 +78,8 @@ enum class BoundaryKind {
 
 struct BoundarySpec {
   BoundaryKind kind = BoundaryKind::symmetry;
-  std::string solid = {};  ///< interface: the solid on the other side
+  std::string solid = {};  ///< interface of a gas: the solid on the other side
+  std::string fluid = {};  ///< interface of a solid: the gas on the other side
   bool from_reference =
       false;  ///< inflow, imposed, far_field, dirichlet, traction, displacement: data of `reference`
   std::optional<GasExpressions> state = {};        ///< gas inflow, imposed, far_field, dirichlet
@@ -111,7 +112,10 @@ struct GasScheme {
   double linear_diffusion = 0;  ///< of undivided second differences [1/time]
 };
 
+/// A gas, with a program of its own.
 struct FluidSpec {
+  std::string name = "fluid";  ///< of the participant: "fluid", or that under `fluids`
+  std::string path = "fluid";  ///< of its section, for messages
   double gamma = 1.4;
   double p_e = 0;
   GridSpec grid;
@@ -181,7 +185,7 @@ struct InterfaceSpec {
 };
 
 struct ProbeSpec {
-  std::string name, in;  ///< in: "fluid" or a solid
+  std::string name, in;  ///< in: a gas ("fluid") or a solid
   double x = 0, y = 0;   ///< gas: where; solid: reference position
 };
 
@@ -220,7 +224,7 @@ struct Case {
   double grid_factor = 1;  ///< j of h = 1 / (10 j)
   TimeSpec time;
   InterfaceSpec interface;
-  std::optional<FluidSpec> fluid;
+  std::vector<FluidSpec> fluids;  ///< one from `fluid`, or all of `fluids`
   std::vector<SolidSpec> solids;
   OutputSpec output;
   ReferenceSpec reference;
@@ -232,6 +236,22 @@ struct Case {
 /// @throws UserMistake with file:line:column
 Case load_case(const std::string& path, const std::vector<std::string>& overrides = {},
                const std::vector<std::string>& laws = {});
+
+/// The gas of this name; nullptr where there is none.
+const FluidSpec* fluid_named(const Case& problem, const std::string& name);
+
+/// Name of the fields of a gas: "fluid", or "fluid_<name>" of one among several.
+std::string fields_name(const FluidSpec& fluid);
+
+/// The side of a solid's grid that is the interface to this gas; none for a solid with an outline of its own.
+std::optional<Side> side_to(const SolidSpec& solid, const std::string& fluid);
+
+/// The gases a solid meets, in the order of its sides.
+std::vector<std::string> gases_at(const SolidSpec& solid);
+
+/// What the interface of a solid with a gas is called: as the solid, or "<solid>.<gas>" where it meets several
+/// gases.
+std::string interface_name(const SolidSpec& solid, const std::string& fluid);
 
 /// The file a user means: a path, or a name in one of `folders`.
 /// @throws UserMistake with the nearest name

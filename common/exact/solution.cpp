@@ -10,6 +10,7 @@
 #include "common/exact/elastic_piston.hpp"
 #include "common/exact/riemann.hpp"
 #include "common/exact/table.hpp"
+#include "common/exact/wall_between_gases.hpp"
 
 namespace fsi::exact {
 
@@ -66,21 +67,42 @@ std::unique_ptr<Solution> make_riemann_tube(Numbers numbers) {
   return std::make_unique<RiemannTube>(Riemann(left, right, gamma), left, right, x_0);
 }
 
+std::unique_ptr<Solution> make_wall_between_gases(Numbers numbers) {
+  WallBetweenGasesData data;
+  data.gamma_left = numbers.take("gamma_left", data.gamma_left);
+  data.gamma_right = numbers.take("gamma_right", data.gamma_right);
+  data.rho_left = numbers.take("rho_left", data.rho_left);
+  data.rho_right = numbers.take("rho_right", data.rho_right);
+  data.p = numbers.take("p", data.p);
+  data.thickness = numbers.take("thickness", data.thickness);
+  constexpr double none = -1;
+  if (const double mass = numbers.take("mass", none); mass != none) data.mass = mass;
+  data.rho_bar = numbers.take("rho_bar", data.rho_bar);
+  data.c_p = numbers.take("c_p", data.c_p);
+  data.size = numbers.take("size", data.size);
+  data.distance = numbers.take("distance", data.distance);
+  data.length = numbers.take("length", data.length);
+  numbers.expect_none_left();
+  return std::make_unique<WallBetweenGases>(data);
+}
+
 }  // namespace
 
 std::unique_ptr<Solution> make_solution(const std::string& kind, const std::map<std::string, double>& numbers,
                                         const std::string& run_dir) {
   try {
     if (kind == "elastic_piston") return make_elastic_piston({kind, numbers});
+    if (kind == "wall_between_gases") return make_wall_between_gases({kind, numbers});
     if (kind == "riemann") return make_riemann_tube({kind, numbers});
     if (kind == "piston_1d") return std::make_unique<PistonTable>(run_dir + "/reference.h5");
     if (kind == "rotating_disk") return std::make_unique<DiskTable>(run_dir + "/reference.h5");
   } catch (const std::invalid_argument& error) {
     throw UserMistake(fmt::format("reference: {}: {}", kind, error.what()));
   }
-  throw UserMistake(fmt::format(
-      "reference: no solution is named '{}'; write elastic_piston, riemann, piston_1d or rotating_disk",
-      kind));
+  throw UserMistake(
+      fmt::format("reference: no solution is named '{}'; write elastic_piston, wall_between_gases, riemann, "
+                  "piston_1d or rotating_disk",
+                  kind));
 }
 
 }  // namespace fsi::exact

@@ -5,6 +5,26 @@
 
 namespace fsi {
 
+Eigen::SparseMatrix<double> side_by_side(std::span<const Eigen::SparseMatrix<double>> parts) {
+  Eigen::Index columns = 0, entries = 0;
+  for (const Eigen::SparseMatrix<double>& part : parts) {
+    columns += part.cols();
+    entries += part.nonZeros();
+  }
+  Eigen::SparseMatrix<double> all(parts.empty() ? 0 : parts.front().rows(), columns);
+  all.reserve(entries);
+  Eigen::Index column = 0;
+  for (const Eigen::SparseMatrix<double>& part : parts) {
+    for (Eigen::Index own = 0; own < part.outerSize(); ++own, ++column) {
+      all.startVec(column);
+      for (Eigen::SparseMatrix<double>::InnerIterator entry(part, own); entry; ++entry)
+        all.insertBack(entry.row(), column) = entry.value();
+    }
+  }
+  all.finalize();
+  return all;
+}
+
 namespace {
 
 /// A pivot that is less than this part of the diagonal it comes from is round-off.

@@ -16,6 +16,9 @@ namespace fsi {
 /// Whether two matrices have entries in the same places.
 bool same_places(const Eigen::SparseMatrix<double>& a, const Eigen::SparseMatrix<double>& b);
 
+/// The columns of all matrices, which have as many rows, one matrix after the other.
+Eigen::SparseMatrix<double> side_by_side(std::span<const Eigen::SparseMatrix<double>> parts);
+
 /// The load of the gas on the modes, as by `modal_load`, with the lower triangle of A.
 class AddedMass {
  public:

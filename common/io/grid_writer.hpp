@@ -37,7 +37,7 @@ struct GridOutput {
 
 class GridWriter {
  public:
-  /// `name` is "fluid" or "solid_<name>". @throws OutputFailed
+  /// `name` is "fluid", "fluid_<name>" or "solid_<name>". @throws OutputFailed
   GridWriter(std::string run_dir, std::string name);
 
   /// Adds one output time. Groups are counted "000000", "000001", ... in the order they are written.

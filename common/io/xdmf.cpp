@@ -75,7 +75,7 @@ std::vector<std::string> programs_in(const std::string& run_dir) {
   std::error_code error;
   for (const auto& entry : std::filesystem::directory_iterator(run_dir, error)) {
     const std::string name = entry.path().stem().string();
-    const bool ours = name == "fluid" || name.starts_with("solid_");
+    const bool ours = name == "fluid" || name.starts_with("fluid_") || name.starts_with("solid_");
     if (ours && entry.path().extension() == ".h5") programs.push_back(name);
   }
   std::ranges::sort(programs);

@@ -86,7 +86,8 @@ int run(int argc, const char* const* argv) {
   if (!line.parse(argc, argv)) return 0;
   const fsi::Case problem =
       fsi::load_case(fsi::find_case(name, {"configs", fsi::configs_folder()}), overrides, laws);
-  if (problem.fluid) write_grids(folder, "fluid", problem.fluid->grid, problem.fluid->body_fitted);
+  for (const fsi::FluidSpec& fluid : problem.fluids)
+    write_grids(folder, fsi::fields_name(fluid), fluid.grid, fluid.body_fitted);
   for (const fsi::SolidSpec& solid : problem.solids) write_solid(folder, solid);
   return 0;
 }

@@ -171,6 +171,14 @@ const SolidSpec& solid_of(const Setup& setup) {
   throw UserMistake(fmt::format("the case has no solid \"{}\"; --name must be one of solids", setup.name));
 }
 
+const FluidSpec& fluid_of(const Setup& setup) {
+  if (const FluidSpec* fluid = fluid_named(setup.problem, setup.name)) return *fluid;
+  if (setup.problem.fluids.empty())
+    throw UserMistake("the case has no section `fluid`; write one or start a solid solver");
+  throw UserMistake(
+      fmt::format("the case has no gas \"{}\"; --name must be `fluid`, or one of fluids", setup.name));
+}
+
 void count_step(io::Part& part, double t, double dt) {
   part.dt_min = part.steps == 0 ? dt : std::min(part.dt_min, dt);
   part.dt_max = part.steps == 0 ? dt : std::max(part.dt_max, dt);

@@ -32,6 +32,8 @@ struct Setup {
 
 /// The solid of the case this program stands for. @throws UserMistake
 const SolidSpec& solid_of(const Setup& setup);
+/// The gas of the case this program stands for. @throws UserMistake
+const FluidSpec& fluid_of(const Setup& setup);
 
 /// Counts one finished macro step of size dt that ended at time `t`.
 void count_step(io::Part& part, double t, double dt);

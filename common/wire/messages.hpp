@@ -25,7 +25,7 @@ struct Hello {
   std::uint32_t protocol = protocol_version;
   std::string run;            ///< identity of the run; others are ignored
   std::string role;           ///< "fluid" or "solid"
-  std::string name;           ///< "fluid", or the solid's name in the case file
+  std::string name;           ///< "fluid", or the name of the gas or the solid in the case file
   std::string law;            ///< for people; nothing depends on it
   std::string config_digest;  ///< every program of a run must have read the same case
   std::string host;

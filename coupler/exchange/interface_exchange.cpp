@@ -125,21 +125,20 @@ void InterfaceExchange::check_modes(const wire::PredictedInterface& solid) const
                   solid.from, solid.modal.modes, pair_.name, before));
 }
 
-void InterfaceExchange::project_interface(const Moment& moment, const wire::PredictedInterface& gas,
-                                          const wire::PredictedInterface& solid) {
+void InterfaceExchange::take(const Moment& moment, const wire::PredictedInterface& gas,
+                             const wire::PredictedInterface& solid) {
   check_gas(moment, gas);
   check_solid(moment, solid);
-  if (!transfer_) {
-    project(moment, gas, solid);
-  } else if (pair_.coarser->is_gas) {
-    project(moment, transfer_->bring(gas), solid);
-  } else {
-    project(moment, gas, transfer_->bring(solid));
-  }
+  const bool gas_is_brought = transfer_ && pair_.coarser->is_gas;
+  predicted_gas_ = gas_is_brought ? &transfer_->bring(gas) : &gas;
+  solid_ = transfer_ && !gas_is_brought ? &transfer_->bring(solid) : &solid;
+  const wire::ModalResponse& modes = solid_->modal;
+  if (modes.modes > 0) N_ = wire::matrix_of(modes.N, modes.modes, static_cast<Eigen::Index>(curve_.n));
+  prepare(moment);
 }
 
-void InterfaceExchange::project(const Moment& moment, const wire::PredictedInterface& gas,
-                                const wire::PredictedInterface& solid) {
+void InterfaceExchange::prepare(const Moment& moment) {
+  const wire::PredictedInterface &gas = *predicted_gas_, &solid = *solid_;
   x_gas_ = gas.x;
   x_solid_ = solid.x;
   z_f_ = gas.z_f;
@@ -160,13 +159,17 @@ void InterfaceExchange::project(const Moment& moment, const wire::PredictedInter
   std::ranges::rotate(levels_, levels_.end() - 1);
   known_ = std::min(known_ + 1, levels_.size());
   levels_.front().t = moment.t;
-  if (solid.modal.modes > 0) {
-    project_modal(moment, solid.modal);
+}
+
+void InterfaceExchange::project_interface(const Moment& moment, const Eigen::VectorXd& q_dot) {
+  if (modal().modes > 0) {
+    q_dot_ = q_dot;
+    project_modal();
   } else {
-    project_deformable(moment, solid);
+    project_deformable(moment, *solid_);
   }
-  remember(moment, solid);
-  measure(gas, solid);
+  remember(moment, *solid_);
+  measure(*predicted_gas_, *solid_);
 }
 
 void InterfaceExchange::project_deformable(const Moment& moment, const wire::PredictedInterface& solid) {
@@ -211,26 +214,8 @@ void InterfaceExchange::follow_solid() {
   }
 }
 
-void InterfaceExchange::project_modal(const Moment& moment, const wire::ModalResponse& modal) {
-  const auto k = static_cast<Eigen::Index>(modal.modes);
-  const Eigen::SparseMatrix<double> N = wire::matrix_of(modal.N, k, static_cast<Eigen::Index>(curve_.n));
-  if (moment.dt > 0) {
-    const Eigen::SparseMatrix<double> S = wire::matrix_of(modal.S, k, k);
-    const Eigen::VectorXd g = Eigen::Map<const Eigen::VectorXd>(modal.g.data(), k);
-    added_mass_.take(N);
-    q_dot_ = balance(N, gas_, [&](std::span<const NormalSide> gas) {
-      return solver_.project(S, g, added_mass_.load(gas, ds_), moment.dt);
-    });
-    if (q_dot_.size() == 0) {
-      throw NumbersBroke(fmt::format(
-          "step {}, t = {:.6g}: \"{}\" at interface \"{}\": nothing resists one of its {} modes, no "
-          "mass, no stiffness, no gas",
-          moment.step, moment.t, pair_.solid, pair_.name, k));
-    }
-  } else {
-    q_dot_ = Eigen::Map<const Eigen::VectorXd>(modal.q_dot.data(), k);
-  }
-  const Eigen::VectorXd v_n = N.transpose() * q_dot_;
+void InterfaceExchange::project_modal() {
+  const Eigen::VectorXd v_n = N_.transpose() * q_dot_;
   Level& now = levels_.front();
   for (std::size_t i = 0; i < curve_.n; ++i) {
     const NormalState state = at_wall(v_n(static_cast<Eigen::Index>(i)), gas_[i]);

@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "common/core/archive.hpp"
-#include "common/interface/modal_system.hpp"
 #include "common/interface/wave_curve.hpp"
 #include "common/wire/messages.hpp"
 #include "coupler/exchange/matching.hpp"
+#include "coupler/exchange/modal_body.hpp"
 #include "coupler/exchange/transfer.hpp"
 #include "coupler/interface_motion.hpp"
 
@@ -55,10 +55,16 @@ class InterfaceExchange {
   const InterfacePair& pair() const { return pair_; }
   std::size_t points() const { return curve_.n; }
 
-  /// Projects the predicted states. @throws NumbersBroke naming
+  /// Takes in the predicted states, which have to live until they are projected. @throws NumbersBroke naming
   /// step, t, program, interface, point and quantity
-  void project_interface(const Moment& moment, const wire::PredictedInterface& gas,
-                         const wire::PredictedInterface& solid);
+  void take(const Moment& moment, const wire::PredictedInterface& gas, const wire::PredictedInterface& solid);
+  /// What the solid's degrees of freedom answer, and along which points the gas answers them; a deformable
+  /// solid has no modes.
+  const wire::ModalResponse& modal() const { return solid_->modal; }
+  ModalSide modal_side() const { return {.N = N_, .gas = gas_, .ds = ds_}; }
+  /// Projects what was taken in. @param q_dot of the solid's degrees of freedom; empty for a deformable one
+  /// @throws NumbersBroke as above
+  void project_interface(const Moment& moment, const Eigen::VectorXd& q_dot);
   /// Everything about the state just projected, as both sides get it.
   void fill_state(wire::ProjectedInterface& answer) const;
   /// Robin data of the gas characteristic for the solid's substeps.
@@ -86,11 +92,10 @@ class InterfaceExchange {
   void check_gas(const Moment& moment, const wire::PredictedInterface& gas) const;
   void check_solid(const Moment& moment, const wire::PredictedInterface& solid) const;
   void check_modes(const wire::PredictedInterface& solid) const;
-  void project(const Moment& moment, const wire::PredictedInterface& gas,
-               const wire::PredictedInterface& solid);
+  void prepare(const Moment& moment);
   void project_deformable(const Moment& moment, const wire::PredictedInterface& solid);
   void follow_solid();
-  void project_modal(const Moment& moment, const wire::ModalResponse& modal);
+  void project_modal();
   void remember(const Moment& moment, const wire::PredictedInterface& solid);
   void measure(const wire::PredictedInterface& gas, const wire::PredictedInterface& solid);
 
@@ -100,11 +105,12 @@ class InterfaceExchange {
   std::optional<InterfaceTransfer> transfer_;  ///< where the two sides have different points
   InterfaceMotion motion_;
   std::optional<PrescribedMotion> prescribed_;
-  Eigen::VectorXd q_dot_;  ///< of a solid with degrees of freedom, now
-  AddedMass added_mass_;   ///< of the gas on them
-  ModalSolver solver_;
-  std::vector<Level> levels_;  ///< newest first
-  std::size_t known_ = 0;      ///< levels that are filled
+  Eigen::SparseMatrix<double> N_;  ///< mode vectors of such a solid, predicted
+  Eigen::VectorXd q_dot_;          ///< of a solid with degrees of freedom, now
+  const wire::PredictedInterface *predicted_gas_ = nullptr,
+                                 *solid_ = nullptr;  ///< taken in, at the points of the exchange
+  std::vector<Level> levels_;                        ///< newest first
+  std::size_t known_ = 0;                            ///< levels that are filled
   std::vector<double> n_, ds_, v_, a_, z_f_, x_solid_, x_gas_;
   std::vector<GasSide> gas_;       ///< predicted gas
   std::vector<double> solid_v_n_;  ///< predicted normal velocity of the solid

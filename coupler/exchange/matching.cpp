@@ -28,12 +28,10 @@ double mean_spacing(const std::vector<double>& x) {
   return sum / static_cast<double>(n - 1);
 }
 
-const wire::Hello& the_fluid(std::span<const wire::Hello> hellos) {
+void expect_fluid(std::span<const wire::Hello> hellos) {
   const auto is_fluid = [](const wire::Hello& hello) { return hello.role == "fluid"; };
-  if (std::ranges::count_if(hellos, is_fluid) != 1) {
-    throw PeerLost("a coupled run needs exactly one program with the role \"fluid\"");
-  }
-  return *std::ranges::find_if(hellos, is_fluid);
+  if (std::ranges::none_of(hellos, is_fluid))
+    throw PeerLost("a coupled run needs a program with the role \"fluid\"");
 }
 
 void check_shape(const wire::Hello& hello, const wire::InterfaceInfo& info) {
@@ -122,14 +120,17 @@ InterfacePair pair_of(InterfacePair pair, const wire::InterfaceInfo& gas, const 
   return pair;
 }
 
-}  // namespace
-
-std::vector<InterfacePair> match_interfaces(std::span<const wire::Hello> hellos,
-                                            std::span<const std::string> periodic) {
-  const wire::Hello& fluid = the_fluid(hellos);
-  std::vector<InterfacePair> pairs;
+/// Adds the interfaces of one gas.
+void match_gas(const wire::Hello& fluid, std::span<const wire::Hello> hellos,
+               std::span<const std::string> periodic, std::vector<InterfacePair>& pairs) {
   for (const wire::InterfaceInfo& gas : fluid.interfaces) {
     check_shape(fluid, gas);
+    if (const auto other = std::ranges::find(pairs, gas.name, &InterfacePair::name); other != pairs.end()) {
+      throw PeerLost(fmt::format(
+          "the gases \"{}\" and \"{}\" both say that interface \"{}\" is theirs; where a solid meets "
+          "several gases it has an interface with each, <solid>.<gas>",
+          other->fluid, fluid.name, gas.name));
+    }
     for (const wire::Hello& hello : hellos) {
       if (hello.role != "solid") continue;
       for (const wire::InterfaceInfo& solid : hello.interfaces) {
@@ -152,6 +153,17 @@ std::vector<InterfacePair> match_interfaces(std::span<const wire::Hello> hellos,
                       "in the boundaries of solids.{}",
                       gas.name, gas.name));
     }
+  }
+}
+
+}  // namespace
+
+std::vector<InterfacePair> match_interfaces(std::span<const wire::Hello> hellos,
+                                            std::span<const std::string> periodic) {
+  expect_fluid(hellos);
+  std::vector<InterfacePair> pairs;
+  for (const wire::Hello& hello : hellos) {
+    if (hello.role == "fluid") match_gas(hello, hellos, periodic, pairs);
   }
   for (const wire::Hello& hello : hellos) {
     for (const wire::InterfaceInfo& info : hello.interfaces) {

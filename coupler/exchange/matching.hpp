@@ -13,7 +13,7 @@ namespace fsi::coupler {
 /// The two sides of one interface.
 struct InterfacePair {
   std::string fluid, solid;  ///< participants
-  std::string name;          ///< of the interface: that of the solid
+  std::string name;          ///< of the interface: that of the solid, or <solid>.<gas>
   std::vector<double> x;     ///< initial positions of the points of the exchange, 2 n
   std::vector<double> n0;    ///< reference normals of the solid there, 2 n
   bool periodic = false;     ///< the interface goes on beyond its ends, a period further
@@ -27,7 +27,7 @@ struct InterfacePair {
   std::optional<Coarser> coarser = {};
 };
 
-/// All interfaces of a run, in the order of the gas's hello. Where the points of both sides are the same, in
+/// All interfaces of a run, in the order of the gases' hellos. Where the points of both sides are the same, in
 /// the same order and no farther apart than a thousandth of their spacing, the exchange happens at those of
 /// the gas; otherwise at those of the side with more of them.
 /// @param periodic names of those that go on beyond their ends, a period further

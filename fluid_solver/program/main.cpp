@@ -5,8 +5,6 @@
 
 int main(int argc, char** argv) {
   return fsi::run_program(argc, argv, "fluid", "fluid", [](const fsi::Setup& setup, fsi::io::Part& part) {
-    if (!setup.problem.fluid)
-      throw fsi::UserMistake("the case has no section `fluid`; write one or start a solid solver");
     fsi::fluid::FluidParticipant solver(setup);
     fsi::participate(setup, part, solver);
   });

@@ -71,10 +71,10 @@ Boundary boundary_of(const BoundarySpec& spec, Side side,
   throw UserMistake(fmt::format("fluid: boundary {} has a condition for solids", name_of(side)));
 }
 
-GasOptions options_of(const Case& problem) {
-  const GasScheme& scheme = problem.fluid->scheme;
-  return {.gamma = problem.fluid->gamma,
-          .p_e = problem.fluid->p_e,
+GasOptions options_of(const Case& problem, const FluidSpec& spec) {
+  const GasScheme& scheme = spec.scheme;
+  return {.gamma = spec.gamma,
+          .p_e = spec.p_e,
           .riemann = scheme.riemann,
           .limiter = scheme.limiter,
           .entropy_fix = scheme.entropy_fix,
@@ -98,15 +98,15 @@ bool meets_a_solid(const std::array<BoundarySpec, 4>& specs) {
   return std::ranges::find(specs, BoundaryKind::interface, &BoundarySpec::kind) != specs.end();
 }
 
-GasSolver solver_of(const Case& problem, const std::shared_ptr<const exact::Solution>& reference) {
-  const FluidSpec& spec = *problem.fluid;
+GasSolver solver_of(const Case& problem, const FluidSpec& spec,
+                    const std::shared_ptr<const exact::Solution>& reference) {
   std::vector<GasPart> parts;
   parts.push_back({grid::MovingGrid(grid_from_case(spec.grid, meets_a_solid(spec.boundary)), 0),
                    boundaries_of(spec.boundary, reference)});
   const std::vector<grid::GridDescription> fitted = grids_from_case(spec.body_fitted);
   for (std::size_t k = 0; k < fitted.size(); ++k)
     parts.push_back({grid::MovingGrid(fitted[k], 0), boundaries_of(spec.body_fitted[k].boundary, reference)});
-  return {std::move(parts), bodies_of(spec.body_fitted), options_of(problem), 0};
+  return {std::move(parts), bodies_of(spec.body_fitted), options_of(problem, spec), 0};
 }
 
 /// Mean of |rho - exact| over the grid points: what is left to measure where the solution jumps.
@@ -128,17 +128,19 @@ double mean_density_error(const GasSolver& solver, const StateField& exact, doub
 
 FluidParticipant::FluidParticipant(const Setup& setup)
     : setup_(setup),
-      spec_(*setup.problem.fluid),
+      spec_(fluid_of(setup)),
       reference_(reference_from_case(setup.problem, setup.run_dir)),
-      solver_(solver_of(setup.problem, reference_)),
-      fields_(setup.run_dir, "fluid") {
+      solver_(solver_of(setup.problem, spec_, reference_)),
+      fields_(setup.run_dir, fields_name(spec_)) {
   for (const Side side : all_sides) {
     const BoundarySpec& boundary = spec_.boundary[static_cast<std::size_t>(side)];
-    if (boundary.kind == BoundaryKind::interface) interfaces_.push_back({0, side, boundary.solid});
+    if (boundary.kind == BoundaryKind::interface)
+      interfaces_.push_back({0, side, name_of_interface(boundary.solid)});
   }
   for (std::size_t k = 0; k < spec_.body_fitted.size(); ++k) {
     const BodyFittedSpec& fitted = spec_.body_fitted[k];
-    if (!fitted.solid.empty()) interfaces_.push_back({static_cast<int>(k) + 1, fitted.side, fitted.solid});
+    if (!fitted.solid.empty())
+      interfaces_.push_back({static_cast<int>(k) + 1, fitted.side, name_of_interface(fitted.solid)});
   }
   chosen_ = reference_ && setup.problem.reference.kind == "manufactured";
   if (chosen_) solver_.force(field_of(reference_));
@@ -150,13 +152,13 @@ FluidParticipant::FluidParticipant(const Setup& setup)
 
   std::vector<std::string> columns{"t [time]"};
   for (const ProbeSpec& probe : setup.problem.output.probes) {
-    if (probe.in != "fluid") continue;
+    if (probe.in != spec_.name) continue;
     probes_.push_back(probe);
     for (const char* quantity : {"rho", "v1", "v2", "p"})
       columns.push_back(fmt::format("{}.{}", probe.name, quantity));
   }
   if (!probes_.empty())
-    probe_table_.emplace(setup.run_dir + "/parts/probes_fluid.csv", columns, setup.opening());
+    probe_table_.emplace(setup.run_dir + "/parts/probes_" + spec_.name + ".csv", columns, setup.opening());
 }
 
 wire::Hello FluidParticipant::hello() const {
@@ -167,7 +169,7 @@ wire::Hello FluidParticipant::hello() const {
   hello.config_digest = setup_.problem.digest;
   hello.points = solver_.points();
   for (const InterfaceSide& interface : interfaces_) {
-    hello.interfaces.push_back({.name = interface.solid,
+    hello.interfaces.push_back({.name = interface.name,
                                 .dimension = 2,
                                 .x = solver_.grid(interface.grid).side_points(interface.side),
                                 .n = {}});
@@ -295,7 +297,7 @@ void FluidParticipant::open_budget() {
   if (!bodies || !known || chosen_) return;
   budget_.emplace(solver_);
   budget_table_.emplace(
-      setup_.run_dir + "/budget_fluid.csv",
+      setup_.run_dir + "/budget_" + spec_.name + ".csv",
       std::vector<std::string>{"t [time]", "mass_defect [mass/depth]", "momentum1_defect [force*time/depth]",
                                "momentum2_defect [force*time/depth]", "energy_defect [force*length/depth]"},
       setup_.opening());

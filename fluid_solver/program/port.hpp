@@ -1,6 +1,7 @@
 #pragma once
 /// The gas solver's port: a case file turned into a GasSolver, its state turned into messages and files.
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
@@ -36,11 +37,11 @@ class FluidParticipant final : public Participant {
   void report(double t, io::Part& part) const override;
 
  private:
-  /// A side of a component grid and the solid on the other side of it.
+  /// A side of a component grid, and what the interface there is called.
   struct InterfaceSide {
     int grid;
     Side side;
-    std::string solid;
+    std::string name;
   };
 
   /// The chosen solution at the points of an interface: n.v and p - p_e. Empty without one.
@@ -49,6 +50,9 @@ class FluidParticipant final : public Participant {
   };
   /// Of the last complete step, or of the state as it is.
   std::vector<io::GridOutput> fields(bool last) const;
+  std::string name_of_interface(const std::string& solid) const {
+    return interface_name(*std::ranges::find(setup_.problem.solids, solid, &SolidSpec::name), spec_.name);
+  }
   ChosenValues chosen_at(const InterfaceSide& interface) const;
 
   const Setup& setup_;

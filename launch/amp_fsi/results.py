@@ -46,7 +46,7 @@ class Run:
 
     @property
     def programs(self):
-        """Those with fields: "fluid", then the solids by name."""
+        """Those with fields: "fluid" or the gases by name, then the solids by name."""
         return tuple(name for _, name in data.files(self.directory))
 
     def _file(self, program):

@@ -20,7 +20,7 @@ from fsi_launch.watch import Monitor
 FRAMES = 60     # of a movie
 COUPLER = "coupler"     # the participant of that name looks after the others
 OF_A_RUN = ("case.yaml", "summary.json", "log", "parts", "fields", "checkpoints", "last_state", "plots", "*.csv", "run.xmf",
-            "fluid.h5", "solid_*.h5", "reference.h5")
+            "fluid.h5", "fluid_*.h5", "solid_*.h5", "reference.h5")
 
 
 @dataclass

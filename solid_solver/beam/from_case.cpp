@@ -68,21 +68,28 @@ struct Surface {
   bool meets_gas = false;
 };
 
-Surface surface_of(const SolidSpec& spec) {
+/// One for each gas that the beam meets; one of a beam alone.
+std::vector<Surface> surfaces_of(const SolidSpec& spec) {
   if (!spec.body_fitted.empty()) {
     const BodyFittedSpec& fitted = spec.body_fitted.front();
-    return {.outline = {.x = fitted.curve.x,
-                        .ends = fitted.curve.closed() ? grid::Curve::closed : grid::Curve::open,
-                        .orientation = grid::outward(fitted.side)},
-            .meets_gas = is_interface(fitted.boundary[static_cast<std::size_t>(fitted.side)])};
+    return {{.outline = {.x = fitted.curve.x,
+                         .ends = fitted.curve.closed() ? grid::Curve::closed : grid::Curve::open,
+                         .orientation = grid::outward(fitted.side)},
+             .meets_gas = is_interface(fitted.boundary[static_cast<std::size_t>(fitted.side)])}};
   }
   const grid::MovingGrid grid(grid_from_case(spec.grid, false), 0);
-  const auto meets = std::ranges::find_if(spec.boundary, is_interface);
-  const bool found = meets != spec.boundary.end();
-  const Side side = found ? all_sides[static_cast<std::size_t>(meets - spec.boundary.begin())] : Side::top;
-  return {
-      .outline = {.x = grid.side_points(side), .ends = grid::Curve::open, .orientation = grid::outward(side)},
-      .meets_gas = found};
+  const auto along = [&](Side side, bool meets_gas) -> Surface {
+    return {.outline = {.x = grid.side_points(side),
+                        .ends = grid::Curve::open,
+                        .orientation = grid::outward(side)},
+            .meets_gas = meets_gas};
+  };
+  std::vector<Surface> surfaces;
+  for (const Side side : all_sides) {
+    if (is_interface(spec.boundary[static_cast<std::size_t>(side)])) surfaces.push_back(along(side, true));
+  }
+  if (surfaces.empty()) surfaces.push_back(along(Side::top, false));
+  return surfaces;
 }
 
 /// Velocities of the nodes, and of the sections the rate at which these turn the line.
@@ -112,11 +119,15 @@ BeamFromCase beam_from_case(const SolidSpec& spec) {
   const std::array<End, 2>& ends = spec.beam->ends;
   Line line = line_of(*spec.beam);
   std::vector<Section> sections = sections_of(spec, line);
-  Surface surface = surface_of(spec);
-  Skin skin(line, std::move(surface.outline), ends);
+  std::vector<Skin> skins;
+  bool meets_gas = false;
+  for (Surface& surface : surfaces_of(spec)) {
+    meets_gas = surface.meets_gas;
+    skins.emplace_back(line, std::move(surface.outline), ends);
+  }
   BeamFromCase result{.motion = BeamMotion(BeamModel(std::move(line), std::move(sections)), ends),
-                      .skin = std::move(skin),
-                      .meets_gas = surface.meets_gas};
+                      .skins = std::move(skins),
+                      .meets_gas = meets_gas};
   if (spec.initial_v) result.motion.start(initial_velocities(result.motion.model().line(), *spec.initial_v));
   return result;
 }

@@ -62,7 +62,7 @@ BeamParticipant::BeamParticipant(const Setup& setup, const SolidSpec& spec)
       spec_(spec),
       from_case_(beam_from_case(spec)),
       motion_(from_case_.motion),
-      skin_(from_case_.skin),
+      skins_(from_case_.skins),
       fields_(setup.run_dir, "solid_" + spec.name),
       initial_(totals()) {
   if (!from_case_.meets_gas && !setup.problem.time.dt) {
@@ -70,7 +70,7 @@ BeamParticipant::BeamParticipant(const Setup& setup, const SolidSpec& spec)
         "solid \"{}\" is a beam without a gas: its implicit scheme has no largest step; write `time.dt`",
         spec.name));
   }
-  place_grid();
+  place_grids();
   open_tables();
 }
 
@@ -81,9 +81,12 @@ wire::Hello BeamParticipant::hello() const {
   hello.law = spec_.law;
   hello.config_digest = setup_.problem.digest;
   hello.points = static_cast<std::uint64_t>(motion_.model().nodes());
-  if (from_case_.meets_gas) {
-    const std::vector<double>& x = skin_.outline().x;
-    hello.interfaces.push_back({.name = spec_.name, .dimension = 2, .x = x, .n = skin_.normals(x)});
+  if (!from_case_.meets_gas) return hello;
+  const std::vector<std::string> gases = gases_at(spec_);
+  for (std::size_t k = 0; k < skins_.size(); ++k) {
+    const std::vector<double>& x = skins_[k].outline().x;
+    hello.interfaces.push_back(
+        {.name = interface_name(spec_, gases[k]), .dimension = 2, .x = x, .n = skins_[k].normals(x)});
   }
   return hello;
 }
@@ -92,14 +95,15 @@ TimeStepBid BeamParticipant::compute_time_step() const {
   return {.dt = std::numeric_limits<double>::infinity(), .reason = "a beam is integrated implicitly"};
 }
 
-void BeamParticipant::fill(std::size_t /*k*/, wire::PredictedInterface& predicted) const {
-  predicted.x = skin_.positions(motion_);
-  predicted.v = skin_.velocities(motion_);
-  predicted.fixed = skin_.freedom();
+void BeamParticipant::fill(std::size_t k, wire::PredictedInterface& predicted) const {
+  const Skin& skin = skins_[k];
+  predicted.x = skin.positions(motion_);
+  predicted.v = skin.velocities(motion_);
+  predicted.fixed = skin.freedom();
   predicted.modal = {.modes = static_cast<std::int32_t>(motion_.modes()),
                      .S = {},
                      .g = std::vector<double>(static_cast<std::size_t>(motion_.modes())),
-                     .N = wire::entries_of(skin_.mode_vectors(motion_, skin_.normals(predicted.x))),
+                     .N = wire::entries_of(skin.mode_vectors(motion_, skin.normals(predicted.x))),
                      .q_dot = numbers(motion_.q_dot())};
   if (dt_ == 0) return;
   const Response response = motion_.lower_response();
@@ -109,15 +113,23 @@ void BeamParticipant::fill(std::size_t /*k*/, wire::PredictedInterface& predicte
 
 void BeamParticipant::apply_bcs(double /*t*/, ProjectedStates projected) {
   if (projected.empty()) return;  // the prediction is the motion
-  const wire::ProjectedInterface& answer = *projected.front();
-  if (dt_ > 0) motion_.correct(Eigen::Map<const Eigen::VectorXd>(answer.q_dot.data(), motion_.modes()));
-  const std::vector<double> x = skin_.positions(motion_);
+  if (dt_ > 0)
+    motion_.correct(Eigen::Map<const Eigen::VectorXd>(projected.front()->q_dot.data(), motion_.modes()));
   std::vector<NormalSide> gas;
-  for (std::size_t k = 0; k < skin_.points(); ++k)
-    gas.push_back({.z = answer.z_f[k], .v_n = answer.v_n[k], .w_n = answer.w_n[k]});
-  added_mass_.take(skin_.mode_vectors(motion_, answer.n));
-  gas_ = &added_mass_.load(gas, point_lengths(x));
-  load_ = rigid::load_of_gas(x, answer.n, answer.w_n, answer.v_n);
+  std::vector<double> lengths;
+  std::vector<Eigen::SparseMatrix<double>> modes;
+  for (std::size_t k = 0; k < projected.size(); ++k) {
+    const wire::ProjectedInterface& answer = *projected[k];
+    const std::vector<double> x = skins_[k].positions(motion_), ds = point_lengths(x);
+    for (std::size_t i = 0; i < skins_[k].points(); ++i)
+      gas.push_back({.z = answer.z_f[i], .v_n = answer.v_n[i], .w_n = answer.w_n[i]});
+    lengths.insert(lengths.end(), ds.begin(), ds.end());
+    modes.push_back(skins_[k].mode_vectors(motion_, answer.n));
+    const rigid::GasLoad load = rigid::load_of_gas(x, answer.n, answer.w_n, answer.v_n);
+    load_ = k == 0 ? load : load_ + load;
+  }
+  added_mass_.take(modes.size() == 1 ? modes.front() : side_by_side(modes));
+  gas_ = &added_mass_.load(gas, lengths);
   impulse_.add(load_, dt_);
 }
 
@@ -139,31 +151,37 @@ std::array<double, 12> BeamParticipant::values_at(const Attached& point, const V
           P(1, 0), P(1, 1), at.theta, force.N, force.Q, force.M};
 }
 
-io::GridOutput BeamParticipant::fields() {
-  for (int i = 0; i < reference_.layout().n1; ++i) {
-    const Attached& place = skin_.place(static_cast<std::size_t>(i));
-    Attached foot = place;
-    foot.r *= beside;
-    for (const auto& [j, point] : {std::pair{0, place}, std::pair{1, foot}}) {
-      const auto values = values_at(point, {reference_(0, i, j), reference_(1, i, j)});
-      for (std::size_t k = 0; k < values.size(); ++k) state_(static_cast<int>(k), i, j) = values[k];
+std::vector<io::GridOutput> BeamParticipant::fields() {
+  std::vector<io::GridOutput> grids;
+  for (std::size_t l = 0; l < skins_.size(); ++l) {
+    Drawn& drawn = drawn_[l];
+    for (int i = 0; i < drawn.reference.layout().n1; ++i) {
+      const Attached& place = skins_[l].place(static_cast<std::size_t>(i));
+      Attached foot = place;
+      foot.r *= beside;
+      for (const auto& [j, point] : {std::pair{0, place}, std::pair{1, foot}}) {
+        const auto values = values_at(point, {drawn.reference(0, i, j), drawn.reference(1, i, j)});
+        for (std::size_t k = 0; k < values.size(); ++k) drawn.state(static_cast<int>(k), i, j) = values[k];
+      }
     }
+    std::vector<io::NamedPlane> planes;
+    for (std::size_t k = 0; k < quantities.size(); ++k)
+      planes.push_back({quantities[k], drawn.state.view(), static_cast<int>(k)});
+    grids.push_back({.grid = drawn.grid,
+                     .x = drawn.reference.view(),
+                     .u = drawn.state.view(),
+                     .fields = std::move(planes)});
   }
-  std::vector<io::NamedPlane> planes;
-  for (std::size_t k = 0; k < quantities.size(); ++k)
-    planes.push_back({quantities[k], state_.view(), static_cast<int>(k)});
-  return {.grid = "beam", .x = reference_.view(), .u = state_.view(), .fields = std::move(planes)};
+  return grids;
 }
 
 void BeamParticipant::write_fields(double t, std::uint64_t step) {
-  const io::GridOutput grids[] = {fields()};
-  fields_.write(t, step, grids);
+  fields_.write(t, step, fields());
 }
 
 /// The beam as it is: predicted where the others broke.
 void BeamParticipant::write_last_state(double t, std::uint64_t step) {
-  const io::GridOutput grids[] = {fields()};
-  fields_.write_apart("last_state", t, step, grids);
+  fields_.write_apart("last_state", t, step, fields());
 }
 
 void BeamParticipant::archive(Archive& archive) {
@@ -179,19 +197,20 @@ void BeamParticipant::archive(Archive& archive) {
 
 void BeamParticipant::write_tables(double t, double /*dt*/, ProjectedStates /*projected*/) {
   const BeamModel& model = motion_.model();
-  double mass = 0, angle = 0;
-  Vec2 centre = Vec2::Zero();
+  double weight = 0, angle = 0;
+  Vec2 centre = Vec2::Zero(), carried = Vec2::Zero();
   for (int node = 0; node < model.nodes(); ++node) {
-    const double part = model.mass()[freedom_of(node)];
-    mass += part;
+    const double part = node_weight(node);
+    weight += part;
     centre +=
         part * (model.line().x[static_cast<std::size_t>(node)] + motion_.u().segment<2>(freedom_of(node)));
+    carried += part * motion_.u_dot().segment<2>(freedom_of(node));
     angle += part * motion_.u()[3 * node + 2];
   }
-  centre /= mass;
-  const Vec2 v = motion_.momentum() / mass;
+  centre /= weight;
+  const Vec2 v = (spec_.rho > 0 ? motion_.momentum() : carried) / weight;
   forces_->row({t, load_.force[0], load_.force[1], load_.moment, load_.power, centre[0], centre[1], v[0],
-                v[1], angle / mass});
+                v[1], angle / weight});
   energies_->row({t, motion_.kinetic_energy(), model.strain_energy(motion_.u()), impulse_.sum().power});
   if (!probe_table_) return;
   std::vector<double> row{t};
@@ -229,6 +248,18 @@ BeamParticipant::Totals BeamParticipant::totals() const {
           .energy = motion_.kinetic_energy() + motion_.model().strain_energy(motion_.u())};
 }
 
+/// The mass of a node, or its volume where the beam has no mass.
+double BeamParticipant::node_weight(int node) const {
+  const BeamModel& model = motion_.model();
+  if (spec_.rho > 0) return model.mass()[freedom_of(node)];
+  const auto half = [&](int element) {
+    const Section& section = model.section(element);
+    return 0.5 * model.length(element) * std::sqrt(12 * section.EI / section.EA);
+  };
+  const double before = node > 0 ? half(node - 1) : 0, after = node < model.elements() ? half(node) : 0;
+  return before + after;
+}
+
 /// The body force at the nodes, on the thickness of the elements beside them.
 Eigen::VectorXd BeamParticipant::own_load(double t) const {
   const BeamModel& model = motion_.model();
@@ -237,7 +268,8 @@ Eigen::VectorXd BeamParticipant::own_load(double t) const {
   for (int node = 0; node < model.nodes(); ++node) {
     const Vec2& x = model.line().x[static_cast<std::size_t>(node)];
     const Vec2 force(spec_.body_force->c1(x[0], x[1], t), spec_.body_force->c2(x[0], x[1], t));
-    load.segment<2>(freedom_of(node)) = model.mass()[freedom_of(node)] / spec_.rho * force;
+    const double volume = spec_.rho > 0 ? node_weight(node) / spec_.rho : node_weight(node);
+    load.segment<2>(freedom_of(node)) = volume * force;
   }
   return load;
 }
@@ -264,16 +296,21 @@ void BeamParticipant::open_tables() {
     probe_table_.emplace(setup_.run_dir + "/parts/probes_" + spec_.name + ".csv", columns, setup_.opening());
 }
 
-void BeamParticipant::place_grid() {
-  const std::vector<double>& x = skin_.outline().x;
-  const auto n = static_cast<int>(skin_.points());
-  reference_ = Field(Layout(n, 2), 2);
-  state_ = Field(Layout(n, 2), static_cast<int>(quantities.size()));
-  for (int i = 0; i < n; ++i) {
-    for (int c = 0; c < 2; ++c) {
-      const double on_outline = x[static_cast<std::size_t>(c * n + i)];
-      reference_(c, i, 0) = on_outline;
-      reference_(c, i, 1) = on_outline - (1 - beside) * skin_.place(static_cast<std::size_t>(i)).r[c];
+void BeamParticipant::place_grids() {
+  for (std::size_t l = 0; l < skins_.size(); ++l) {
+    const Skin& skin = skins_[l];
+    const std::vector<double>& x = skin.outline().x;
+    const auto n = static_cast<int>(skin.points());
+    Drawn& drawn = drawn_.emplace_back();
+    drawn.grid = l == 0 ? "beam" : "beam_" + gases_at(spec_)[l];
+    drawn.reference = Field(Layout(n, 2), 2);
+    drawn.state = Field(Layout(n, 2), static_cast<int>(quantities.size()));
+    for (int i = 0; i < n; ++i) {
+      for (int c = 0; c < 2; ++c) {
+        const double on_outline = x[static_cast<std::size_t>(c * n + i)];
+        drawn.reference(c, i, 0) = on_outline;
+        drawn.reference(c, i, 1) = on_outline - (1 - beside) * skin.place(static_cast<std::size_t>(i)).r[c];
+      }
     }
   }
 }

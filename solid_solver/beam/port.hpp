@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "common/core/field.hpp"
@@ -27,7 +28,7 @@ class BeamParticipant final : public Participant {
   void fill(std::size_t k, wire::PredictedInterface& predicted) const override;
   void apply_bcs(double t, ProjectedStates projected) override;
   void advance(double t, double dt, int substeps, ProjectedStates projected) override;
-  std::vector<io::GridOutput> fields_now() override { return {fields()}; }
+  std::vector<io::GridOutput> fields_now() override { return fields(); }
   void write_fields(double t, std::uint64_t step) override;
   void write_tables(double t, double dt, ProjectedStates projected) override;
   void write_last_state(double t, std::uint64_t step) override;
@@ -39,12 +40,17 @@ class BeamParticipant final : public Participant {
   const SolidSpec& spec_;
   BeamFromCase from_case_;
   BeamMotion& motion_;
-  const Skin& skin_;
+  const std::vector<Skin>& skins_;
   io::GridWriter fields_;
   std::optional<io::CsvWriter> forces_, probe_table_, energies_;
   std::vector<Attached> probes_;
   std::vector<Vec2> probe_places_;  ///< reference positions
-  Field reference_, state_;  ///< two lines of points: the outline, and a line just beside the centre line
+  /// A skin in the fields: two lines of points, its outline and a line just beside the centre line.
+  struct Drawn {
+    std::string grid;
+    Field reference, state;
+  };
+  std::vector<Drawn> drawn_;
   AddedMass added_mass_;
   const ModalLoad* gas_ = nullptr;  ///< what the gas answered last
   rigid::GasLoad load_;
@@ -58,12 +64,13 @@ class BeamParticipant final : public Participant {
   Totals initial_;
 
   Totals totals() const;
-  io::GridOutput fields();
+  std::vector<io::GridOutput> fields();
   /// The values of `quantities` at a point of the beam.
   std::array<double, 12> values_at(const Attached& point, const Vec2& x_bar) const;
   Eigen::VectorXd own_load(double t) const;
+  double node_weight(int node) const;
   void open_tables();
-  void place_grid();
+  void place_grids();
 };
 
 }  // namespace fsi::beam

@@ -54,14 +54,13 @@ class SolidParticipant final : public Participant {
     hello.law = std::string(L::name);
     hello.config_digest = setup_.problem.digest;
     hello.points = solver_.points();
-    if (side_) {
+    for (const Meeting& meeting : meetings_) {
       SolidInterface state;
-      solver_.interface_state(*side_, state, grid_);
-      move_along(state.x);
-      hello.interfaces.push_back({.name = spec_.name,
-                                  .dimension = 2,
-                                  .x = state.x,
-                                  .n = normals(solver_.grid(grid_).side_points(*side_), state.fixed)});
+      solver_.interface_state(meeting.side, state, meeting.grid);
+      move_along(meeting, state.x);
+      const std::vector<double> x_bar = solver_.grid(meeting.grid).side_points(meeting.side);
+      hello.interfaces.push_back(
+          {.name = meeting.name, .dimension = 2, .x = state.x, .n = normals(meeting, x_bar, state.fixed)});
     }
     return hello;
   }
@@ -71,10 +70,11 @@ class SolidParticipant final : public Participant {
     return {.dt = step.dt, .reason = step.reason};
   }
 
-  void fill(std::size_t /*k*/, wire::PredictedInterface& predicted) const override {
-    solver_.interface_state(*side_, interface_, grid_);
+  void fill(std::size_t k, wire::PredictedInterface& predicted) const override {
+    const Meeting& meeting = meetings_[k];
+    solver_.interface_state(meeting.side, interface_, meeting.grid);
     predicted.x = interface_.x;
-    move_along(predicted.x);
+    move_along(meeting, predicted.x);
     predicted.v = interface_.v;
     predicted.w = interface_.w;
     predicted.Z = interface_.Z;
@@ -87,8 +87,12 @@ class SolidParticipant final : public Participant {
       solver_.apply_solid_bcs(t);
       return;
     }
-    const wire::ProjectedInterface& p = *projected.front();
-    const InterfaceValues values[] = {{.side = *side_, .n = p.n, .v_n = p.v_n, .w_n = p.w_n, .grid = grid_}};
+    std::vector<InterfaceValues> values;
+    for (std::size_t k = 0; k < projected.size(); ++k) {
+      const wire::ProjectedInterface& p = *projected[k];
+      const Meeting& meeting = meetings_[k];
+      values.push_back({.side = meeting.side, .n = p.n, .v_n = p.v_n, .w_n = p.w_n, .grid = meeting.grid});
+    }
     solver_.apply_solid_bcs(t, values);
   }
 
@@ -99,7 +103,7 @@ class SolidParticipant final : public Participant {
       solver_.advance_solid(t_k, dt_sub);
       if (k + 1 == substeps) break;
       lap(io::Work::advance);
-      close_substep(t_k + dt_sub, *projected.front());
+      close_substep(t_k + dt_sub, projected);
       lap(io::Work::boundary);
     }
   }
@@ -124,7 +128,7 @@ class SolidParticipant final : public Participant {
 
   void write_tables(double t, double dt, ProjectedStates /*projected*/) override {
     if (forces_) {
-      const SideLoad load = solver_.side_load(*side_, grid_);
+      const SideLoad load = whole_load();
       received_.add({load.force[0], load.force[1], load.power}, dt);
       const Pose pose = solver_.pose();
       forces_->row({t, load.force[0], load.force[1], load.moment, load.power, pose.centre[0], pose.centre[1],
@@ -201,12 +205,31 @@ class SolidParticipant final : public Participant {
   }
 
  private:
+  /// Where the solid meets a gas.
+  struct Meeting {
+    Side side;
+    int grid;          ///< component grid
+    std::string name;  ///< of the interface
+  };
+
   void find_interface(int grid, const std::array<BoundarySpec, 4>& boundary) {
     for (const Side side : all_sides) {
       if (boundary[static_cast<std::size_t>(side)].kind != BoundaryKind::interface) continue;
-      side_ = side;
-      grid_ = grid;
+      const std::string& fluid = boundary[static_cast<std::size_t>(side)].fluid;
+      meetings_.push_back({.side = side, .grid = grid, .name = interface_name(spec_, fluid)});
     }
+  }
+
+  /// Of all gases.
+  SideLoad whole_load() const {
+    SideLoad sum = solver_.side_load(meetings_.front().side, meetings_.front().grid);
+    for (std::size_t k = 1; k < meetings_.size(); ++k) {
+      const SideLoad load = solver_.side_load(meetings_[k].side, meetings_[k].grid);
+      sum.force += load.force;
+      sum.moment += load.moment;
+      sum.power += load.power;
+    }
+    return sum;
   }
 
   std::vector<io::GridOutput> fields() const {
@@ -227,19 +250,19 @@ class SolidParticipant final : public Participant {
 
   /// Whether all that acts on the body is the gas.
   bool surrounded() const {
-    return side_ && grid_ == 1 && spec_.body_fitted.front().curve.closed() && !spec_.body_force &&
-           !setup_.problem.interface.motion;
+    return !meetings_.empty() && meetings_.front().grid == 1 && spec_.body_fitted.front().curve.closed() &&
+           !spec_.body_force && !setup_.problem.interface.motion;
   }
 
-  grid::Curve curve() const { return curve_along(solver_.grid(grid_), *side_); }
-
-  /// Unit normals of the interface at these positions; of ends that slide along a wall, its direction.
-  std::vector<double> normals(std::span<const double> x, std::span<const std::uint8_t> freedom) const {
-    std::vector<double> n = grid::normals(x, curve(), grid::outward(*side_));
+  /// Unit normals of an interface at these positions; of ends that slide along a wall, its direction.
+  std::vector<double> normals(const Meeting& meeting, std::span<const double> x,
+                              std::span<const std::uint8_t> freedom) const {
+    const grid::Curve curve = curve_along(solver_.grid(meeting.grid), meeting.side);
+    std::vector<double> n = grid::normals(x, curve, grid::outward(meeting.side));
     const std::size_t points = freedom.size();
     for (const std::size_t k : {std::size_t{0}, points - 1}) {
       if (freedom[k] != wire::Freedom::slides) continue;
-      const Vec2 along = solver_.along_wall(*side_, static_cast<int>(k), grid_);
+      const Vec2 along = solver_.along_wall(meeting.side, static_cast<int>(k), meeting.grid);
       n[k] = along.x();
       n[points + k] = along.y();
     }
@@ -247,10 +270,10 @@ class SolidParticipant final : public Participant {
   }
 
   /// From where the reference configuration has the interface to where its given path has it.
-  void move_along(std::vector<double>& x) const {
+  void move_along(const Meeting& meeting, std::vector<double>& x) const {
     const auto& motion = setup_.problem.interface.motion;
     if (!motion) return;
-    const std::vector<double> x_bar = solver_.grid(grid_).side_points(*side_);
+    const std::vector<double> x_bar = solver_.grid(meeting.grid).side_points(meeting.side);
     const std::size_t n = x_bar.size() / 2;
     for (std::size_t k = 0; k < n; ++k) {
       x[k] += motion->c1(x_bar[k], x_bar[n + k], solver_.t()) - x_bar[k];
@@ -258,14 +281,24 @@ class SolidParticipant final : public Participant {
     }
   }
 
-  /// The interface inside a macro step: the gas is known by its outgoing characteristic.
-  void close_substep(double t, const wire::ProjectedInterface& p) {
-    solver_.interface_state(*side_, interface_, grid_);
-    const std::vector<double> normal = normals(interface_.x, interface_.fixed);
-    const RobinData gas{.z_f = p.z_f, .t = p.robin_t, .r = p.robin_r};
-    const ClosedInterface closed = close_with_robin(gas, t, normal, interface_);
-    const InterfaceValues values[] = {
-        {.side = *side_, .n = normal, .v_n = closed.v_n, .w_n = closed.w_n, .grid = grid_}};
+  /// The interfaces inside a macro step: the gas is known by its outgoing characteristic.
+  void close_substep(double t, ProjectedStates projected) {
+    std::vector<InterfaceValues> values;
+    std::vector<std::vector<double>> normal(projected.size());
+    std::vector<ClosedInterface> closed(projected.size());
+    for (std::size_t k = 0; k < projected.size(); ++k) {
+      const Meeting& meeting = meetings_[k];
+      const wire::ProjectedInterface& p = *projected[k];
+      solver_.interface_state(meeting.side, interface_, meeting.grid);
+      normal[k] = normals(meeting, interface_.x, interface_.fixed);
+      const RobinData gas{.z_f = p.z_f, .t = p.robin_t, .r = p.robin_r};
+      closed[k] = close_with_robin(gas, t, normal[k], interface_);
+      values.push_back({.side = meeting.side,
+                        .n = normal[k],
+                        .v_n = closed[k].v_n,
+                        .w_n = closed[k].w_n,
+                        .grid = meeting.grid});
+    }
     solver_.apply_solid_bcs(t, values);
   }
 
@@ -285,7 +318,7 @@ class SolidParticipant final : public Participant {
   }
 
   void open_tables() {
-    if (side_) {
+    if (!meetings_.empty()) {
       forces_.emplace(
           setup_.run_dir + "/forces_" + spec_.name + ".csv",
           std::vector<std::string>{"t [time]", "force1 [force/depth]", "force2 [force/depth]",
@@ -312,8 +345,7 @@ class SolidParticipant final : public Participant {
   L law_;
   CaseData<L> data_;
   SolidSolver<L> solver_;
-  std::optional<Side> side_;          ///< the interface
-  int grid_ = 0;                      ///< component grid of the interface
+  std::vector<Meeting> meetings_;     ///< the interfaces, in the order of the hello
   mutable SolidInterface interface_;  ///< memory that is used again every step
   io::GridWriter fields_;
   std::optional<io::CsvWriter> forces_, probe_table_;

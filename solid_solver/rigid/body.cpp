@@ -18,7 +18,7 @@ Pose moved(const Pose& pose, const Vec3& by) {
 }  // namespace
 
 RigidBody::RigidBody(Outline outline, const Inertia& inertia, double rho, Eigen::MatrixXd modes)
-    : outline_(std::move(outline)),
+    : outlines_{std::move(outline)},
       reference_centre_(inertia.centre),
       dynamics_{.mass = rho * inertia.area,
                 .moment_of_inertia = rho * inertia.second_moment,
@@ -93,10 +93,11 @@ Eigen::MatrixXd RigidBody::mass_matrix() const {
   return dynamics_.modes.transpose() * masses.asDiagonal() * dynamics_.modes;
 }
 
-Eigen::MatrixXd RigidBody::mode_vectors() const {
-  const std::vector<double> x = positions();
-  const std::vector<double> normals = grid::normals(x, outline_.ends, outline_.orientation);
-  const std::size_t n = points();
+Eigen::MatrixXd RigidBody::mode_vectors(std::size_t outline) const {
+  const std::vector<double> x = positions(outline);
+  const std::vector<double> normals =
+      grid::normals(x, outlines_[outline].ends, outlines_[outline].orientation);
+  const std::size_t n = points(outline);
   Eigen::MatrixXd N(3, static_cast<Eigen::Index>(n));
   for (std::size_t k = 0; k < n; ++k) {
     const Vec2 normal(normals[k], normals[n + k]);
@@ -116,11 +117,12 @@ Vec2 RigidBody::velocity_at(const Vec2& x) const {
   return v.head<2>() + v[2] * turned(x - pose_.centre);
 }
 
-std::vector<double> RigidBody::positions() const {
-  const std::size_t n = points();
+std::vector<double> RigidBody::positions(std::size_t outline) const {
+  const std::vector<double>& x_bar = outlines_[outline].x;
+  const std::size_t n = points(outline);
   std::vector<double> x(2 * n);
   for (std::size_t k = 0; k < n; ++k) {
-    const Vec2 now = position({outline_.x[k], outline_.x[n + k]});
+    const Vec2 now = position({x_bar[k], x_bar[n + k]});
     x[k] = now.x();
     x[n + k] = now.y();
   }
@@ -128,7 +130,7 @@ std::vector<double> RigidBody::positions() const {
 }
 
 std::vector<double> RigidBody::velocities(std::span<const double> x) const {
-  const std::size_t n = points();
+  const std::size_t n = x.size() / 2;
   std::vector<double> v(2 * n);
   for (std::size_t k = 0; k < n; ++k) {
     const Vec2 now = velocity_at({x[k], x[n + k]});

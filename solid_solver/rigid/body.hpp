@@ -11,6 +11,7 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "common/core/archive.hpp"
@@ -45,6 +46,8 @@ struct Dynamics {
 class RigidBody {
  public:
   RigidBody(Outline outline, const Inertia& inertia, double rho, Eigen::MatrixXd modes);
+  /// One more side, along which another gas is. Outlines have numbers from 0.
+  void add_outline(Outline outline) { outlines_.push_back(std::move(outline)); }
 
   /// Starts with velocity `V` of the centre and rate of rotation, as far as the body is free to.
   void start(const Vec3& V);
@@ -56,17 +59,18 @@ class RigidBody {
   /// Ends the step with the modal velocities `s`. The pose is integrated by the trapezoidal rule.
   void correct(const Eigen::VectorXd& s);
 
-  std::size_t points() const { return outline_.x.size() / 2; }
+  std::size_t outlines() const { return outlines_.size(); }
+  std::size_t points(std::size_t outline = 0) const { return outlines_[outline].x.size() / 2; }
   Eigen::Index modes() const { return dynamics_.modes.cols(); }
   const Dynamics& dynamics() const { return dynamics_; }
-  const Outline& outline() const { return outline_; }
+  const Outline& outline(std::size_t outline = 0) const { return outlines_[outline]; }
   const Vec2& reference_centre() const { return reference_centre_; }
   const Pose& pose() const { return pose_; }
   Vec3 velocity() const { return dynamics_.modes * s_; }
   const Eigen::VectorXd& modal_velocity() const { return s_; }
   Eigen::MatrixXd mass_matrix() const;
-  /// N, k x n: normal velocity of every point of the outline for every mode.
-  Eigen::MatrixXd mode_vectors() const;
+  /// N, k x n: normal velocity of every point of an outline for every mode.
+  Eigen::MatrixXd mode_vectors(std::size_t outline = 0) const;
   /// B^T load.
   Eigen::VectorXd modal_load(const Vec3& load) const { return dynamics_.modes.transpose() * load; }
 
@@ -75,8 +79,8 @@ class RigidBody {
   /// Where a point of the reference body is now, and how fast.
   Vec2 position(const Vec2& x_bar) const;
   Vec2 velocity_at(const Vec2& x) const;
-  /// The same for the whole outline, 2 n.
-  std::vector<double> positions() const;
+  /// The same for a whole outline, 2 n.
+  std::vector<double> positions(std::size_t outline = 0) const;
   std::vector<double> velocities(std::span<const double> x) const;
 
   double kinetic_energy() const { return 0.5 * s_.dot(mass_matrix() * s_); }
@@ -85,7 +89,7 @@ class RigidBody {
   double angular_momentum() const;
 
  private:
-  Outline outline_;
+  std::vector<Outline> outlines_;
   Vec2 reference_centre_;
   Dynamics dynamics_;
   Pose pose_, old_pose_;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "common/core/failure.hpp"
 #include "common/grid/moving_grid.hpp"
@@ -136,23 +137,26 @@ BodyFromCase body_of_shape(const SolidSpec& spec, const BodyFittedSpec& fitted) 
 BodyFromCase body_of_grid(const SolidSpec& spec) {
   const grid::MovingGrid grid(grid_from_case(spec.grid, false), 0);
   Freedom freedom(spec);
-  Side outline_side = Side::bottom;
-  bool meets_gas = false;
+  std::vector<Outline> outlines;
+  const auto outline_along = [&](Side side) -> Outline {
+    const bool closed = grid.periodic(1 - direction_of(side));
+    return {.x = grid.side_points(side),
+            .ends = closed ? grid::Curve::closed : grid::Curve::open,
+            .orientation = grid::outward(side)};
+  };
   for (const Side side : all_sides) {
     const BoundarySpec& boundary = at(spec.boundary, side);
     freedom.add(boundary, side, direction_along(grid.side_points(side)));
-    if (!is_interface(boundary)) continue;
-    outline_side = side;
-    meets_gas = true;
+    if (is_interface(boundary)) outlines.push_back(outline_along(side));
   }
   const Inertia inertia = inertia_of(rim_of(grid));
-  const bool closed = grid.periodic(1 - direction_of(outline_side));
-  const Outline outline{.x = grid.side_points(outline_side),
-                        .ends = closed ? grid::Curve::closed : grid::Curve::open,
-                        .orientation = grid::outward(outline_side)};
-  return {.body = RigidBody(outline, inertia, spec.rho, freedom.modes()),
-          .area = inertia.area,
-          .meets_gas = meets_gas};
+  const bool meets_gas = !outlines.empty();
+  if (!meets_gas) outlines.push_back(outline_along(Side::bottom));
+  BodyFromCase result{.body = RigidBody(outlines.front(), inertia, spec.rho, freedom.modes()),
+                      .area = inertia.area,
+                      .meets_gas = meets_gas};
+  for (std::size_t k = 1; k < outlines.size(); ++k) result.body.add_outline(outlines[k]);
+  return result;
 }
 
 /// Velocity of the centre, and the rotation that fits the velocities along the outline best.

@@ -6,7 +6,7 @@
 
 namespace fsi::rigid {
 
-/// A body and the side of its grid along which the gas is; none for a body alone.
+/// A body, with an outline for each side along which a gas is; meets none where it is alone.
 struct BodyFromCase {
   RigidBody body;
   double area = 0;

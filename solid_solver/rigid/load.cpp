@@ -4,6 +4,10 @@
 
 namespace fsi::rigid {
 
+GasLoad operator+(const GasLoad& a, const GasLoad& b) {
+  return {.force = a.force + b.force, .moment = a.moment + b.moment, .power = a.power + b.power};
+}
+
 GasLoad load_of_gas(std::span<const double> x, std::span<const double> n, std::span<const double> w_n,
                     std::span<const double> v_n) {
   const std::size_t points = x.size() / 2;

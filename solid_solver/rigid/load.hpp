@@ -17,6 +17,8 @@ struct GasLoad {
   void archive(Archive& archive);
 };
 
+GasLoad operator+(const GasLoad& a, const GasLoad& b);
+
 /// Sum over the points `x` of an outline (2 n) of the normal traction
 /// w_n along n, each on the half of its adjoining segments.
 GasLoad load_of_gas(std::span<const double> x, std::span<const double> n, std::span<const double> w_n,

@@ -6,6 +6,7 @@
 #include <array>
 #include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "common/wire/sparse.hpp"
@@ -30,7 +31,7 @@ RigidParticipant::RigidParticipant(const Setup& setup, const SolidSpec& spec)
       fields_(setup.run_dir, "solid_" + spec.name),
       own_(own_load(0)),
       initial_(totals()) {
-  place_grid();
+  place_grids();
   open_tables();
 }
 
@@ -41,9 +42,11 @@ wire::Hello RigidParticipant::hello() const {
   hello.law = spec_.law;
   hello.config_digest = setup_.problem.digest;
   hello.points = body_.points();
-  const Outline& outline = body_.outline();
-  if (from_case_.meets_gas) {
-    hello.interfaces.push_back({.name = spec_.name,
+  if (!from_case_.meets_gas) return hello;
+  const std::vector<std::string> gases = gases_at(spec_);
+  for (std::size_t k = 0; k < body_.outlines(); ++k) {
+    const Outline& outline = body_.outline(k);
+    hello.interfaces.push_back({.name = interface_name(spec_, gases[k]),
                                 .dimension = 2,
                                 .x = outline.x,
                                 .n = grid::normals(outline.x, outline.ends, outline.orientation)});
@@ -55,8 +58,8 @@ TimeStepBid RigidParticipant::compute_time_step() const {
   return {.dt = std::numeric_limits<double>::infinity(), .reason = "a rigid body has no waves"};
 }
 
-void RigidParticipant::fill(std::size_t /*k*/, wire::PredictedInterface& predicted) const {
-  predicted.x = body_.positions();
+void RigidParticipant::fill(std::size_t k, wire::PredictedInterface& predicted) const {
+  predicted.x = body_.positions(k);
   predicted.v = body_.velocities(predicted.x);
   if (spec_.fixed) {  // one mode that moves no point
     predicted.modal = {
@@ -66,7 +69,7 @@ void RigidParticipant::fill(std::size_t /*k*/, wire::PredictedInterface& predict
   predicted.modal = {.modes = static_cast<std::int32_t>(body_.modes()),
                      .S = wire::lower_entries_of(body_.response().sparseView()),
                      .g = numbers(body_.history(own_)),
-                     .N = wire::entries_of(body_.mode_vectors().sparseView()),
+                     .N = wire::entries_of(body_.mode_vectors(k).sparseView()),
                      .q_dot = numbers(body_.modal_velocity())};
 }
 
@@ -78,8 +81,11 @@ void RigidParticipant::apply_bcs(double /*t*/, ProjectedStates projected) {
                         : Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(q_dot.data(), body_.modes())));
   }
   if (alone) return;
-  const wire::ProjectedInterface& gas = *projected.front();
-  load_ = load_of_gas(body_.positions(), gas.n, gas.w_n, gas.v_n);
+  for (std::size_t k = 0; k < projected.size(); ++k) {
+    const wire::ProjectedInterface& gas = *projected[k];
+    const GasLoad load = load_of_gas(body_.positions(k), gas.n, gas.w_n, gas.v_n);
+    load_ = k == 0 ? load : load_ + load;
+  }
   impulse_.add(load_, dt_);
 }
 
@@ -90,34 +96,39 @@ void RigidParticipant::advance(double t, double dt, int /*substeps*/, ProjectedS
   if (!spec_.fixed) body_.advance(dt);
 }
 
-io::GridOutput RigidParticipant::fields() {
-  const int n = reference_.layout().n1;
-  for (int j = 0; j < 2; ++j) {
-    for (int i = 0; i < n; ++i) {
-      const Vec2 x_bar(reference_(0, i, j), reference_(1, i, j));
-      const Vec2 x = body_.position(x_bar), v = body_.velocity_at(x);
-      for (int c = 0; c < 2; ++c) {
-        state_(c, i, j) = x[c] - x_bar[c];
-        state_(2 + c, i, j) = v[c];
+std::vector<io::GridOutput> RigidParticipant::fields() {
+  std::vector<io::GridOutput> grids;
+  for (Drawn& drawn : drawn_) {
+    const int n = drawn.reference.layout().n1;
+    for (int j = 0; j < 2; ++j) {
+      for (int i = 0; i < n; ++i) {
+        const Vec2 x_bar(drawn.reference(0, i, j), drawn.reference(1, i, j));
+        const Vec2 x = body_.position(x_bar), v = body_.velocity_at(x);
+        for (int c = 0; c < 2; ++c) {
+          drawn.state(c, i, j) = x[c] - x_bar[c];
+          drawn.state(2 + c, i, j) = v[c];
+        }
       }
     }
+    std::vector<io::NamedPlane> planes;
+    for (std::size_t k = 0; k < quantities.size(); ++k) {
+      planes.push_back({quantities[k], drawn.state.view(), static_cast<int>(k)});
+    }
+    grids.push_back({.grid = drawn.grid,
+                     .x = drawn.reference.view(),
+                     .u = drawn.state.view(),
+                     .fields = std::move(planes)});
   }
-  std::vector<io::NamedPlane> planes;
-  for (std::size_t k = 0; k < quantities.size(); ++k) {
-    planes.push_back({quantities[k], state_.view(), static_cast<int>(k)});
-  }
-  return {.grid = "body", .x = reference_.view(), .u = state_.view(), .fields = std::move(planes)};
+  return grids;
 }
 
 void RigidParticipant::write_fields(double t, std::uint64_t step) {
-  const io::GridOutput grids[] = {fields()};
-  fields_.write(t, step, grids);
+  fields_.write(t, step, fields());
 }
 
 /// The body as it is: predicted where the others broke.
 void RigidParticipant::write_last_state(double t, std::uint64_t step) {
-  const io::GridOutput grids[] = {fields()};
-  fields_.write_apart("last_state", t, step, grids);
+  fields_.write_apart("last_state", t, step, fields());
 }
 
 void RigidParticipant::archive(Archive& archive) {
@@ -197,15 +208,19 @@ void RigidParticipant::open_tables() {
     probe_table_.emplace(setup_.run_dir + "/parts/probes_" + spec_.name + ".csv", columns, setup_.opening());
 }
 
-void RigidParticipant::place_grid() {
-  const Outline& outline = body_.outline();
-  const auto n = static_cast<int>(body_.points());
-  reference_ = Field(Layout(n, 2), 2);
-  state_ = Field(Layout(n, 2), static_cast<int>(quantities.size()));
-  for (int i = 0; i < n; ++i) {
-    for (int c = 0; c < 2; ++c) {
-      reference_(c, i, 0) = outline.x[static_cast<std::size_t>(c * n + i)];
-      reference_(c, i, 1) = body_.reference_centre()[c];
+void RigidParticipant::place_grids() {
+  for (std::size_t k = 0; k < body_.outlines(); ++k) {
+    const Outline& outline = body_.outline(k);
+    const auto n = static_cast<int>(body_.points(k));
+    Drawn& drawn = drawn_.emplace_back();
+    drawn.grid = k == 0 ? "body" : "body_" + gases_at(spec_)[k];
+    drawn.reference = Field(Layout(n, 2), 2);
+    drawn.state = Field(Layout(n, 2), static_cast<int>(quantities.size()));
+    for (int i = 0; i < n; ++i) {
+      for (int c = 0; c < 2; ++c) {
+        drawn.reference(c, i, 0) = outline.x[static_cast<std::size_t>(c * n + i)];
+        drawn.reference(c, i, 1) = body_.reference_centre()[c];
+      }
     }
   }
 }

@@ -23,7 +23,7 @@ class RigidParticipant final : public Participant {
   void fill(std::size_t k, wire::PredictedInterface& predicted) const override;
   void apply_bcs(double t, ProjectedStates projected) override;
   void advance(double t, double dt, int substeps, ProjectedStates projected) override;
-  std::vector<io::GridOutput> fields_now() override { return {fields()}; }
+  std::vector<io::GridOutput> fields_now() override { return fields(); }
   void write_fields(double t, std::uint64_t step) override;
   void write_tables(double t, double dt, ProjectedStates projected) override;
   void write_last_state(double t, std::uint64_t step) override;
@@ -38,8 +38,13 @@ class RigidParticipant final : public Participant {
   io::GridWriter fields_;
   std::optional<io::CsvWriter> forces_, probe_table_;
   std::vector<Vec2> probes_;  ///< reference positions
-  Field reference_, state_;   ///< two lines of points: the outline, and its centre
-  Vec3 own_;                  ///< own load at the end of the step
+  /// An outline in the fields: two lines of points, itself and the centre of the body.
+  struct Drawn {
+    std::string grid;
+    Field reference, state;
+  };
+  std::vector<Drawn> drawn_;
+  Vec3 own_;  ///< own load at the end of the step
   GasLoad load_;
   Impulse impulse_;
   double dt_ = 0;  ///< of the step going on; 0 before the first
@@ -51,10 +56,10 @@ class RigidParticipant final : public Participant {
   Totals initial_;
 
   Totals totals() const;
-  io::GridOutput fields();
+  std::vector<io::GridOutput> fields();
   Vec3 own_load(double t) const;
   void open_tables();
-  void place_grid();
+  void place_grids();
 };
 
 }  // namespace fsi::rigid

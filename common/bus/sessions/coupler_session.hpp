@@ -15,7 +15,7 @@ namespace fsi::bus {
 /// One program the coupler waits for.
 struct Expected {
   std::string role;  ///< "fluid" or "solid"
-  std::string name;  ///< "fluid", or the solid's name in the case file
+  std::string name;  ///< "fluid", or the name of the gas or the solid in the case file
 };
 
 /// Opens a run on construction and leaves it in order on destruction.

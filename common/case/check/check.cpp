@@ -8,9 +8,10 @@
 #include "common/case/check/check_ends.hpp"
 #include "common/case/check/check_expectations.hpp"
 #include "common/case/check/check_geometry.hpp"
-#include "common/case/check/check_meeting.hpp"
+#include "common/case/check/check_interfaces.hpp"
 #include "common/case/check/check_overlap.hpp"
 #include "common/case/check/check_places.hpp"
+#include "common/case/document/fluid_sections.hpp"
 #include "common/case/grids/grid_points.hpp"
 #include "common/case/schema/laws.hpp"
 #include "common/core/input/suggest.hpp"
@@ -88,20 +89,20 @@ void check_state(const GasExpressions& state, const std::vector<Vec2>& points, c
   }
 }
 
-void check_fluid(const Case& problem, const Node& root) {
-  const FluidSpec& fluid = *problem.fluid;
-  const Node& node = at(root, {"fluid"});
-  check_grid(fluid.grid, at(node, {"grid"}), "fluid.grid");
-  check_overlap({.background = fluid.grid, .body_fitted = fluid.body_fitted, .owner = node, .path = "fluid"});
+void check_fluid(const Case& problem, const FluidSpec& fluid, const Node& root) {
+  const Node& node = fluid_section_of(root, fluid.name);
+  const std::string& path = fluid.path;
+  check_grid(fluid.grid, at(node, {"grid"}), path + ".grid");
+  check_overlap({.background = fluid.grid, .body_fitted = fluid.body_fitted, .owner = node, .path = path});
   const std::vector<Vec2> everywhere = sample_points(fluid.grid);
-  if (fluid.initial) check_state(*fluid.initial, everywhere, at(node, {"initial"}), "fluid.initial");
+  if (fluid.initial) check_state(*fluid.initial, everywhere, at(node, {"initial"}), path + ".initial");
   if (problem.reference.fluid)
     check_state(*problem.reference.fluid, everywhere, at(root, {"reference", "fluid"}), "reference.fluid");
   for (const Side side : all_sides) {
     const BoundarySpec& spec = fluid.boundary[static_cast<std::size_t>(side)];
     if (!spec.state) continue;
     check_state(*spec.state, sample_points(fluid.grid, side), at(node, {"boundary", name_of(side), "state"}),
-                fmt::format("fluid.boundary.{}.state", name_of(side)));
+                fmt::format("{}.boundary.{}.state", path, name_of(side)));
   }
 }
 
@@ -109,88 +110,6 @@ std::vector<std::string> solid_names(const Case& problem) {
   std::vector<std::string> names;
   for (const SolidSpec& solid : problem.solids) names.push_back(solid.name);
   return names;
-}
-
-/// The side of a body that is an interface; for the gas, that to `solid`.
-std::vector<Side> interface_sides(const std::array<BoundarySpec, 4>& boundary,
-                                  const std::string& solid = "") {
-  std::vector<Side> sides;
-  for (const Side side : all_sides) {
-    const BoundarySpec& spec = boundary[static_cast<std::size_t>(side)];
-    if (spec.kind == BoundaryKind::interface && spec.solid == solid) sides.push_back(side);
-  }
-  return sides;
-}
-
-/// A solid with a shape of its own meets the gas along its outline.
-void check_outline(const Case& problem, const SolidSpec& solid, const Node& root) {
-  const BodyFittedSpec& outline = solid.body_fitted.front();
-  const Node& node = at(root, {"solids", solid.name, "body_fitted", "boundary"});
-  const std::string path = fmt::format("solids.{}.body_fitted.boundary", solid.name);
-  const bool meets = outline.boundary[static_cast<std::size_t>(outline.side)].kind == BoundaryKind::interface;
-  if (!problem.fluid) {
-    if (meets) fail(node.place, path, "an interface, but the case has no gas; write free, for example");
-    return;
-  }
-  const auto grids = std::ranges::count(problem.fluid->body_fitted, solid.name, &BodyFittedSpec::solid);
-  const Node& gas = at(root, {"fluid", "body_fitted"});
-  if (!meets) fail(node.place, path, "must be an interface: the case has a gas");
-  if (grids > 1)
-    fail(gas.place, "fluid.body_fitted",
-         fmt::format("{} grids meet solid `{}`; keep one", grids, solid.name));
-}
-
-void check_interfaces(const Case& problem, const Node& root) {
-  const std::vector<std::string> names = solid_names(problem);
-  if (problem.fluid) {
-    for (const Side side : all_sides) {
-      const BoundarySpec& spec = problem.fluid->boundary[static_cast<std::size_t>(side)];
-      if (spec.kind != BoundaryKind::interface ||
-          std::find(names.begin(), names.end(), spec.solid) != names.end())
-        continue;
-      fail(at(root, {"fluid", "boundary", name_of(side), "solid"}).place,
-           fmt::format("fluid.boundary.{}", name_of(side)),
-           fmt::format("there is no solid {}{}", in_ticks(spec.solid), did_you_mean(spec.solid, names)));
-    }
-  }
-  for (const SolidSpec& solid : problem.solids) {
-    if (!solid.body_fitted.empty()) {
-      check_outline(problem, solid, root);
-      continue;
-    }
-    const std::vector<Side> own = interface_sides(solid.boundary);
-    const std::string path = fmt::format("solids.{}.boundary", solid.name);
-    const Node& place = at(root, {"solids", solid.name, "boundary"});
-    const std::vector<Side> gas =
-        problem.fluid ? interface_sides(problem.fluid->boundary, solid.name) : std::vector<Side>{};
-    const auto fitted =
-        problem.fluid ? std::ranges::count(problem.fluid->body_fitted, solid.name, &BodyFittedSpec::solid)
-                      : 0;
-    if (own.empty() && !problem.fluid) continue;
-    if (own.empty())
-      fail(place.place, path,
-           "no side is an interface, yet the case has a gas; write `interface` on the side that meets it");
-    const std::string own_path = fmt::format("{}.{}", path, name_of(own.front()));
-    if (own.size() > 1) fail(place.place, path, "two sides are interfaces; a solid meets the gas along one");
-    if (fitted + std::ssize(gas) > 1 && fitted > 0) {
-      fail(at(root, {"fluid", "body_fitted"}).place, "fluid.body_fitted",
-           fmt::format("solid `{}` is met more than once; keep one", solid.name));
-    }
-    if (fitted == 1) continue;
-    if (gas.empty()) {
-      fail(at(place, {name_of(own.front())}).place, own_path,
-           fmt::format("the interface has no partner; write {{kind: interface, solid: {}}} on a side of "
-                       "fluid.boundary",
-                       solid.name));
-    }
-    if (gas.size() > 1) {
-      fail(at(root, {"fluid", "boundary", name_of(gas[1])}).place, "fluid.boundary",
-           fmt::format("two sides meet solid `{}`; keep one", solid.name));
-    }
-    check_periods_meet(problem, solid, gas.front(), own.front(), place);
-    check_sides_meet(problem, solid, gas.front(), own.front(),
-                     at(root, {"fluid", "boundary", name_of(gas.front())}));
-  }
 }
 
 /// Whether the reference describes the gas, or the solids.
@@ -211,6 +130,10 @@ void check_reference(const Case& problem, const Node& root) {
   if (problem.reference.kind == "riemann" && !problem.solids.empty())
     fail(at(root, {"reference", "kind"}).place, "reference",
          "`riemann` is a solution for a gas alone; leave it out");
+  const bool computed = problem.reference.kind == "piston_1d" || problem.reference.kind == "rotating_disk";
+  if (computed && problem.fluids.size() > 1)
+    fail(at(root, {"reference", "kind"}).place, "reference",
+         fmt::format("`{}` is computed with one gas and one solid; leave it out", problem.reference.kind));
   if (!problem.reference.u) {
     for (const auto& [key, is_there] :
          {std::pair{"v", problem.reference.v.has_value()}, std::pair{"P", problem.reference.P.has_value()}}) {
@@ -232,8 +155,10 @@ void check_reference(const Case& problem, const Node& root) {
       fail(node.place, path,
            fmt::format("takes its data from `reference`, which has no `{}`", is_gas ? "fluid" : "u"));
   };
-  if (problem.fluid && problem.fluid->initial_from_reference)
-    check_start(problem.reference, true, "fluid", at(root, {"fluid", "initial"}));
+  for (const FluidSpec& fluid : problem.fluids) {
+    if (fluid.initial_from_reference)
+      check_start(problem.reference, true, fluid.path, at(fluid_section_of(root, fluid.name), {"initial"}));
+  }
   for (const SolidSpec& solid : problem.solids) {
     if (solid.initial_from_reference)
       check_start(problem.reference, false, "solids." + solid.name,
@@ -241,9 +166,10 @@ void check_reference(const Case& problem, const Node& root) {
   }
   for (const Side side : all_sides) {
     const auto index = static_cast<std::size_t>(side);
-    if (problem.fluid)
-      need(problem.fluid->boundary[index], true, "fluid", side,
-           at(root, {"fluid", "boundary", name_of(side)}));
+    for (const FluidSpec& fluid : problem.fluids) {
+      need(fluid.boundary[index], true, fluid.path, side,
+           at(fluid_section_of(root, fluid.name), {"boundary", name_of(side)}));
+    }
     for (const SolidSpec& solid : problem.solids) {
       need(solid.boundary[index], false, "solids." + solid.name, side,
            at(root, {"solids", solid.name, "boundary", name_of(side)}));
@@ -259,7 +185,8 @@ std::vector<Vec2> meeting_points(const SolidSpec& solid) {
     const auto n = static_cast<std::size_t>(curve.points());
     for (std::size_t k = 0; k < n; ++k) points.emplace_back(curve.x[k], curve.x[n + k]);
   }
-  for (const Side side : interface_sides(solid.boundary)) {
+  for (const Side side : all_sides) {
+    if (solid.boundary[static_cast<std::size_t>(side)].kind != BoundaryKind::interface) continue;
     for (int k = 0; k < points_along(solid.grid, side); ++k)
       points.push_back(side_point(solid.grid, side, k));
   }
@@ -269,7 +196,7 @@ std::vector<Vec2> meeting_points(const SolidSpec& solid) {
 /// A chosen solution of gas and solid and a given path of the interface belong together.
 void check_motion(const Case& problem, const Node& root) {
   const ReferenceSpec& reference = problem.reference;
-  const bool chosen = reference.kind == "manufactured" && problem.fluid && !problem.solids.empty();
+  const bool chosen = reference.kind == "manufactured" && !problem.fluids.empty() && !problem.solids.empty();
   if (!problem.interface.motion) {
     if (!chosen) return;
     fail(at(root, {"reference"}).place, "reference",
@@ -297,7 +224,7 @@ void check_motion(const Case& problem, const Node& root) {
 
 /// The scheme without added mass is not there where the gas's answer is part of the solid's motion.
 void check_projection(const Case& problem, const Node& root) {
-  if (problem.interface.projection != Projection::traditional || !problem.fluid) return;
+  if (problem.interface.projection != Projection::traditional || problem.fluids.empty()) return;
   for (const SolidSpec& solid : problem.solids) {
     if (is_continuum(solid.law) || solid.law == external_law) continue;
     fail(at(root, {"interface", "projection"}).place, "interface.projection",
@@ -314,13 +241,14 @@ void check_projection(const Case& problem, const Node& root) {
 
 void check_probes(const Case& problem, const Node& root) {
   std::vector<std::string> places = solid_names(problem);
-  if (problem.fluid) places.emplace_back("fluid");
+  for (const FluidSpec& fluid : problem.fluids) places.push_back(fluid.name);
   for (std::size_t k = 0; k < problem.output.probes.size(); ++k) {
     const ProbeSpec& probe = problem.output.probes[k];
     const Node& node = at(root, {"output", "probes"}).items[k];
     if (std::find(places.begin(), places.end(), probe.in) == places.end()) {
       fail(node.find("in")->place, fmt::format("output.probes[{}].in", k),
-           fmt::format("{} is neither `fluid` nor a solid{}", in_ticks(probe.in),
+           fmt::format("{} is neither {} nor a solid{}", in_ticks(probe.in),
+                       problem.fluids.size() > 1 ? "one of `fluids`" : "`fluid`",
                        did_you_mean(probe.in, places)));
     }
     const auto before = problem.output.probes.begin() + static_cast<std::ptrdiff_t>(k);
@@ -343,25 +271,40 @@ void check_solid_grid(const SolidSpec& solid, const Node& node) {
   check_grid(solid.grid, node, path);
 }
 
+/// Every program has a name of its own.
+void check_names(const Case& problem, const Node& root) {
+  for (std::size_t k = 0; k < problem.solids.size(); ++k) {
+    const std::string& name = problem.solids[k].name;
+    if (name != "fluid" && name != "coupler" && fluid_named(problem, name) == nullptr) continue;
+    fail(at(root, {"solids"}).entries[k].place, "solids",
+         fmt::format("`{}` is the name of another program; choose another", name));
+  }
+  const Node& fluids = at(root, {"fluids"});
+  if (&fluids == &root) return;
+  if (root.find("fluid") != nullptr)
+    fail(fluids.place, "fluids", "goes in the place of `fluid`; write all gases here");
+  for (const config::Entry& entry : fluids.entries) {
+    if (entry.key == "fluid" || entry.key == "coupler")
+      fail(entry.place, "fluids",
+           fmt::format("`{}` is the name of another program; choose another", entry.key));
+  }
+}
+
 }  // namespace
 
 void check_case(const Case& problem, const Node& root) {
-  if (!problem.fluid && problem.solids.empty()) {
+  if (problem.fluids.empty() && problem.solids.empty()) {
     fail(root.place, "", "the case has neither `fluid` nor `solids`; write at least one");
   }
-  if (!problem.fluid && problem.solids.size() > 1) {
+  if (problem.fluids.empty() && problem.solids.size() > 1) {
     fail(at(root, {"solids"}).place, "solids",
          "several solids without a gas have nothing in common; write one case for each");
   }
+  check_names(problem, root);
   check_geometry(problem, root);
   check_laws(problem, root);
-  if (problem.fluid) check_fluid(problem, root);
-  for (std::size_t k = 0; k < problem.solids.size(); ++k) {
-    const SolidSpec& solid = problem.solids[k];
-    if (solid.name == "fluid" || solid.name == "coupler") {
-      fail(at(root, {"solids"}).entries[k].place, "solids",
-           fmt::format("`{}` is the name of another program; choose another", solid.name));
-    }
+  for (const FluidSpec& fluid : problem.fluids) check_fluid(problem, fluid, root);
+  for (const SolidSpec& solid : problem.solids) {
     check_solid_grid(solid, at(root, {"solids", solid.name, "grid"}));
     if (!is_continuum(solid.law)) continue;  // need their outline only
     check_overlap({.background = solid.grid,

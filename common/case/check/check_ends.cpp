@@ -15,31 +15,31 @@ namespace {
 using config::fail;
 using config::Node;
 
-/// The sides of a solid on which the ends of its interface lie.
-std::array<Side, 2> sides_at_ends(const SolidSpec& solid) {
+/// The sides of a solid on which the ends of its interface with this gas lie.
+std::array<Side, 2> sides_at_ends(const SolidSpec& solid, const FluidSpec& fluid) {
   if (!solid.body_fitted.empty()) return *solid.body_fitted.front().curve.walls;
-  const auto meets = std::ranges::find(solid.boundary, BoundaryKind::interface, &BoundarySpec::kind);
-  const Side side = all_sides[static_cast<std::size_t>(meets - solid.boundary.begin())];
-  if (direction_of(side) == 1) return {Side::left, Side::right};
+  if (direction_of(side_to(solid, fluid.name).value()) == 1) return {Side::left, Side::right};
   return {Side::bottom, Side::top};
 }
 
 /// The solid's own condition on the first and the last of its ends.
-const BoundarySpec& condition_at(const SolidSpec& solid, std::size_t end) {
-  if (solid.body_fitted.empty()) return solid.boundary[static_cast<std::size_t>(sides_at_ends(solid)[end])];
+const BoundarySpec& condition_at(const SolidSpec& solid, const FluidSpec& fluid, std::size_t end) {
+  if (solid.body_fitted.empty())
+    return solid.boundary[static_cast<std::size_t>(sides_at_ends(solid, fluid)[end])];
   constexpr std::array ends{Side::left, Side::right};
   return solid.body_fitted.front().boundary[static_cast<std::size_t>(ends[end])];
 }
 
-void check_end(const SolidSpec& solid, const BodyFittedSpec& grid, std::size_t end, const Node& root) {
-  const BoundaryKind kind = condition_at(solid, end).kind;
+void check_end(const SolidSpec& solid, const FluidSpec& fluid, const BodyFittedSpec& grid, std::size_t end,
+               const Node& root) {
+  const BoundaryKind kind = condition_at(solid, fluid, end).kind;
   if (kind != BoundaryKind::traction && kind != BoundaryKind::none) return;
   const auto n = static_cast<std::size_t>(grid.curve.points());
   const std::size_t k = end == 0 ? 0 : n - 1;
-  const char* side = name_of(sides_at_ends(solid)[end]);
-  const std::string wall = grid.curve.on.empty()
-                               ? fmt::format("the {} side of fluid.grid", name_of((*grid.curve.walls)[end]))
-                               : fmt::format("the wall of grid `{}`", grid.curve.on);
+  const char* side = name_of(sides_at_ends(solid, fluid)[end]);
+  const std::string wall = grid.curve.on.empty() ? fmt::format("the {} side of {}.grid",
+                                                               name_of((*grid.curve.walls)[end]), fluid.path)
+                                                 : fmt::format("the wall of grid `{}`", grid.curve.on);
   const Node& node = *root.find("solids")->find(solid.name);
   const Node* boundary = node.find("boundary");
   const bool rigid = solid.law == rigid_law;
@@ -54,16 +54,15 @@ void check_end(const SolidSpec& solid, const BodyFittedSpec& grid, std::size_t e
 }  // namespace
 
 void check_held_ends(const Case& problem, const Node& root) {
-  if (!problem.fluid) return;
-  for (const BodyFittedSpec& grid : problem.fluid->body_fitted) {
-    const auto solid = std::ranges::find(problem.solids, grid.solid, &SolidSpec::name);
-    if (solid == problem.solids.end() || grid.curve.closed() || solid->fixed) continue;
-    if (!is_continuum(solid->law) && solid->law != rigid_law)
-      continue;  // they hold their own ends, or say how
-    if (solid->body_fitted.empty() && std::ranges::find(solid->boundary, BoundaryKind::interface,
-                                                        &BoundarySpec::kind) == solid->boundary.end())
-      continue;  // another check says so
-    for (const std::size_t end : {0U, 1U}) check_end(*solid, grid, end, root);
+  for (const FluidSpec& fluid : problem.fluids) {
+    for (const BodyFittedSpec& grid : fluid.body_fitted) {
+      const auto solid = std::ranges::find(problem.solids, grid.solid, &SolidSpec::name);
+      if (solid == problem.solids.end() || grid.curve.closed() || solid->fixed) continue;
+      if (!is_continuum(solid->law) && solid->law != rigid_law)
+        continue;  // they hold their own ends, or say how
+      if (solid->body_fitted.empty() && !side_to(*solid, fluid.name)) continue;  // another check says so
+      for (const std::size_t end : {0U, 1U}) check_end(*solid, fluid, grid, end, root);
+    }
   }
 }
 

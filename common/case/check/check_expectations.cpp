@@ -20,7 +20,7 @@ void check_expectations(const Case& problem, const Node& root) {
   static const std::vector<std::string> errors{"rho", "v1", "v2", "T", "rho_mean", "u_bar", "v_bar", "P_bar"};
   std::vector<std::string> programs;
   for (const SolidSpec& solid : problem.solids) programs.push_back(solid.name);
-  if (problem.fluid) programs.emplace_back("fluid");
+  for (const FluidSpec& fluid : problem.fluids) programs.push_back(fluid.name);
   programs.emplace_back("coupler");
   const auto require = [&](const Expectation& entry, const std::string& word,
                            const std::vector<std::string>& known) {

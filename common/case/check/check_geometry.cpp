@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/case/document/fluid_sections.hpp"
 #include "common/case/schema/laws.hpp"
 #include "common/grid/geometry/outline.hpp"
 
@@ -45,9 +46,9 @@ CheckedOutline outline_of(const SolidSpec& solid, const Node& root) {
 }
 
 /// The curves that bound the gas within its rectangle.
-std::vector<CheckedOutline> outlines_in_gas(const Case& problem, const Node& root) {
+std::vector<CheckedOutline> outlines_in_gas(const Case& problem, const FluidSpec& fluid, const Node& root) {
   std::vector<CheckedOutline> outlines;
-  const std::vector<BodyFittedSpec>& grids = problem.fluid->body_fitted;
+  const std::vector<BodyFittedSpec>& grids = fluid.body_fitted;
   for (std::size_t k = 0; k < grids.size(); ++k) {
     const auto solid = std::ranges::find(problem.solids, grids[k].solid, &SolidSpec::name);
     if (solid != problem.solids.end() && !solid->body_fitted.empty()) {
@@ -55,9 +56,9 @@ std::vector<CheckedOutline> outlines_in_gas(const Case& problem, const Node& roo
       outlines.push_back({grids[k].curve, own.name, own.node, own.path, grids[k].side, grids[k].name});
       continue;
     }
-    const Node& node = root.find("fluid")->find("body_fitted")->items[k];
+    const Node& node = fluid_section_of(root, fluid.name).find("body_fitted")->items[k];
     const Node* shape = node.find("shape");
-    const std::string path = fmt::format("fluid.body_fitted[{}]", k);
+    const std::string path = fmt::format("{}.body_fitted[{}]", fluid.path, k);
     outlines.push_back({.curve = grids[k].curve,
                         .name = grids[k].solid.empty() ? fmt::format("grid `{}`", grids[k].name)
                                                        : fmt::format("solid `{}`", grids[k].solid),
@@ -143,19 +144,20 @@ double tolerance(const GridSpec& grid) {
   return part * std::min((grid.x_b - grid.x_a) / grid.n1, (grid.y_b - grid.y_a) / grid.n2);
 }
 
-void check_within_gas(const CheckedOutline& outline, const GridSpec& gas) {
+void check_within_gas(const CheckedOutline& outline, const FluidSpec& fluid) {
+  const GridSpec& gas = fluid.grid;
   const Excess excess = largest_excess(outline, gas);
   if (excess.distance <= tolerance(gas)) return;
-  fail(
-      outline.node.place, outline.path,
-      fmt::format("the outline of {} reaches ({:.4g}, {:.4g}), {:.4g} beyond the {} side of fluid.grid, {} = "
-                  "{:.4g}; make it smaller, move it, or let the rectangle of fluid.grid hold it",
-                  outline.name, excess.x[0], excess.x[1], excess.distance, name_of(excess.side),
-                  direction_of(excess.side) == 0 ? "x" : "y", end_of(gas, excess.side)));
+  fail(outline.node.place, outline.path,
+       fmt::format("the outline of {} reaches ({:.4g}, {:.4g}), {:.4g} beyond the {} side of {}.grid, {} = "
+                   "{:.4g}; make it smaller, move it, or let the rectangle of {}.grid hold it",
+                   outline.name, excess.x[0], excess.x[1], excess.distance, name_of(excess.side), fluid.path,
+                   direction_of(excess.side) == 0 ? "x" : "y", end_of(gas, excess.side), fluid.path));
 }
 
 /// The ends of an open curve stand on the sides it names.
-void check_ends(const CheckedOutline& outline, const GridSpec& gas) {
+void check_ends(const CheckedOutline& outline, const FluidSpec& fluid) {
+  const GridSpec& gas = fluid.grid;
   if (outline.curve.closed() || !outline.curve.on.empty()) return;
   const auto last = static_cast<std::size_t>(outline.curve.points()) - 1;
   for (const std::size_t end : {0U, 1U}) {
@@ -165,11 +167,11 @@ void check_ends(const CheckedOutline& outline, const GridSpec& gas) {
     if (distance <= tolerance(gas)) continue;
     fail(outline.node.place, outline.path,
          fmt::format(
-             "an end of the outline of {}, ({:.4g}, {:.4g}), is {:.4g} from the {} side of fluid.grid, {} = "
+             "an end of the outline of {}, ({:.4g}, {:.4g}), is {:.4g} from the {} side of {}.grid, {} = "
              "{:.4g}, on which `walls` has it stand; let it end there, or write the "
              "name of the grid along the wall on which it stands",
-             outline.name, x[0], x[1], distance, name_of(wall), direction_of(wall) == 0 ? "x" : "y",
-             end_of(gas, wall)));
+             outline.name, x[0], x[1], distance, name_of(wall), fluid.path,
+             direction_of(wall) == 0 ? "x" : "y", end_of(gas, wall)));
   }
 }
 
@@ -258,16 +260,17 @@ void check_geometry(const Case& problem, const Node& root) {
     if (has_core) check_corners_inside(outline_of(solid, root));
     if (has_core && is_upright(solid.grid)) check_core(solid, root);
   }
-  if (!problem.fluid) return;
-  const std::vector<CheckedOutline> outlines = outlines_in_gas(problem, root);
-  for (const CheckedOutline& outline : outlines) {
-    check_crossing_itself(outline);
-    if (!is_upright(problem.fluid->grid)) continue;
-    check_within_gas(outline, problem.fluid->grid);
-    check_ends(outline, problem.fluid->grid);
-  }
-  for (std::size_t k = 1; k < outlines.size(); ++k) {
-    for (std::size_t l = 0; l < k; ++l) check_apart(outlines[k], outlines[l]);
+  for (const FluidSpec& fluid : problem.fluids) {
+    const std::vector<CheckedOutline> outlines = outlines_in_gas(problem, fluid, root);
+    for (const CheckedOutline& outline : outlines) {
+      check_crossing_itself(outline);
+      if (!is_upright(fluid.grid)) continue;
+      check_within_gas(outline, fluid);
+      check_ends(outline, fluid);
+    }
+    for (std::size_t k = 1; k < outlines.size(); ++k) {
+      for (std::size_t l = 0; l < k; ++l) check_apart(outlines[k], outlines[l]);
+    }
   }
 }
 

@@ -39,9 +39,9 @@ bool repeats_along(const GridSpec& grid, Side side) {
 
 }  // namespace
 
-void check_periods_meet(const Case& problem, const SolidSpec& solid, Side gas_side, Side solid_side,
+void check_periods_meet(const FluidSpec& fluid, const SolidSpec& solid, Side gas_side, Side solid_side,
                         const config::Node& place) {
-  const bool gas = repeats_along(problem.fluid->grid, gas_side), own = repeats_along(solid.grid, solid_side);
+  const bool gas = repeats_along(fluid.grid, gas_side), own = repeats_along(solid.grid, solid_side);
   const std::string path = fmt::format("solids.{}.boundary", solid.name);
   if (gas != own) {
     config::fail(place.place, path,
@@ -56,11 +56,9 @@ void check_periods_meet(const Case& problem, const SolidSpec& solid, Side gas_si
   }
 }
 
-void check_sides_meet(const Case& problem, const SolidSpec& solid, Side gas_side, Side solid_side,
+void check_sides_meet(const FluidSpec& fluid, const SolidSpec& solid, Side gas_side, Side solid_side,
                       const config::Node& place) {
-  if (solid.initial_from_reference && problem.reference.kind != "elastic_piston")
-    return;  // its displacement is not known here
-  const GridSpec& gas_grid = problem.fluid->grid;
+  const GridSpec& gas_grid = fluid.grid;
   const std::vector<Vec2> side = initial_side(solid, solid_side);
   double length = 0;
   for (std::size_t l = 1; l < side.size(); ++l) length += (side[l] - side[l - 1]).norm();
@@ -70,7 +68,7 @@ void check_sides_meet(const Case& problem, const SolidSpec& solid, Side gas_side
       tolerance * length / static_cast<double>(std::min(n, static_cast<int>(side.size())) - 1);
   const auto mistake = [&](const Vec2& x, const Vec2& x_solid) {
     config::fail(
-        place.place, fmt::format("fluid.boundary.{}", name_of(gas_side)),
+        place.place, fmt::format("{}.boundary.{}", fluid.path, name_of(gas_side)),
         fmt::format(
             "its point at ({:.6g}, {:.6g}) does not meet the {} side of solid `{}`, nearest at ({:.6g}, "
             "{:.6g}); let both grids have the same curve there",

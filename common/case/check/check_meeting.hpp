@@ -8,11 +8,11 @@ namespace fsi {
 
 /// Both sides are the same curve at t = 0; their points need not be the same.
 /// @param place the gas's side in the file  @throws UserMistake
-void check_sides_meet(const Case& problem, const SolidSpec& solid, Side gas_side, Side solid_side,
+void check_sides_meet(const FluidSpec& fluid, const SolidSpec& solid, Side gas_side, Side solid_side,
                       const config::Node& place);
 
 /// An interface between periodic sides goes on beyond its ends, on both sides of it.
-void check_periods_meet(const Case& problem, const SolidSpec& solid, Side gas_side, Side solid_side,
+void check_periods_meet(const FluidSpec& fluid, const SolidSpec& solid, Side gas_side, Side solid_side,
                         const config::Node& place);
 
 }  // namespace fsi

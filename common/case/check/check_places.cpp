@@ -65,7 +65,7 @@ void check_probe_in_gas(const FluidSpec& fluid, const Vec2& x, const Node& node,
   const std::string remedy = "; it would have no value there: move it into the gas";
   if (!within_rim(fluid.grid, x)) {
     fail(node.place, path,
-         fmt::format("({:.6g}, {:.6g}) lies outside fluid.grid at t = 0{}", x[0], x[1], remedy));
+         fmt::format("({:.6g}, {:.6g}) lies outside {}.grid at t = 0{}", x[0], x[1], fluid.path, remedy));
   }
   for (const BodyFittedSpec& spec : fluid.body_fitted) {
     if (!behind(spec, fluid.grid, x)) continue;
@@ -145,8 +145,8 @@ void check_probe_places(const Case& problem, const Node& root) {
     const Node& node = *root.find("output")->find("probes")->items[k].find("x");
     const std::string path = fmt::format("output.probes[{}]", k);
     const Vec2 x(probe.x, probe.y);
-    if (probe.in == "fluid") {
-      check_probe_in_gas(*problem.fluid, x, node, path);
+    if (const FluidSpec* fluid = fluid_named(problem, probe.in)) {
+      check_probe_in_gas(*fluid, x, node, path);
     } else {
       check_probe_in_solid(*std::ranges::find(problem.solids, probe.in, &SolidSpec::name), x, node, path);
     }

@@ -31,7 +31,7 @@ and what to write.
 - Operators: `+ - * / ^`, comparisons, `&& ||`, `condition ? a : b`. Functions: %FUNCTIONS%.
   `log` and `ln` are natural. Put a formula with a comma or a colon in quotes.
 - **From the command line**: `--set KEY=VALUE` with a dotted key (`time.end`, `solids.solid.rho`, `parameters.NAME`;
-  entries of a list by number from 0), `--solid NAME=LAW`. Parameters and solids must exist in the file.
+  entries of a list by number from 0), `--solid NAME=LAW`. Parameters, gases and solids must exist in the file.
 - YAML aliases, merge keys and second documents are not read; a key that is there twice is an error.
 - **Editors** complete and check case files by their JSON Schema: `./launch/fsi schema > case.schema.json`, and as the first line
   of the case `# yaml-language-server: $schema=case.schema.json`. Only `check` knows formulas and what fits together.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "common/case/document/fluid_sections.hpp"
 #include "common/case/document/reader.hpp"
 #include "common/case/grids/fit_grids.hpp"
 #include "common/case/grids/node_tools.hpp"
@@ -112,7 +113,8 @@ void choose_for_solids(Node& root, const Reader& reader, std::vector<std::string
   }
 }
 
-/// A grid of the gas around every solid with a shape that has none.
+/// A grid of the gas around every solid with a shape that has none. Several gases say themselves in which of
+/// them a solid is.
 void add_rings(Node& root) {
   Node* fluid = root.find("fluid");
   Node* solids = root.find("solids");
@@ -151,28 +153,30 @@ std::vector<std::size_t> open_rings(const Node& list) {
   return open;
 }
 
-void choose_for_gas(Node& root, const Scope& scope, std::vector<std::string>& said) {
-  Node* fluid = root.find("fluid");
-  Node* list = fluid == nullptr ? nullptr : fluid->find("body_fitted");
+/// @param index of the gas among those of the case
+void choose_for_gas(Node& root, std::size_t index, const Scope& scope, std::vector<std::string>& said) {
+  const FluidSection<Node> fluid = fluid_sections(root)[index];
+  Node* list = fluid.node->find("body_fitted");
   if (list == nullptr) return;
-  const bool finer = is_background_open(*fluid);
-  Node& background = *fluid->find("grid");
+  const bool finer = is_background_open(*fluid.node);
+  Node& background = *fluid.node->find("grid");
   if (finer) put(background, "spacing", number_node(scope.constants.at("h"), background.place));
   if (open_rings(*list).empty()) return;
   Case draft = build_case(root, scope);
-  if (draft.fluid->grid.kind != GridSpec::Kind::rectangle) return;  // check says what is wrong with it
-  if (add_wall_strips(*list, *draft.fluid, open_rings(*list))) draft = build_case(root, scope);
+  if (draft.fluids[index].grid.kind != GridSpec::Kind::rectangle) return;  // check says what is wrong with it
+  if (add_wall_strips(*list, draft.fluids[index], open_rings(*list))) draft = build_case(root, scope);
   const std::vector<std::size_t> open = open_rings(*list);
-  const GasGrids chosen = fit_rings(draft.fluid->grid, draft.fluid->body_fitted, open, finer);
+  const FluidSpec& spec = draft.fluids[index];
+  const GasGrids chosen = fit_rings(spec.grid, spec.body_fitted, open, finer);
   if (finer) {
     put(background, "spacing", number_node(chosen.background, background.place));
-    said.push_back(fmt::format("fluid.grid: spacing {:.3g}", chosen.background));
+    said.push_back(fmt::format("{}.grid: spacing {:.3g}", fluid.path, chosen.background));
   }
   for (std::size_t k = 0; k < open.size(); ++k) {
     Node& grid = list->items[open[k]];
     put(grid, "lines", number_node(chosen.rings[k].lines, grid.place));
     put(grid, "spacing", number_node(chosen.rings[k].spacing, grid.place));
-    said.push_back(fmt::format("fluid.body_fitted[{}] ({}): {} lines, {:.3g} apart", open[k],
+    said.push_back(fmt::format("{}.body_fitted[{}] ({}): {} lines, {:.3g} apart", fluid.path, open[k],
                                grid.find("name")->text, chosen.rings[k].lines, chosen.rings[k].spacing));
   }
 }
@@ -183,7 +187,8 @@ std::vector<std::string> choose_grids(Node& root, const Scope& scope) {
   std::vector<std::string> chosen;
   choose_for_solids(root, Reader(root, scope), chosen);
   add_rings(root);
-  choose_for_gas(root, scope, chosen);
+  const std::size_t gases = fluid_sections(root).size();
+  for (std::size_t k = 0; k < gases; ++k) choose_for_gas(root, k, scope, chosen);
   return chosen;
 }
 

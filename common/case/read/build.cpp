@@ -8,11 +8,13 @@
 #include <numbers>
 #include <utility>
 
+#include "common/case/document/fluid_sections.hpp"
 #include "common/case/document/reader.hpp"
 #include "common/case/read/build_beam.hpp"
 #include "common/case/read/build_domain.hpp"
 #include "common/case/read/build_material.hpp"
 #include "common/case/read/build_shape.hpp"
+#include "common/case/read/name_gases.hpp"
 #include "common/case/schema/laws.hpp"
 #include "common/core/input/suggest.hpp"
 #include "common/core/time/time_schedule.hpp"
@@ -68,12 +70,17 @@ GasScheme gas_scheme_of(const Node& node) {
   return result;
 }
 
-FluidSpec fluid_of(const Reader& reader, const Node& node, const std::vector<SolidSpec>& solids) {
+FluidSpec fluid_of(const Reader& reader, const FluidSection<const Node>& section,
+                   const std::vector<SolidSpec>& solids) {
+  const Node& node = *section.node;
   const Owner owner{.node = node,
-                    .name = "fluid",
-                    .path = "fluid",
-                    .partner = solids.size() == 1 ? solids.front().name : ""};
+                    .name = section.name,
+                    .path = section.path,
+                    .partner = solids.size() == 1 ? solids.front().name : "",
+                    .is_gas = true};
   FluidSpec result;
+  result.name = section.name;
+  result.path = section.path;
   Reader::assign(node, "gamma", result.gamma);
   Reader::assign(node, "p_e", result.p_e);
   result.grid = build_grid(reader, owner);
@@ -81,8 +88,9 @@ FluidSpec fluid_of(const Reader& reader, const Node& node, const std::vector<Sol
   result.body_fitted = build_fitted_grids(reader, owner, result.boundary, solids);
   if (const Node* scheme = node.find("scheme")) result.scheme = gas_scheme_of(*scheme);
   const Node& initial = *node.find("initial");
-  result.initial_from_reference = reader.from_reference(initial, "fluid.initial");
-  if (!result.initial_from_reference) result.initial = reader.gas_state(initial, "fluid.initial");
+  const std::string path = section.path + ".initial";
+  result.initial_from_reference = reader.from_reference(initial, path);
+  if (!result.initial_from_reference) result.initial = reader.gas_state(initial, path);
   return result;
 }
 
@@ -116,6 +124,21 @@ void check_program(const SolidSpec& solid, const Node& node, const std::string& 
   fail(node.find("program")->place, path + ".program", "belongs to `law: external`");
 }
 
+/// A beam may have no mass where its ends, or the gas, hold every motion: nothing resists the sliding of a free
+/// one, or of a ring, along itself.
+void check_mass(const SolidSpec& solid, const Node& node, const std::string& path) {
+  if (solid.rho > 0) return;
+  const std::string& place = node.find("rho")->place;
+  if (!solid.beam)
+    fail(place, path + ".rho", "must be > 0 [mass/volume], is 0: only a beam may have no mass");
+  const bool held = std::ranges::any_of(solid.beam->ends, [](BeamEnd end) { return end != BeamEnd::free; });
+  if (held && !solid.beam->closed) return;
+  fail(place, path + ".rho",
+       "must be > 0 [mass/volume], is 0: nothing would resist the sliding of this beam along itself; hold "
+       "one of "
+       "its ends, or give it a mass");
+}
+
 SolidSpec solid_of(const Reader& reader, const config::Entry& entry) {
   const Node& node = entry.value;
   const Owner owner{.node = node, .name = entry.key, .path = "solids." + entry.key, .partner = ""};
@@ -137,6 +160,7 @@ SolidSpec solid_of(const Reader& reader, const config::Entry& entry) {
   result.body_fitted = build_outline_grid(reader, owner, result.boundary);
   result.scheme = solid_scheme_of(node.find("scheme"));
   result.beam = build_beam(reader, node, result.law, owner.path);
+  check_mass(result, node, owner.path);
   if (const Node* force = node.find("body_force")) result.body_force = reader.vector(*force);
   const Node* initial = node.find("initial");
   if (initial == nullptr) return result;
@@ -257,7 +281,9 @@ Case build_case(const Node& root, const Scope& scope) {
   if (const Node* node = root.find("solids")) {
     for (const config::Entry& entry : node->entries) result.solids.push_back(solid_of(reader, entry));
   }
-  if (const Node* node = root.find("fluid")) result.fluid = fluid_of(reader, *node, result.solids);
+  for (const FluidSection<const Node>& section : fluid_sections(root))
+    result.fluids.push_back(fluid_of(reader, section, result.solids));
+  name_gases(result, root);
   result.output = output_of(root.find("output"), result.time.end);
   result.reference = reference_of(reader);
   if (const Node* node = root.find("expect")) {

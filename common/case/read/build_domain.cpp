@@ -76,7 +76,7 @@ BoundarySpec boundary_from_word(const Reader& reader, const Owner& owner, const 
                                  BoundaryKind::far_field, BoundaryKind::traction, BoundaryKind::displacement};
   if (std::ranges::find(with_data, result.kind) != with_data.end())
     result.from_reference = reader.from_reference(node, path);
-  if (result.kind == BoundaryKind::interface && owner.name == "fluid") {
+  if (result.kind == BoundaryKind::interface && owner.is_gas) {
     if (owner.partner.empty())
       fail(node.place, path, "write {kind: interface, solid: NAME}: the case has not one solid");
     result.solid = owner.partner;
@@ -92,6 +92,7 @@ BoundarySpec build_boundary(const Reader& reader, const Owner& owner, const Node
   BoundarySpec result;
   result.kind = kind_of(node.find("kind")->text);
   Reader::assign(node, "solid", result.solid);
+  Reader::assign(node, "fluid", result.fluid);
   if (const Node* state = node.find("state")) {
     result.from_reference = reader.from_reference(*state, path);
     if (!result.from_reference) result.state = reader.gas_state(*state, path + ".state");

@@ -11,10 +11,11 @@ namespace fsi {
 
 /// Who a grid and its boundaries belong to.
 struct Owner {
-  const config::Node& node;  ///< section `fluid` or `solids.NAME`
-  std::string name;          ///< "fluid" or the solid's name
+  const config::Node& node;  ///< section `fluid`, `fluids.NAME` or `solids.NAME`
+  std::string name;          ///< "fluid", or the name of a gas or a solid
   std::string path;          ///< for messages
   std::string partner;       ///< gas: the solid that a bare `interface` means, "" where there is not one
+  bool is_gas = false;
 };
 
 /// @throws UserMistake

@@ -6,10 +6,12 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <utility>
 
+#include "common/case/document/fluid_sections.hpp"
 #include "common/case/grids/curve_side.hpp"
 #include "common/case/grids/grid_points.hpp"
 #include "common/case/read/build_walls.hpp"
@@ -111,14 +113,27 @@ int count_of(const Reader& reader, const Node& shape, double length, bool closed
   return static_cast<int>(cells) + 1;
 }
 
-/// The gas's rectangle, x_a, x_b, y_a, y_b, where the case has one.
-std::optional<std::array<double, 4>> gas_rectangle(const Reader& reader) {
-  const Node* fluid = reader.root().find("fluid");
-  const Node* grid = fluid == nullptr ? nullptr : fluid->find("grid");
-  const Node *x = grid == nullptr ? nullptr : grid->find("x"),
-             *y = grid == nullptr ? nullptr : grid->find("y");
-  if (x == nullptr || y == nullptr) return std::nullopt;
-  return std::array{*x->items[0].number, *x->items[1].number, *y->items[0].number, *y->items[1].number};
+/// The rectangle of the gas that a curve bounds, x_a, x_b, y_a, y_b, where the case has one: of several gases
+/// the one whose rectangle is nearest to the curve's first point.
+std::optional<std::array<double, 4>> gas_rectangle(const Reader& reader, const CurveSpec& curve) {
+  std::optional<std::array<double, 4>> nearest;
+  double least = std::numeric_limits<double>::infinity();
+  const Vec2 point(curve.x.front(), curve.x[curve.x.size() / 2]);
+  for (const auto& section : fluid_sections(reader.root())) {
+    const Node* grid = section.node->find("grid");
+    const Node *x = grid == nullptr ? nullptr : grid->find("x"),
+               *y = grid == nullptr ? nullptr : grid->find("y");
+    if (x == nullptr || y == nullptr) continue;
+    const std::array rectangle{*x->items[0].number, *x->items[1].number, *y->items[0].number,
+                               *y->items[1].number};
+    const Vec2 inside(std::clamp(point[0], rectangle[0], std::max(rectangle[0], rectangle[1])),
+                      std::clamp(point[1], rectangle[2], std::max(rectangle[2], rectangle[3])));
+    const double distance = (point - inside).norm();
+    if (!(distance < least)) continue;
+    least = distance;
+    nearest = rectangle;
+  }
+  return nearest;
 }
 
 /// What a solid's `body_fitted` and an entry of the gas's have in common.
@@ -181,7 +196,7 @@ BoundarySpec boundary_or(const Reader& reader, const Owner& owner, const Node* n
   BoundarySpec spec = build_boundary(reader, owner, *boundary, path + ".boundary");
   if (spec.kind == BoundaryKind::periodic)
     fail(boundary->place, path + ".boundary", "a curve has no opposite side with which it could be periodic");
-  if (spec.kind == BoundaryKind::interface && owner.name == "fluid")
+  if (spec.kind == BoundaryKind::interface && owner.is_gas)
     fail(boundary->place, path + ".boundary",
          "the gas meets a solid along that solid's outline; write `solid: NAME` in place of `shape`");
   return spec;
@@ -213,8 +228,8 @@ CurveSpec outline_of(const Reader& reader, const Node& node, const SolidSpec& so
 
 /// The gas's grid at a solid: along its outline, or from wall to wall along its interface side, in the
 /// order of the side's points.
-BodyFittedSpec build_grid_at_solid(const Reader& reader, const Node& node, const std::string& path,
-                                   const SolidSpec& solid) {
+BodyFittedSpec build_grid_at_solid(const Reader& reader, const Owner& owner, const Node& node,
+                                   const std::string& path, const SolidSpec& solid) {
   const std::string name = node.find("name")->text;
   CurveSpec curve{.x = {}, .spacing = reader.scope().constants.at("h")};
   read_walls(node, path, curve);
@@ -225,8 +240,8 @@ BodyFittedSpec build_grid_at_solid(const Reader& reader, const Node& node, const
     grid.side = Side::top;
     return grid;
   }
-  const auto meets = std::ranges::find(solid.boundary, BoundaryKind::interface, &BoundarySpec::kind);
-  if (meets == solid.boundary.end() || !curve.walls) {
+  const std::optional<Side> meets = side_to(solid, owner.name);
+  if (!meets || !curve.walls) {
     fail(
         node.place, path,
         fmt::format(
@@ -234,15 +249,15 @@ BodyFittedSpec build_grid_at_solid(const Reader& reader, const Node& node, const
             "the sides of the background on which its ends lie",
             in_ticks(solid.name)));
   }
-  const Side side = all_sides[static_cast<std::size_t>(meets - solid.boundary.begin())];
+  const Side side = *meets;
   curve.x = points_on_side(solid.grid, side, own_points(node).value_or(points_along(solid.grid, side)));
   BodyFittedSpec grid = build_fitted(reader, &node, std::move(curve), name);
   grid.side = side == Side::right || side == Side::bottom ? Side::top : Side::bottom;
   return grid;
 }
 
-BodyFittedSpec build_gas_grid(const Reader& reader, const Node& node, const std::string& path,
-                              const std::vector<SolidSpec>& solids) {
+BodyFittedSpec build_gas_grid(const Reader& reader, const Owner& owner, const Node& node,
+                              const std::string& path, const std::vector<SolidSpec>& solids) {
   const Node *solid = node.find("solid"), *shape = node.find("shape");
   if ((solid == nullptr) == (shape == nullptr))
     fail(node.place, path, "give `solid` or `shape`, one of them");
@@ -252,7 +267,7 @@ BodyFittedSpec build_gas_grid(const Reader& reader, const Node& node, const std:
       if (const Node* own = node.find(key))
         fail(own->place, path, fmt::format("`{}` belongs to `shape`; a solid's outline has its own", key));
     }
-    BodyFittedSpec grid = build_grid_at_solid(reader, node, path, solid_named(solids, *solid, path));
+    BodyFittedSpec grid = build_grid_at_solid(reader, owner, node, path, solid_named(solids, *solid, path));
     grid.solid = solid->text;
     return grid;
   }
@@ -287,7 +302,7 @@ CurveSpec build_curve(const Reader& reader, const Node& shape, const std::string
     if (what.starts_with(shape.place.substr(0, shape.place.find(':')))) throw;  // it has its place already
     fail(shape.place, path, what);
   }
-  put_body_to_the_left(result, gas_rectangle(reader));
+  put_body_to_the_left(result, gas_rectangle(reader, result));
   stand_on_wall(reader, shape, path, result);
   return result;
 }
@@ -317,7 +332,7 @@ std::vector<BodyFittedSpec> build_fitted_grids(const Reader& reader, const Owner
   for (std::size_t k = 0; k < list->items.size(); ++k) {
     const Node& node = list->items[k];
     const std::string path = fmt::format("{}.body_fitted[{}]", owner.path, k);
-    BodyFittedSpec grid = build_gas_grid(reader, node, path, solids);
+    BodyFittedSpec grid = build_gas_grid(reader, owner, node, path, solids);
     BoundarySpec on_curve = boundary_or(reader, owner, &node, path, BoundaryKind::slip_wall);
     if (!grid.solid.empty()) on_curve = {.kind = BoundaryKind::interface, .solid = grid.solid};
     assign_boundaries(grid, on_curve, boundary);
@@ -373,11 +388,12 @@ void inline_point_files(Node& root, const std::string& folder) {
       if (Node* shape = solid.value.find("shape")) inline_points(*shape, folder);
     }
   }
-  Node* fluid = root.find("fluid");
-  Node* grids = fluid == nullptr ? nullptr : fluid->find("body_fitted");
-  if (grids == nullptr) return;
-  for (Node& grid : grids->items) {
-    if (Node* shape = grid.find("shape")) inline_points(*shape, folder);
+  for (const FluidSection<Node>& fluid : fluid_sections(root)) {
+    Node* grids = fluid.node->find("body_fitted");
+    if (grids == nullptr) continue;
+    for (Node& grid : grids->items) {
+      if (Node* shape = grid.find("shape")) inline_points(*shape, folder);
+    }
   }
 }
 

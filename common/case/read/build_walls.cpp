@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/case/document/fluid_sections.hpp"
 #include "common/case/read/build_shape.hpp"
 #include "common/core/input/suggest.hpp"
 
@@ -27,16 +28,17 @@ std::optional<Side> side_called(const Node& node) {
   return std::nullopt;
 }
 
-/// The gas's grids along walls, by name.
+/// The gases' grids along walls, by name.
 const Node* grid_named(const Reader& reader, const std::string& name, std::vector<std::string>& others) {
-  const Node* fluid = reader.root().find("fluid");
-  const Node* list = fluid == nullptr ? nullptr : fluid->find("body_fitted");
-  if (list == nullptr) return nullptr;
-  for (const Node& grid : list->items) {
-    const Node* own = grid.find("name");
-    if (own == nullptr || grid.find("shape") == nullptr) continue;
-    if (own->text == name) return &grid;
-    others.push_back(own->text);
+  for (const auto& fluid : fluid_sections(reader.root())) {
+    const Node* list = fluid.node->find("body_fitted");
+    if (list == nullptr) continue;
+    for (const Node& grid : list->items) {
+      const Node* own = grid.find("name");
+      if (own == nullptr || grid.find("shape") == nullptr) continue;
+      if (own->text == name) return &grid;
+      others.push_back(own->text);
+    }
   }
   return nullptr;
 }

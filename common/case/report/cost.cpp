@@ -143,10 +143,11 @@ int RunCost::substeps(const StepCost& program) const {
 
 RunCost cost_of(const Case& problem) {
   RunCost cost;
-  if (problem.fluid) {
-    const double speed = wave_speed_of(*problem.fluid);
-    if (speed == 0) return cost;
-    cost.programs.push_back(step_of("fluid", *problem.fluid, speed));
+  for (const FluidSpec& fluid : problem.fluids) {
+    const double speed = wave_speed_of(fluid);
+    if (speed == 0) return {};
+    cost.programs.push_back(step_of(fluid.name, fluid, speed));
+    cost.programs.back().is_gas = true;
   }
   for (const SolidSpec& solid : problem.solids) cost.programs.push_back(step_of(solid));
   for (StepCost& program : cost.programs) {
@@ -154,15 +155,15 @@ RunCost cost_of(const Case& problem) {
     program.usual_dt *= problem.time.cfl;
   }
   cost.dt = problem.time.dt.value_or(std::numeric_limits<double>::infinity());
-  const bool gas_decides = problem.fluid && problem.time.multirate;
+  const bool gas_decides = !problem.fluids.empty() && problem.time.multirate;
   for (const StepCost& program : cost.programs) {
-    if (!gas_decides || program.program == "fluid") cost.dt = std::min(cost.dt, program.dt);
+    if (!gas_decides || program.is_gas) cost.dt = std::min(cost.dt, program.dt);
   }
   if (!std::isfinite(cost.dt)) return cost;
   cost.steps = std::ceil(problem.time.end / cost.dt);
   double slowest = 0;
   for (const StepCost& program : cost.programs) {
-    const double rate = program.program == "fluid" ? gas_speed : solid_speed;
+    const double rate = program.is_gas ? gas_speed : solid_speed;
     slowest = std::max(slowest, cost.substeps(program) * program.points / rate);
   }
   cost.seconds = cost.steps * (slowest + exchange);

@@ -12,7 +12,8 @@ namespace fsi {
 /// The time step of one program at t = 0, from the wave speeds
 /// and the cells, paper eq. (44) and (45) without damping.
 struct StepCost {
-  std::string program;       ///< "fluid", or the name of a solid
+  std::string program;  ///< "fluid", or the name of a gas or a solid
+  bool is_gas = false;
   double points = 0;         ///< of all its grids
   double dt = 0;             ///< infinite for a program that takes any step
   std::string grid = {};     ///< whose cell sets it

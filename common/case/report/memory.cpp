@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "common/case/document/fluid_sections.hpp"
 #include "common/case/schema/laws.hpp"
 
 namespace fsi {
@@ -105,7 +106,7 @@ std::pair<const Node*, std::string> largest_grid(const Case& problem, const Node
     for (const BodyFittedSpec& grid : owner.body_fitted) fitted += points_of(grid);
     offer(fitted, node.find("body_fitted") != nullptr ? "body_fitted" : "shape");
   };
-  if (problem.fluid) look(*problem.fluid, *root.find("fluid"), "fluid");
+  for (const FluidSpec& fluid : problem.fluids) look(fluid, fluid_section_of(root, fluid.name), fluid.path);
   for (const SolidSpec& solid : problem.solids)
     look(solid, *root.find("solids")->find(solid.name), "solids." + solid.name);
   return largest;
@@ -116,14 +117,14 @@ std::pair<const Node*, std::string> largest_grid(const Case& problem, const Node
 std::vector<MemoryNeed> memory_of(const Case& problem) {
   std::vector<MemoryNeed> needs;
   double meeting = 0;
-  if (problem.fluid) needs.push_back(need_of("fluid", *problem.fluid, gas_cost));
+  for (const FluidSpec& fluid : problem.fluids) needs.push_back(need_of(fluid.name, fluid, gas_cost));
   for (const SolidSpec& solid : problem.solids) {
     if (solid.law == external_law) continue;
     needs.push_back(need_of(solid.name, solid, is_continuum(solid.law) ? solid_cost : rigid_cost));
     for (const BodyFittedSpec& fitted : solid.body_fitted) meeting += fitted.curve.points();
     if (solid.body_fitted.empty()) meeting += solid.grid.n1 + solid.grid.n2;
   }
-  if (problem.fluid && !problem.solids.empty())
+  if (!problem.fluids.empty() && !problem.solids.empty())
     needs.push_back({"coupler", meeting, coupler_cost + interface_cost * meeting});
   return needs;
 }

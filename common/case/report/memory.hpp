@@ -12,7 +12,7 @@ namespace fsi {
 
 /// What one program needs at its peak.
 struct MemoryNeed {
-  std::string program;  ///< "fluid", or the name of a solid
+  std::string program;  ///< "fluid", or the name of a gas or a solid
   double points = 0;    ///< of all its grids
   double bytes = 0;
 };

@@ -82,12 +82,12 @@ std::string grids_of(const Owner& owner) {
 }  // namespace
 
 bool is_coupled(const Case& problem) {
-  return problem.fluid && !problem.solids.empty();
+  return !problem.fluids.empty() && !problem.solids.empty();
 }
 
 std::vector<ParticipantSummary> participants_of(const Case& problem) {
   std::vector<ParticipantSummary> result;
-  if (problem.fluid) result.push_back({"fluid", "fluid", "fluid_solver", ""});
+  for (const FluidSpec& fluid : problem.fluids) result.push_back({fluid.name, "fluid", "fluid_solver", ""});
   for (const SolidSpec& solid : problem.solids) {
     const bool external = solid.law == external_law;
     result.push_back(
@@ -102,6 +102,8 @@ std::string summary_as_json(const Case& problem) {
   for (const ParticipantSummary& p : participants_of(problem)) {
     participants.push_back({{"name", p.name}, {"role", p.role}, {"executable", p.executable}});
   }
+  std::uint64_t fluid_points = 0;
+  for (const FluidSpec& fluid : problem.fluids) fluid_points += points_of(fluid);
   ordered_json memory;
   for (const MemoryNeed& need : memory_of(problem)) memory[need.program] = std::round(need.bytes);
   ordered_json solids = ordered_json::array();
@@ -115,8 +117,8 @@ std::string summary_as_json(const Case& problem) {
       {"digest", problem.digest},
       {"restart_digest", problem.restart_digest},
       {"coupled", is_coupled(problem)},
-      {"fluid", problem.fluid.has_value()},
-      {"fluid_points", problem.fluid ? points_of(*problem.fluid) : 0},
+      {"fluid", !problem.fluids.empty()},
+      {"fluid_points", fluid_points},
       {"solids", solids},
       {"participants", participants},
       {"memory", memory},
@@ -135,7 +137,10 @@ std::string summary_as_json(const Case& problem) {
 
 std::string summary_line(const Case& problem) {
   std::vector<std::string> parts;
-  if (problem.fluid) parts.push_back(fmt::format("gas {}", grids_of(*problem.fluid)));
+  for (const FluidSpec& fluid : problem.fluids) {
+    const std::string name = problem.fluids.size() > 1 ? fmt::format(" {}", fluid.name) : "";
+    parts.push_back(fmt::format("gas{} {}", name, grids_of(fluid)));
+  }
   for (const SolidSpec& solid : problem.solids) {
     parts.push_back(fmt::format("{} ({}) {}", solid.name, solid.law, grids_of(solid)));
   }

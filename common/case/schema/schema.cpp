@@ -14,131 +14,6 @@ using std::string_view;
 constexpr Range at_most_half_an_hour{.low = 0, .high = 1800, .low_open = true};
 constexpr Range at_most_a_day{.low = 0, .high = 86400, .low_open = true};  ///< [s]
 
-// ---- reference solutions
-
-constexpr array elastic_piston_keys{
-    Key{.name = "density_ratio",
-        .meaning = "density of the solid over that of the gas at rest",
-        .required = true,
-        .range = positive},
-    Key{.name = "c_p",
-        .meaning = "p-wave speed of the solid over the sound speed of the gas at rest",
-        .required = true,
-        .range = positive},
-    Key{.name = "amplitude",
-        .meaning = "A of the interface path F = -A t^4 / 4",
-        .unit = "length/time^4",
-        .fallback = "0.25"},
-    Key{.name = "rotation",
-        .meaning = "of the whole set-up about the origin",
-        .unit = "degree",
-        .fallback = "0"},
-    Key{.name = "gamma",
-        .meaning = "ratio of specific heats",
-        .fallback = "1.4",
-        .range = {.low = 1, .low_open = true}},
-};
-constexpr array riemann_keys{
-    Key{.name = "x_0", .meaning = "where the jump is at t = 0", .unit = "length", .required = true},
-    Key{.name = "gamma",
-        .meaning = "ratio of specific heats",
-        .fallback = "1.4",
-        .range = {.low = 1, .low_open = true}},
-    Key{.name = "rho_left",
-        .meaning = "density left of the jump",
-        .unit = "mass/volume",
-        .required = true,
-        .range = positive},
-    Key{.name = "v_left", .meaning = "velocity left of the jump", .unit = "velocity", .required = true},
-    Key{.name = "p_left",
-        .meaning = "pressure left of the jump",
-        .unit = "pressure",
-        .required = true,
-        .range = positive},
-    Key{.name = "rho_right",
-        .meaning = "density right of the jump",
-        .unit = "mass/volume",
-        .required = true,
-        .range = positive},
-    Key{.name = "v_right", .meaning = "velocity right of the jump", .unit = "velocity", .required = true},
-    Key{.name = "p_right",
-        .meaning = "pressure right of the jump",
-        .unit = "pressure",
-        .required = true,
-        .range = positive},
-};
-constexpr array expressions_keys{
-    Key{.name = "fluid",
-        .type = Type::section,
-        .meaning = "state of the gas",
-        .fallback = "none",
-        .section = &gas_state_section},
-    Key{.name = "u",
-        .type = Type::vector,
-        .meaning = "displacement of the solid, of the reference position",
-        .unit = "length",
-        .fallback = "none"},
-};
-constexpr array manufactured_keys{
-    Key{.name = "fluid",
-        .type = Type::section,
-        .meaning = "state of the gas; source terms make it exact",
-        .fallback = "none",
-        .section = &gas_state_section},
-    Key{.name = "u",
-        .type = Type::vector,
-        .meaning = "displacement of the solid, of the reference position; the body force follows from it",
-        .unit = "length",
-        .fallback = "none"},
-    Key{.name = "v",
-        .type = Type::vector,
-        .meaning = "velocity of the solid, of the reference position; sources in all its equations then",
-        .unit = "velocity",
-        .fallback = "du/dt"},
-    Key{.name = "P",
-        .type = Type::tensor,
-        .meaning = "nominal stress [P11, P12, P21, P22] of the solid; sources in all its equations then",
-        .unit = "pressure",
-        .fallback = "P(F(u))"},
-};
-constexpr array piston_1d_keys{
-    Key{.name = "points",
-        .type = Type::integer,
-        .meaning = "points per unit length of the fine run",
-        .unit = "1/length",
-        .fallback = "3200",
-        .range = {.low = 100, .high = 1e6}},
-};
-constexpr array rotating_disk_keys{
-    Key{.name = "omega_0",
-        .meaning = "rotation rate: the disk starts with the angular velocity omega_0 (4 r (1 - r))^4",
-        .unit = "1/time",
-        .fallback = "0.1"},
-    Key{.name = "b",
-        .meaning = "radius of a rigid circular wall around the gas",
-        .unit = "length",
-        .fallback = "a gas without end",
-        .range = {.low = 1, .low_open = true}},
-    Key{.name = "points",
-        .type = Type::integer,
-        .meaning = "points per unit length of the fine run",
-        .unit = "1/length",
-        .fallback = "3200",
-        .range = {.low = 100, .high = 1e6}},
-};
-constexpr array reference_variants{
-    Variant{"none", "no reference solution, no errors", {}},
-    Variant{"elastic_piston", "exact solution of the elastic piston", elastic_piston_keys},
-    Variant{"riemann", "exact solution of the Riemann problem", riemann_keys},
-    Variant{"piston_1d", "a fine one-dimensional run of the same case", piston_1d_keys},
-    Variant{"rotating_disk", "a fine run of the unit disk that turns in a gas, in the radius alone",
-            rotating_disk_keys},
-    Variant{"expressions", "formulas", expressions_keys},
-    Variant{"manufactured", "chosen fields made exact by forces and sources", manufactured_keys},
-};
-constexpr Section reference_section{
-    .title = "Reference solution", .keys = {}, .variants = reference_variants, .default_kind = ""};
-
 // ---- time, output, expectations
 
 constexpr array grid_keys{
@@ -218,7 +93,10 @@ constexpr Section interface_section{.title = "The interface", .keys = interface_
 
 constexpr array probe_keys{
     Key{.name = "name", .type = Type::name, .meaning = "column in probes.csv", .required = true},
-    Key{.name = "in", .type = Type::name, .meaning = "`fluid` or a solid", .required = true},
+    Key{.name = "in",
+        .type = Type::name,
+        .meaning = "`fluid`, one of `fluids`, or a solid",
+        .required = true},
     Key{.name = "x", .meaning = "gas: where; solid: reference position", .unit = "length", .required = true},
     Key{.name = "y", .meaning = "gas: where; solid: reference position", .unit = "length", .required = true},
 };
@@ -279,6 +157,8 @@ constexpr Section expectation_section{.title = "An expectation", .keys = expecta
 constexpr Key parameter_element{
     .name = "parameter", .type = Type::number, .meaning = "a number, or an expression of other parameters"};
 constexpr Key definition_element{.name = "definition", .type = Type::text, .meaning = "a formula"};
+constexpr Key fluid_element{
+    .name = "gas", .type = Type::section, .meaning = "a gas", .section = &fluid_section};
 constexpr Key solid_element{
     .name = "solid", .type = Type::section, .meaning = "a solid", .section = &solid_section};
 constexpr Key expectation_element{.name = "expectation",
@@ -324,6 +204,13 @@ constexpr array case_keys{
         .meaning = "the gas",
         .fallback = "no gas",
         .section = &fluid_section},
+    Key{.name = "fluids",
+        .type = Type::named,
+        .meaning = "in the place of `fluid`: several gases by name, separated by solids, each with a grid, a "
+                   "state and a program of its own",
+        .fallback = "no gas but `fluid`",
+        .most = 16,
+        .element = &fluid_element},
     Key{.name = "solids",
         .type = Type::named,
         .meaning = "the solids by name, each a program of its own",

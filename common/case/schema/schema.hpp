@@ -91,6 +91,7 @@ extern const Section gas_boundary_section;    ///< one side of the gas
 extern const Section solid_boundary_section;  ///< one side of a solid
 extern const Section gas_fitted_section;      ///< a body-fitted grid of the gas
 extern const Section solid_fitted_section;    ///< that of a solid
+extern const Section reference_section;       ///< an exact or a fine solution
 extern const Section fluid_section;
 extern const Section solid_section;
 /// The whole file.

@@ -19,7 +19,13 @@ constexpr Key load_key{
         "configuration whose area (13) and normal the load belongs to; `reference` is small-strain theory",
     .fallback = "current",
     .words = load_words};
-constexpr array solid_interface_keys{load_key};
+constexpr array solid_interface_keys{
+    load_key,
+    Key{.name = "fluid",
+        .type = Type::name,
+        .meaning = "where the case has `fluids`: the gas on the other side",
+        .fallback = "the one gas that names this solid"},
+};
 constexpr array traction_keys{
     Key{.name = "value",
         .type = Type::vector,
@@ -179,9 +185,10 @@ constexpr array beam_keys{
         .range = {.low = 3, .high = 5000}},
     Key{.name = "ends",
         .type = Type::list,
-        .meaning = "what holds the first and the last end: free, pinned (its place), clamped (place and "
-                   "direction), guided "
-                   "(direction, and it moves across the line only)",
+        .meaning =
+            "what holds the first and the last end: free, pinned (its place), clamped (place and "
+            "direction), guided "
+            "(direction, and it moves across the line only); where one of them is not free, `rho` may be 0",
         .fallback = "[free, free]",
         .element = &end_element},
 };
@@ -207,7 +214,7 @@ constexpr array solid_keys{
         .meaning = "density of the reference configuration",
         .unit = "mass/volume",
         .required = true,
-        .range = positive},
+        .range = not_negative},
     Key{.name = "lambda",
         .meaning = "Lame constant",
         .unit = "pressure",

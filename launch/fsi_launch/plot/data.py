@@ -62,13 +62,14 @@ class Output:
 
 @dataclass
 class Series:
-    """The outputs of one program: `name` is "fluid" or the solid's name."""
+    """The outputs of one program: `name` is "fluid", or that of one gas of several or of the solid."""
 
     name: str
     outputs: list
+    of_gas: bool = False
 
     def is_gas(self):
-        return self.name == "fluid"
+        return self.of_gas or self.name == "fluid"
 
 
 @dataclass
@@ -121,9 +122,13 @@ def _opened(path):
     return file
 
 
+def _is_of_gas(path):
+    return path.stem == "fluid" or path.stem.startswith("fluid_")
+
+
 def _read_series(path, name):
     with _opened(path) as file:
-        return Series(name, [_read_output(file[key]) for key in sorted(file)])
+        return Series(name, [_read_output(file[key]) for key in sorted(file)], _is_of_gas(path))
 
 
 def output_times(path):
@@ -139,14 +144,25 @@ def read_output(path, k):
 
 
 def files(directory):
-    """(path of the fields, name of the program): the gas first, then the solids by name."""
+    """(path of the fields, name of the program): the gas or the gases by name first, then the solids by name."""
     return [*((path, "fluid") for path in directory.glob("fluid.h5")),
+            *((path, path.stem.removeprefix("fluid_")) for path in sorted(directory.glob("fluid_*.h5"))),
             *((path, path.stem.removeprefix("solid_")) for path in sorted(directory.glob("solid_*.h5")))]
 
 
 def all_series(directory):
     """The gas first, then the solids by name."""
     return [one for one in (_read_series(path, name) for path, name in files(directory)) if one.outputs]
+
+
+def gas_of(series):
+    """The Series of the gas, that of several gases with the grids of all of them; None where there is no gas."""
+    gases = [one for one in series if one.is_gas()]
+    if len(gases) < 2:
+        return gases[0] if gases else None
+    together = zip(*(one.outputs for one in gases))
+    outputs = [Output(outputs[0].t, [grid for output in outputs for grid in output.grids]) for outputs in together]
+    return Series(" and ".join(one.name for one in gases), outputs, True)
 
 
 def same_time(a, b):
@@ -174,7 +190,7 @@ def last_state(directory):
     series = []
     for path, name in files(directory / "last_state"):
         with h5py.File(path, "r") as file:
-            series.append(Series(name, [_read_output(file)]))
+            series.append(Series(name, [_read_output(file)], _is_of_gas(path)))
     return series
 
 

@@ -10,7 +10,7 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 from matplotlib.tri import LinearTriInterpolator
 
-from fsi_launch.plot import mesh, style, units
+from fsi_launch.plot import data, mesh, style, units
 
 SAME_TIME = 1e-9
 AXIS_POINTS = 1601  # along y = 0
@@ -200,7 +200,7 @@ def _axis_picture(gas, solid, reference, t, p_e):
 
 def pictures(series, reference):
     """(name, function that draws it) of each output time that the reference holds, but the start, where all is known."""
-    gas = next((one for one in series if one.is_gas()), None)
+    gas = data.gas_of(series)
     solid = next((one for one in series if not one.is_gas()), None)
     if not (reference and gas and solid):
         return

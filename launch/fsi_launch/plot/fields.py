@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib import pyplot
 from matplotlib.collections import LineCollection, PolyCollection, TriMesh
 
-from fsi_launch.plot import mesh, style, units
+from fsi_launch.plot import data, mesh, style, units
 from fsi_launch.plot.scales import Scales
 
 MOST_TIMES = 12        # pictures of fields; of a longer series, times evenly spread
@@ -175,7 +175,8 @@ def _panels_of(gas, solids, floor):
 
 def _field_picture(series, index, box, look):
     """All quantities of all programs at output `index`."""
-    gas = next((one.outputs[index] for one in series if one.is_gas()), None)
+    gases = data.gas_of(series)
+    gas = gases.outputs[index] if gases else None
     solids = [one.outputs[index] for one in series if not one.is_gas()]
     chosen = _panels_of(gas, solids, look.scales.floor(SPEED.unit))
     figure, axes = panels(len(chosen), box, 0.8 * (bool(gas) + bool(solids)))

@@ -8,7 +8,7 @@ from matplotlib.collections import LineCollection
 from matplotlib.lines import Line2D
 from matplotlib.patches import Rectangle
 
-from fsi_launch.plot import fields, mesh, style, units
+from fsi_launch.plot import data, fields, mesh, style, units
 from fsi_launch.plot.data import DISCRETISED, INTERPOLATED
 
 MOST_LINES = 170     # of a background grid in the picture of the whole; of finer grids every n-th line is drawn
@@ -171,9 +171,10 @@ def _used_runs(grid, side):
     return [np.column_stack([grid.x1[side][run], grid.x2[side][run]]) for run in mesh.runs(grid.used()[side])]
 
 
-def _kinds_of_sides(case):
-    """{side of the background: what it is}. `case`: the entries of the resolved case."""
-    return {name: _side_kind(case.get(f"fluid.boundary.{name}.kind", case.get(f"fluid.boundary.{name}", ""))) for name in SIDES}
+def _kinds_of_sides(gas, case):
+    """{side of the background: what it is} of one gas. `case`: the entries of the resolved case."""
+    path = "fluid" if gas.name == "fluid" else f"fluids.{gas.name}"
+    return {name: _side_kind(case.get(f"{path}.boundary.{name}.kind", case.get(f"{path}.boundary.{name}", ""))) for name in SIDES}
 
 
 def _side_below(line, background, kinds):
@@ -199,16 +200,14 @@ def _fitted_sides(grid, background, kinds, bodies):
 
 
 def _gas_sides(series, case):
-    """[(kind, line)] of the rim of the gas. `case`: the entries of the resolved case."""
-    gas = next((one for one in series if one.is_gas()), None)
-    if gas is None:
-        return []
-    background, *fitted = gas.outputs[0].grids
-    kinds = _kinds_of_sides(case)
-    sides = [(kinds[name], line) for name, side in SIDES.items() for line in _used_runs(background, side)]
-    bodies = [line for _, line in _bodies(series)]
-    for grid in fitted:
-        sides += _fitted_sides(grid, background, kinds, bodies)
+    """[(kind, line)] of the rims of the gases. `case`: the entries of the resolved case."""
+    sides, bodies = [], [line for _, line in _bodies(series)]
+    for gas in (one for one in series if one.is_gas()):
+        background, *fitted = gas.outputs[0].grids
+        kinds = _kinds_of_sides(gas, case)
+        sides += [(kinds[name], line) for name, side in SIDES.items() for line in _used_runs(background, side)]
+        for grid in fitted:
+            sides += _fitted_sides(grid, background, kinds, bodies)
     return sides
 
 

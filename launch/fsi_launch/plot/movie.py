@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 from matplotlib import pyplot
 
-from fsi_launch.plot import fields, mesh, schlieren, style, units
+from fsi_launch.plot import data, fields, mesh, schlieren, style, units
 
 FRAMES_PER_SECOND = 12
 HEIGHT = 5.0        # inch
@@ -29,7 +29,7 @@ def _speed_frame(axes, gas, solids, largest):
 
 def _frames(series):
     """A figure for each output."""
-    gas = next((one for one in series if one.is_gas()), None)
+    gas = data.gas_of(series)
     solids = [one for one in series if not one.is_gas()]
     count = min(len(one.outputs) for one in series)
     shocks = gas and any(schlieren.has_shocks(output) for output in gas.outputs[:count])

@@ -7,7 +7,7 @@ import numpy as np
 from matplotlib import pyplot
 from matplotlib.collections import LineCollection, TriMesh
 
-from fsi_launch.plot import mesh, style, units
+from fsi_launch.plot import data, mesh, style, units
 
 STRENGTH = 12.0
 TYPICAL = 99.9     # percentile of |grad rho| that is drawn as exp(-STRENGTH)
@@ -97,14 +97,21 @@ def _colour(axes, solids, speed):
     return drawn
 
 
+def _box(gas):
+    """((x_a, x_b), (y_a, y_b)) of the background, or of those of several gases."""
+    backgrounds = [grid for grid in gas.grids if grid.is_cartesian()] or gas.grids[:1]
+    return tuple((min(values.min() for values in x), max(values.max() for values in x))
+                 for x in ([grid.x1 for grid in backgrounds], [grid.x2 for grid in backgrounds]))
+
+
 def draw(axes, gas, solids, size):
     """One output on one pair of axes; returns what a colour bar of the solids' speed needs."""
     for grid in gas.grids:
         _shade(axes, grid, np.exp(-STRENGTH * np.minimum(gradient(grid, "rho") / size.gradient, 1)))
     drawn = _colour(axes, solids, size.speed)
-    background = gas.grids[0]
-    axes.set_xlim(background.x1.min(), background.x1.max())
-    axes.set_ylim(background.x2.min(), background.x2.max())
+    box = _box(gas)
+    axes.set_xlim(*box[0])
+    axes.set_ylim(*box[1])
     axes.set_aspect("equal")
     axes.set_title(units.moment(gas.t), loc="left")
     return drawn
@@ -120,7 +127,7 @@ def _chosen(gas):
 
 def pictures(series, natural):
     """(name, function that draws it) of a run whose gas has shocks; `natural`: the run's scales."""
-    gas = next((one for one in series if one.is_gas()), None)
+    gas = data.gas_of(series)
     solids = [one for one in series if not one.is_gas()]
     count = min((len(one.outputs) for one in series), default=0)
     chosen = [k for k in _chosen(gas) if k < count] if gas else []
@@ -136,8 +143,8 @@ def _picture(gas, solids, chosen, natural):
     size = replace(size, speed=0.0) if rests else size
     columns = min(len(chosen), PANELS_IN_A_ROW)
     rows = -(-len(chosen) // columns)
-    background = gas.outputs[0].grids[0]
-    height = max(PANEL * np.ptp(background.x2) / np.ptp(background.x1), 1.0)
+    box = _box(gas.outputs[0])
+    height = max(PANEL * np.ptp(box[1]) / np.ptp(box[0]), 1.0)
     figure, axes = pyplot.subplots(rows, columns, figsize=(PANEL * columns + 0.8, (height + 0.3) * rows), squeeze=False)
     for one in axes.flat[len(chosen):]:
         one.set_visible(False)

@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib import pyplot
 from matplotlib.colors import LogNorm
 
-from fsi_launch.plot import outlines, schlieren, several, style, units
+from fsi_launch.plot import data, outlines, schlieren, several, style, units
 
 PANEL = 4.6        # width [inch]
 LEAST = 1e-4       # differences are drawn from this part of the largest density up
@@ -21,7 +21,7 @@ def _at(series, t):
 
 def _parts(series):
     """(gas, solids) of a run."""
-    return next((one for one in series if one.is_gas()), None), [one for one in series if not one.is_gas()]
+    return data.gas_of(series), [one for one in series if not one.is_gas()]
 
 
 def on_common_points(one, other):

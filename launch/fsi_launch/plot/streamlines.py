@@ -8,7 +8,7 @@ from matplotlib.collections import TriMesh
 from matplotlib.path import Path
 from matplotlib.tri import LinearTriInterpolator
 
-from fsi_launch.plot import fields, mesh, style, units
+from fsi_launch.plot import data, fields, mesh, style, units
 
 MOST_TIMES = 8
 PANEL = 4.4         # width [inch]
@@ -125,9 +125,9 @@ def _panels(count, box):
 
 def pictures(series, size):
     """(name, function that draws it) of streamlines at up to MOST_TIMES output times after the start; `size`: the run's scales."""
-    gas = next((one for one in series if one.is_gas()), None)
+    gas = data.gas_of(series)
     solids = [one for one in series if not one.is_gas()]
-    if not gas or not solids or len(gas.outputs[0].grids) < 2:
+    if not gas or not solids or len(gas.outputs[0].grids) <= sum(one.is_gas() for one in series):
         return
     count = min(len(one.outputs) for one in series)
     moments = [k for k in range(count) if gas.outputs[k].t > 0]

@@ -14,7 +14,7 @@ constexpr double gas_gamma = 1.4, mach = 1.1;
 
 /// rho, v1, v2, p on the left side of the channel at t.
 std::array<double, 4> inflow(const Case& problem, double t) {
-  const BoundarySpec& left = problem.fluid->boundary[static_cast<std::size_t>(Side::left)];
+  const BoundarySpec& left = problem.fluids.front().boundary[static_cast<std::size_t>(Side::left)];
   EXPECT_EQ(left.kind, BoundaryKind::imposed);
   const GasExpressions& state = left.state.value();
   const double x = -1, y = 0.7;
@@ -27,7 +27,7 @@ Case beam() {
 
 TEST(Eq51BeamInflow, GoesFromTheGasAtRestToTheStateThePaperPrints) {
   const Case problem = beam();
-  const GasExpressions& initial = problem.fluid->initial.value();
+  const GasExpressions& initial = problem.fluids.front().initial.value();
   const std::array<double, 4> rest = inflow(problem, 0), behind = inflow(problem, 1),
                               later = inflow(problem, 5);
   EXPECT_EQ(rest[0], initial.rho(0, 0, 0));

@@ -65,21 +65,21 @@ TEST(ElasticPiston, HasTheDataOfItsParameters) {
   const Case problem = load_case(FSI_ROOT "/configs/elastic_piston.yaml",
                                  {"parameters.density_ratio=0.01", "parameters.c_p=8", "grid.factor=8"});
   EXPECT_EQ(problem.name, "elastic_piston");
-  ASSERT_TRUE(problem.fluid.has_value());
+  ASSERT_TRUE(problem.fluids.size() == 1);
   ASSERT_EQ(problem.solids.size(), 1U);
   const SolidSpec& solid = problem.solids.front();
   EXPECT_EQ(solid.name, "solid");
   EXPECT_EQ(solid.law, "linear_elastic");
   EXPECT_DOUBLE_EQ(solid.rho, 0.01);
   EXPECT_DOUBLE_EQ((solid.lambda + 2 * solid.mu) / solid.rho, 64);  // c_p^2
-  EXPECT_DOUBLE_EQ(problem.fluid->p_e * problem.fluid->gamma, 1);
-  EXPECT_EQ(problem.fluid->grid.n1, 121);
-  EXPECT_EQ(problem.fluid->grid.n2, 81);
+  EXPECT_DOUBLE_EQ(problem.fluids.front().p_e * problem.fluids.front().gamma, 1);
+  EXPECT_EQ(problem.fluids.front().grid.n1, 121);
+  EXPECT_EQ(problem.fluids.front().grid.n2, 81);
   EXPECT_EQ(solid.grid.n1, 81);
-  EXPECT_TRUE(problem.fluid->initial_from_reference);
-  EXPECT_EQ(side_of(problem.fluid->boundary, Side::left).kind, BoundaryKind::interface);
-  EXPECT_EQ(side_of(problem.fluid->boundary, Side::left).solid, "solid");
-  EXPECT_TRUE(side_of(problem.fluid->boundary, Side::right).from_reference);
+  EXPECT_TRUE(problem.fluids.front().initial_from_reference);
+  EXPECT_EQ(side_of(problem.fluids.front().boundary, Side::left).kind, BoundaryKind::interface);
+  EXPECT_EQ(side_of(problem.fluids.front().boundary, Side::left).solid, "solid");
+  EXPECT_TRUE(side_of(problem.fluids.front().boundary, Side::right).from_reference);
   EXPECT_EQ(side_of(solid.boundary, Side::right).kind, BoundaryKind::interface);
   EXPECT_EQ(solid.scheme.limiter, SolidLimiter::none);
   EXPECT_DOUBLE_EQ(solid.scheme.relaxation.rate, 0.5);
@@ -89,7 +89,7 @@ TEST(ElasticPiston, HasTheDataOfItsParameters) {
 
 TEST(ElasticPiston, TurnsAsAWhole) {
   const Case problem = load_case(FSI_ROOT "/configs/elastic_piston.yaml", {"parameters.angle=30"});
-  EXPECT_DOUBLE_EQ(problem.fluid->grid.rotation, std::numbers::pi / 6);
+  EXPECT_DOUBLE_EQ(problem.fluids.front().grid.rotation, std::numbers::pi / 6);
   EXPECT_DOUBLE_EQ(problem.solids.front().grid.rotation, std::numbers::pi / 6);
   EXPECT_DOUBLE_EQ(problem.reference.numbers.at("rotation"), std::numbers::pi / 6);
 }
@@ -103,12 +103,12 @@ fluid:
   initial: {rho: 1 + x, v: [y, t], T: 2 + y}
 )";
   const Case problem = load_text(text);
-  EXPECT_DOUBLE_EQ(problem.fluid->initial->p(1, 0.5, 0), 5);
-  EXPECT_DOUBLE_EQ(problem.fluid->initial->v1(1, 0.5, 0), 0.5);
+  EXPECT_DOUBLE_EQ(problem.fluids.front().initial->p(1, 0.5, 0), 5);
+  EXPECT_DOUBLE_EQ(problem.fluids.front().initial->v1(1, 0.5, 0), 0.5);
 }
 
 TEST(MappedGrid, MovesWhereItsMapDependsOnTime) {
-  EXPECT_TRUE(load_case(FSI_ROOT "/configs/isentropic_vortex.yaml").fluid->grid.moving);
+  EXPECT_TRUE(load_case(FSI_ROOT "/configs/isentropic_vortex.yaml").fluids.front().grid.moving);
   EXPECT_FALSE(load_case(FSI_ROOT "/configs/solid_manufactured.yaml").solids.front().grid.moving);
 }
 
@@ -121,8 +121,8 @@ fluid:
   initial: {rho: 1, v: [0, 0], p: 1}
 )";
   const Case problem = load_text(text);
-  EXPECT_TRUE(problem.fluid->grid.periodic[0]);
-  EXPECT_FALSE(problem.fluid->grid.periodic[1]);
+  EXPECT_TRUE(problem.fluids.front().grid.periodic[0]);
+  EXPECT_FALSE(problem.fluids.front().grid.periodic[1]);
 }
 
 TEST(SolidSides, MayBeFreeOrClampedInOneWord) {

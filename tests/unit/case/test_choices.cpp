@@ -33,8 +33,9 @@ void arrives(const std::string& key, const Chosen& chosen) {
 }
 
 TEST(Choices, ArriveAsTheyAreWritten) {
-  arrives<RiemannSolver>("fluid.scheme.riemann", [](const Case& c) { return c.fluid->scheme.riemann; });
-  arrives<GasLimiter>("fluid.scheme.limiter", [](const Case& c) { return c.fluid->scheme.limiter; });
+  arrives<RiemannSolver>("fluid.scheme.riemann",
+                         [](const Case& c) { return c.fluids.front().scheme.riemann; });
+  arrives<GasLimiter>("fluid.scheme.limiter", [](const Case& c) { return c.fluids.front().scheme.limiter; });
   arrives<SolidLimiter>("solids.plate.scheme.limiter",
                         [](const Case& c) { return c.solids.front().scheme.limiter; });
   arrives<GasResponse>("interface.riemann", [](const Case& c) { return c.interface.riemann; });

@@ -54,13 +54,14 @@ TEST(ChosenGrids, AnOutlineIsEnough) {
     const Case problem = load_text(bodies_case({shape}));
     ASSERT_EQ(problem.solids.size(), 1U);
     EXPECT_NO_THROW(connect_once(problem.solids[0].grid, problem.solids[0].body_fitted)) << shape;
-    EXPECT_NO_THROW(connect_once(problem.fluid->grid, problem.fluid->body_fitted)) << shape;
+    EXPECT_NO_THROW(connect_once(problem.fluids.front().grid, problem.fluids.front().body_fitted)) << shape;
     EXPECT_EQ(problem.chosen.size(), 3U) << shape;
     // What was chosen is in the resolved case, whose programs choose nothing any more.
     const Case again = load_text(problem.resolved);
     EXPECT_TRUE(again.chosen.empty()) << shape;
     EXPECT_EQ(again.digest, problem.digest) << shape;
-    EXPECT_EQ(again.fluid->body_fitted[0].curve.x, problem.fluid->body_fitted[0].curve.x) << shape;
+    EXPECT_EQ(again.fluids.front().body_fitted[0].curve.x, problem.fluids.front().body_fitted[0].curve.x)
+        << shape;
     EXPECT_EQ(again.solids[0].grid.x_b, problem.solids[0].grid.x_b) << shape;
   }
 }
@@ -71,8 +72,8 @@ TEST(ChosenGrids, GentleOutlinesGetEightLinesAndACoreOneSpacingApart) {
   EXPECT_EQ(solid.body_fitted[0].lines, 8);
   EXPECT_NEAR(solid.body_fitted[0].spacing, 0.05, 1e-12);
   EXPECT_NEAR((solid.grid.x_b - solid.grid.x_a) / (solid.grid.n1 - 1), 0.05, 1e-4);
-  EXPECT_EQ(problem.fluid->body_fitted[0].lines, 8);
-  EXPECT_NEAR(problem.fluid->body_fitted[0].spacing, 0.05, 1e-12);
+  EXPECT_EQ(problem.fluids.front().body_fitted[0].lines, 8);
+  EXPECT_NEAR(problem.fluids.front().body_fitted[0].spacing, 0.05, 1e-12);
 }
 
 TEST(ChosenGrids, KeysThatAreGivenStay) {
@@ -119,15 +120,15 @@ TEST(OpenOutlines, AWallIsTheSmallerPartOfTheGasWhicheverWayItIsListed) {
   const Case up = load_text(wall_case("[[-2, -2], [0, -2], [2, -1.6]]", "[left, right]"));
   const Case back = load_text(wall_case("[[2, -1.6], [0, -2], [-2, -2]]", "[right, left]"));
   for (const Case* problem : {&up, &back}) {
-    const BodyFittedSpec& wall = problem->fluid->body_fitted[0];
+    const BodyFittedSpec& wall = problem->fluids.front().body_fitted[0];
     EXPECT_EQ(wall.side, Side::top);
     EXPECT_GT(wall.curve.x.front(),
               wall.curve.x[static_cast<std::size_t>(wall.curve.points()) - 1]);  // right to left
-    EXPECT_NO_THROW(connect_once(problem->fluid->grid, problem->fluid->body_fitted));
+    EXPECT_NO_THROW(connect_once(problem->fluids.front().grid, problem->fluids.front().body_fitted));
   }
   // The same ramp hanging from the top.
   const Case hanging = load_text(wall_case("[[-2, 2], [0, 2], [2, 1.6]]", "[left, right]"));
-  const BodyFittedSpec& wall = hanging.fluid->body_fitted[0];
+  const BodyFittedSpec& wall = hanging.fluids.front().body_fitted[0];
   EXPECT_LT(wall.curve.x.front(), wall.curve.x[static_cast<std::size_t>(wall.curve.points()) - 1]);
 }
 
@@ -143,31 +144,37 @@ std::string circle_above_the_floor(double gap) {
 
 TEST(ChosenGrids, AWallThatABodyIsNearToGetsAGridAlongIt) {
   const Case near = load_text(bodies_case({circle_above_the_floor(0.1)}));  // two spacings
-  ASSERT_EQ(near.fluid->body_fitted.size(), 2U);
-  const BodyFittedSpec& strip = near.fluid->body_fitted[1];
+  ASSERT_EQ(near.fluids.front().body_fitted.size(), 2U);
+  const BodyFittedSpec& strip = near.fluids.front().body_fitted[1];
   EXPECT_EQ(strip.name, "along_bottom");
   EXPECT_TRUE(strip.solid.empty());
   for (int k = 0; k < strip.curve.points(); ++k)
     EXPECT_NEAR(strip.curve.x[static_cast<std::size_t>(strip.curve.points() + k)], -2, 1e-12);
-  EXPECT_NEAR((near.fluid->grid.x_b - near.fluid->grid.x_a) / (near.fluid->grid.n1 - 1), 0.05, 1e-9);
-  EXPECT_NO_THROW(connect_once(near.fluid->grid, near.fluid->body_fitted));
+  EXPECT_NEAR(
+      (near.fluids.front().grid.x_b - near.fluids.front().grid.x_a) / (near.fluids.front().grid.n1 - 1), 0.05,
+      1e-9);
+  EXPECT_NO_THROW(connect_once(near.fluids.front().grid, near.fluids.front().body_fitted));
   EXPECT_TRUE(load_text(near.resolved).chosen.empty());
   // No body near, no wall, or a grid that the file describes: none.
-  EXPECT_EQ(load_text(bodies_case({circle_above_the_floor(0.6)})).fluid->body_fitted.size(), 1U);
+  EXPECT_EQ(load_text(bodies_case({circle_above_the_floor(0.6)})).fluids.front().body_fitted.size(), 1U);
   EXPECT_EQ(load_text(bodies_case({circle_above_the_floor(0.4)}), {"fluid.boundary.bottom=outflow"})
-                .fluid->body_fitted.size(),
+                .fluids.front()
+                .body_fitted.size(),
             1U);
   EXPECT_EQ(load_text(bodies_case({circle_above_the_floor(0.4)}),
                       {"fluid.body_fitted=[{name: ring, solid: body_0, lines: 6}]"})
-                .fluid->body_fitted.size(),
+                .fluids.front()
+                .body_fitted.size(),
             1U);
 }
 
 TEST(ChosenGrids, BodiesTwoSpacingsApartNeedNoFinerBackground) {
   const Case problem = load_text(bodies_case(
       {"{kind: circle, centre: [-0.55, 0], radius: 0.5}", "{kind: circle, centre: [0.55, 0], radius: 0.5}"}));
-  EXPECT_NEAR((problem.fluid->grid.x_b - problem.fluid->grid.x_a) / (problem.fluid->grid.n1 - 1), 0.05, 1e-9);
-  for (const BodyFittedSpec& ring : problem.fluid->body_fitted) EXPECT_NEAR(ring.spacing, 0.05, 1e-9);
+  EXPECT_NEAR((problem.fluids.front().grid.x_b - problem.fluids.front().grid.x_a) /
+                  (problem.fluids.front().grid.n1 - 1),
+              0.05, 1e-9);
+  for (const BodyFittedSpec& ring : problem.fluids.front().body_fitted) EXPECT_NEAR(ring.spacing, 0.05, 1e-9);
 }
 
 TEST(ChosenGrids, GridsThatAmplifyErrorsAreRefusedWithARemedyThatConnects) {
@@ -179,7 +186,7 @@ TEST(ChosenGrids, GridsThatAmplifyErrorsAreRefusedWithARemedyThatConnects) {
         "fluid.body_fitted=[{name: ring, solid: body_0, lines: 6, spacing: " + std::to_string(spacing) + "}]";
     try {
       const Case fine = load_text(thin, {given});
-      EXPECT_NO_THROW(connect_once(fine.fluid->grid, fine.fluid->body_fitted));
+      EXPECT_NO_THROW(connect_once(fine.fluids.front().grid, fine.fluids.front().body_fitted));
     } catch (const UserMistake& mistake) {
       ++refused;
       EXPECT_NE(std::string(mistake.what()).find("write `spacing: "), std::string::npos) << mistake.what();

@@ -119,7 +119,7 @@ const Mistake values[] = {
      "would be "
      "closed with the solid's impedance; write false"},
     {"NegativeDensityOfTheSolid", "rho: 1\n", "rho: -1\n",
-     "case.yaml:19:10: solids.solid.rho: must be > 0 [mass/volume], is -1"},
+     "case.yaml:19:10: solids.solid.rho: must be >= 0 [mass/volume], is -1"},
     {"NegativeDensityOfTheGas", "{rho: 1,", "{rho: -1,",
      "case.yaml:15:18: fluid.initial.rho: density must be > 0 [mass/volume], is -1"},
     {"NegativeDensitySomewhere", "{rho: 1,", "{rho: 0.4 - x,",

@@ -33,7 +33,7 @@ TEST(Override, ReplacesAnyKeyOfTheFile) {
   EXPECT_DOUBLE_EQ(problem.grid_factor, 4);
   EXPECT_EQ(problem.interface.projection, Projection::full);
   EXPECT_TRUE(problem.time.multirate);
-  EXPECT_DOUBLE_EQ(problem.fluid->gamma, 5.0 / 3);
+  EXPECT_DOUBLE_EQ(problem.fluids.front().gamma, 5.0 / 3);
   EXPECT_EQ(problem.output.times.size(), 2U);
   EXPECT_EQ(problem.output.probes.front().name, "a");
   for (const Expectation& entry : problem.expect) {

@@ -35,7 +35,7 @@ const std::string circle = "{kind: circle, radius: 0.9}";
 
 TEST(CaseShape, GasAndSolidShareThePointsOfTheOutline) {
   const Case problem = load_text(disk_case(circle));
-  const BodyFittedSpec& gas = problem.fluid->body_fitted.at(0);
+  const BodyFittedSpec& gas = problem.fluids.front().body_fitted.at(0);
   const BodyFittedSpec& solid = problem.solids.at(0).body_fitted.at(0);
   EXPECT_EQ(gas.curve.x, solid.curve.x);
   EXPECT_EQ(gas.curve.points(), std::lround(2 * M_PI * 0.9 / 0.1) + 1);

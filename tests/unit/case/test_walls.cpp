@@ -37,8 +37,8 @@ const std::string panel = "[[-0.5, 0], [-0.5, 0.6], [-0.3, 0.6], [-0.3, 0]]";
 
 TEST(Walls, ABodyOnAnOutlineGetsTheWallsConditionAtItsEnds) {
   const Case problem = load_text(floor_case(panel));
-  ASSERT_EQ(problem.fluid->body_fitted.size(), 3U);
-  const BodyFittedSpec& ring = problem.fluid->body_fitted[2];
+  ASSERT_EQ(problem.fluids.front().body_fitted.size(), 3U);
+  const BodyFittedSpec& ring = problem.fluids.front().body_fitted[2];
   EXPECT_EQ(ring.curve.on, "floor");
   EXPECT_EQ((*ring.curve.walls)[0], Side::bottom);
   for (const Side end : {Side::left, Side::right})
@@ -48,12 +48,12 @@ TEST(Walls, ABodyOnAnOutlineGetsTheWallsConditionAtItsEnds) {
 
 TEST(Walls, PointsOfTheWallUnderTheBodyAreUnusedAndThoseBesideItAreNot) {
   const Case problem = load_text(floor_case(panel));
-  const std::vector<BodyFittedSpec>& specs = problem.fluid->body_fitted;
+  const std::vector<BodyFittedSpec>& specs = problem.fluids.front().body_fitted;
   std::vector<grid::MovingGrid> grids;
   std::vector<ConstFieldView> views;
   for (const BodyFittedSpec& spec : specs) grids.emplace_back(grid_of(spec), 0);
   for (const grid::MovingGrid& grid : grids) views.push_back(grid.x());
-  grid::CompositeGrid composite(background_of(problem.fluid->grid), bodies_of(specs));
+  grid::CompositeGrid composite(background_of(problem.fluids.front().grid), bodies_of(specs));
   composite.connect(views, 0);
   EXPECT_EQ(composite.body(3).wall, 1);
   const int j = specs[0].side == Side::top ? specs[0].lines - 1 : 0;
@@ -74,7 +74,7 @@ TEST(Walls, PointsOfTheWallUnderTheBodyAreUnusedAndThoseBesideItAreNot) {
 TEST(Walls, ABodyStandsOnASlope) {
   // Its feet on the line from (1, 0) to (2.5, -1), its sides at right angles to it.
   const Case problem = load_text(floor_case("[[1.6, -0.4], [1.8, -0.1], [1.95, -0.2], [1.75, -0.5]]"));
-  const CurveSpec& curve = problem.fluid->body_fitted[2].curve;
+  const CurveSpec& curve = problem.fluids.front().body_fitted[2].curve;
   EXPECT_NEAR(curve.along[0][1] / curve.along[0][0], -2.0 / 3, 1e-9);
   EXPECT_EQ((*curve.walls)[0], Side::bottom);  // the side it faces most
 }

@@ -103,7 +103,7 @@ TEST(Matching, TwoSolidsOnOneSideAreNamed) {
   EXPECT_NE(mistake(hellos).find("exactly one side of one solid"), std::string::npos);
 }
 
-TEST(Matching, ARunWithoutGasOrWithTwoIsRefused) {
+TEST(Matching, ARunWithoutGasOrWithTwoAtOneInterfaceIsRefused) {
   const auto hellos = piston_hellos(5);
   EXPECT_THROW(match_interfaces(std::vector<wire::Hello>{hellos[1]}), PeerLost);
   EXPECT_THROW(match_interfaces(std::vector<wire::Hello>{hellos[0], hellos[0], hellos[1]}), PeerLost);

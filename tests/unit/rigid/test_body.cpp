@@ -70,6 +70,7 @@ class InGas {
   Pressure pressure_;
   Vec3 own_;
   InterfaceExchange exchange_;
+  coupler::ModalBody modes_;
   Impulse impulse_;
   double t_ = 0;
   std::uint64_t step_ = 0;
@@ -98,7 +99,10 @@ class InGas {
     gas.z_f.assign(n, z_f);
     gas.p_e = p_e;
     for (std::size_t k = 0; k < n; ++k) gas.p.push_back(pressure_({gas.x[k], gas.x[n + k]}, t_));
-    exchange_.project_interface({.step = step_, .t = t_, .dt = dt}, gas, solid);
+    const coupler::Moment moment{.step = step_, .t = t_, .dt = dt};
+    exchange_.take(moment, gas, solid);
+    const coupler::ModalSide sides[] = {exchange_.modal_side()};
+    exchange_.project_interface(moment, dt > 0 ? modes_.project(solid.modal, sides, dt) : q_dot);
     wire::ProjectedInterface answer;
     exchange_.fill_state(answer);
     if (dt > 0) body_.correct(Eigen::Map<const Eigen::VectorXd>(exchange_.q_dot().data(), 3));

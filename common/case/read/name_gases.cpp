@@ -1,0 +1,49 @@
+#include "common/case/read/name_gases.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <vector>
+
+namespace fsi {
+
+namespace {
+
+bool meets(const FluidSpec& fluid, const std::string& solid) {
+  const auto is_side = [&](const BoundarySpec& spec) {
+    return spec.kind == BoundaryKind::interface && spec.solid == solid;
+  };
+  return std::ranges::any_of(fluid.boundary, is_side) ||
+         std::ranges::find(fluid.body_fitted, solid, &BodyFittedSpec::solid) != fluid.body_fitted.end();
+}
+
+}  // namespace
+
+void name_gases(Case& problem, const config::Node& root) {
+  for (SolidSpec& solid : problem.solids) {
+    std::vector<std::string> gases;
+    for (const FluidSpec& fluid : problem.fluids) {
+      if (meets(fluid, solid.name)) gases.push_back(fluid.name);
+    }
+    const auto complete = [&](std::array<BoundarySpec, 4>& boundary) {
+      for (BoundarySpec& spec : boundary) {
+        if (spec.kind != BoundaryKind::interface || !spec.fluid.empty() || gases.empty()) continue;
+        if (gases.size() > 1) {
+          config::fail(
+              root.find("solids")->find(solid.name)->place, fmt::format("solids.{}", solid.name),
+              fmt::format("the gases {} meet it; write {{kind: interface, fluid: NAME}} at each of its "
+                          "interfaces",
+                          fmt::join(gases, " and ")));
+        }
+        spec.fluid = gases.front();
+      }
+    };
+    complete(solid.boundary);
+    for (BodyFittedSpec& fitted : solid.body_fitted) complete(fitted.boundary);
+  }
+}
+
+}  // namespace fsi
