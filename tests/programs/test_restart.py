@@ -23,6 +23,10 @@ CASES = {  # with the number of steps between checkpoints
     "spring_piston": (20, "--set", "grid.factor=2"),
     "plate": (10, "--set", "time.end=0.5", "--set", "output.times=[0.3, 0.5]", "--set", "parameters.size=0.1",
               "--set", "solids.plate.beam.ends=[clamped, pinned]"),
+    "piston_between_gases": (10, "--set", "grid.factor=4", "--set", "time.end=0.5", "--set", "output.times=[0.2, 0.5]",
+                             "--set", "output.probes=[{name: a, in: left, x: -0.5, y: 0.05}, {name: b, in: right, x: 1, y: 0}]"),
+    "taylor_plate": (10, "--set", "grid.factor=4", "--set", "time.end=0.5", "--set", "output.times=[0.2, 0.5]",
+                     "--set", "parameters.size=0.1", "--set", "parameters.mass=1e-3"),
     # worst cells in the middle of the run, rectangles at its end
     "free_stream": (4, "--set", "time.end=0.5", "--set", "time.dt=0.02", "--set", "output.times=[0.5]", "--set",
                     "fluid.grid={kind: mapped, points: [11, 11], map: [r + 0.4 * s * sin(2 * pi * t), s]}"),
@@ -111,6 +115,12 @@ class Restart(Restarting):
 
     def test_program_of_somebody_elses(self):
         self.assert_goes_on("spring_piston")
+
+    def test_piston_between_two_gases(self):
+        self.assert_goes_on("piston_between_gases")
+
+    def test_beam_between_two_gases(self):
+        self.assert_goes_on("taylor_plate")
 
     def test_beam(self):
         self.assert_goes_on("plate")
