@@ -23,6 +23,7 @@ import time
 from pathlib import Path
 
 import beam_studies
+import flutter_studies
 import record_builds
 import record_check
 import record_ellipse
@@ -30,6 +31,7 @@ import record_faults
 import record_impacts
 import record_outlines
 import record_paper
+import wall_studies
 
 ROOT = Path(__file__).resolve().parent.parent
 RUNS = ROOT / "runs" / "results"
@@ -502,7 +504,8 @@ def all_studies():
     tools = sys.modules[__name__]
     return [*piston_studies(), *record_paper.manufactured(tools),
             ("Gas: manufactured solution on a moving grid", lambda: converge("chosen-gas", "gas_manufactured", "2,4,8,16")),
-            *other_studies(), *record_paper.disks(tools), *disk_studies(), *record_ellipse.studies(tools), *beam_studies.studies(tools),
+            *other_studies(), *record_paper.disks(tools), *disk_studies(), *record_ellipse.studies(tools), *beam_studies.studies(tools), *wall_studies.studies(tools),
+            *flutter_studies.studies(tools),
             *record_impacts.studies(tools), *record_outlines.studies(tools),
             ("What watching costs", lambda: watched("watched")),
             ("Signals to every program at random moments", lambda: faults(200)), *record_faults.studies(tools),

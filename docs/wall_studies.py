@@ -1,0 +1,56 @@
+"""Studies of walls between two gases for docs/record_results.py: exact solutions in the limit of small pulses."""
+
+import csv
+import math
+
+CASES = (("speeds of sound 1 and 2.04", []),
+         ("a heavy gas on the right", ["parameters.rho_right=5", "parameters.gamma_right=1.2"]))
+DENSITIES = ("0.02", "2", "200")
+MASSES = ("0", "1e-3", "1e-2", "0.1", "1", "10", "1e3")
+LEVELS = "8,16,32"
+PULSE = 1e-6    # the size of the pulse in the cases
+
+
+def _table(heading, rows):
+    return "\n".join(["| " + " | ".join(heading) + " |", "|" + "---|" * len(heading),
+                      *("| " + " | ".join(row) + " |" for row in rows)]) + "\n"
+
+
+def _pistons(tools):
+    variants = [(f"{label}, density {density} of the piston", [*settings, f"parameters.density={density}"], [])
+                for label, settings in CASES for density in DENSITIES]
+    return tools.rates("piston-between-gases", "piston_between_gases", LEVELS, variants, ("rho", "v1", "u_bar", "v_bar", "P_bar"))
+
+
+def _plates(tools):
+    variants = [(f"m = {mass}", [f"parameters.mass={mass}"], []) for mass in MASSES]
+    return tools.rates("taylor-plate", "taylor_plate", LEVELS, variants, ("rho", "v1"))
+
+
+def _largest(directory, begin, end):
+    """Largest speed of the plate between two times."""
+    with open(directory / "forces_plate.csv", encoding="utf-8", newline="") as file:
+        heading, *rows = csv.reader(file)
+    t, v = (next(k for k, title in enumerate(heading) if title.startswith(name)) for name in ("t ", "velocity1"))
+    return max((abs(float(row[v])) for row in rows if begin <= float(row[t]) < end), default=math.nan)
+
+
+def _growth(tools):
+    """Whether anything grows when the pulse is gone: largest speed of the plate over its largest in the pulse."""
+    rows, typed = [], ""
+    for mass in MASSES[:-2]:
+        settings = ["time.end=12", "output.times=[12]", f"parameters.mass={mass}", "fluids.left.boundary.left=outflow",
+                    "fluids.right.boundary.right=outflow", "expect={status: completed}"]
+        directory, _, typed = tools.run_once(f"taylor-growth-{mass}", "taylor_plate", settings)
+        most = _largest(directory, 0, 1.5)
+        rows.append([mass, f"{most / PULSE:.3f}", *(f"{_largest(directory, a, b) / most:.1e}" for a, b in ((3, 6), (6, 9), (9, 12)))])
+    note = ("What is left is round-off: the pulse is 1e-6 of the pressure, so that 1e-7 of it is some 1e-13 of the speed of sound. (m = 1 has a "
+            "memory of m / (z_1 + z_2) = 0.45, which is its 6.6e-03.)")
+    return f"last row: `{typed}`\n\n{note}\n\n" + _table(["m", "largest v over the size of the pulse", "t in 3 .. 6", "6 .. 9", "9 .. 12"], rows)
+
+
+def studies(tools):
+    """(title, function) of each study; `tools`: the functions of record_results."""
+    yield "Elastic piston between two gases, small pulse", lambda: _pistons(tools)
+    yield "Taylor's plate between two gases, any mass", lambda: _plates(tools)
+    yield "Taylor's plate between two gases: what is left when the pulse is gone", lambda: _growth(tools)
