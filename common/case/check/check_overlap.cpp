@@ -59,7 +59,7 @@ void check_curve(const BodyFittedSpec& spec, const grid::MovingGrid& grid) {
     if ((there - curve).norm() <= 1e-6 * spec.curve.spacing) continue;
     throw UserMistake(
         fmt::format("grid \"{}\": `map` at r = {:.6g}, s = 0 is ({:.6g}, {:.6g}), but point {} of its curve "
-                    "is at ({:.6g}, {:.6g})",
+                    "is at ({:.6g}, {:.6g}); let `map` begin on the curve",
                     spec.name, static_cast<double>(k) / static_cast<double>(n - 1), there.x(), there.y(), k,
                     curve.x(), curve.y()));
   }
@@ -80,8 +80,7 @@ void check_overlap(const OverlapCheck& check) {
     const Advice advice = advice_for(check);
     fail(advice.node.place, advice.path, fmt::format("{}; {}", failure.what(), advice.text));
   } catch (const Failure& failure) {
-    fail(place_of(check).place, check.path + ".body_fitted",
-         fmt::format("{}; change `lines`, `spacing` or the shape", failure.what()));
+    fail(place_of(check).place, check.path + ".body_fitted", failure.what());
   }
 }
 

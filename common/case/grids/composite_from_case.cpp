@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
 #include <utility>
 
 #include "common/core/failure.hpp"
@@ -18,39 +21,136 @@ grid::Curve ends_of(const BodyFittedSpec& spec) {
   return spec.curve.closed() ? grid::Curve::closed : grid::Curve::open;
 }
 
+/// To two digits.
+double rounded_down(double value) {
+  const double unit = std::pow(10, std::floor(std::log10(value)) - 1);
+  return std::floor(value / unit * (1 + 1e-12)) * unit;
+}
+
 Vec2 direction_along(Side wall) {
   return direction_of(wall) == 0 ? Vec2(0, 1) : Vec2(1, 0);
 }
 
-/// Fluxes through the curve need cells on its other side.
-void check_corners(const BodyFittedSpec& spec, ConstFieldView x) {
-  const auto corner = grid::crowded_corner(x, spec.side);
-  if (!corner) return;
-  throw UserMistake(fmt::format(
-      "grid \"{}\": its curve turns too sharply at ({:.4g}, {:.4g}) for the distance of its lines; write "
-      "at most `spacing: {:.2g}` for it",
-      spec.name, corner->x[0], corner->x[1], corner->spacing));
+/// What is wrong with the ghost lines behind a curve, through which fluxes go and from which values are
+/// continued, and about which part of the distance of its lines would do.
+struct Trouble {
+  std::string what;
+  double part = 1;
+};
+
+std::optional<Trouble> trouble_behind(const BodyFittedSpec& spec, ConstFieldView x) {
+  auto corner = grid::crowded_corner(x, spec.side);
+  if (!corner) corner = grid::most_crowded_bend(x, spec.side, spec.curve.corners);
+  if (corner && corner->part < 1) {
+    return Trouble{
+        fmt::format("its curve turns too sharply at ({:.4g}, {:.4g}) for the distance of its lines",
+                    corner->x[0], corner->x[1]),
+        corner->part};
+  }
+  const grid::SlantedLine line = grid::most_slanted_line(x, spec.side);
+  if (line.slant <= grid::largest_slant) return std::nullopt;
+  return Trouble{fmt::format("at ({:.4g}, {:.4g}) its curve is too flat on the wall for the distance of its "
+                             "lines, {:.2g} times that of its points",
+                             line.x[0], line.x[1], line.slant),
+                 grid::largest_slant / line.slant};
 }
 
-/// The ends of a grid that stands on a wall lie on it, as far as the grid is deep.
-void check_feet(const BodyFittedSpec& spec, const std::vector<BodyFittedSpec>& specs, ConstFieldView x) {
-  const auto wall = std::ranges::find(specs, spec.curve.on, &BodyFittedSpec::name);
-  if (spec.curve.on.empty() || wall == specs.end()) return;
-  constexpr double close = 1e-6;
-  for (const int i : {0, x.layout.n1 - 1}) {
-    for (int j = 0; j < x.layout.n2; ++j) {
-      const Vec2 end(x(0, i, j), x(1, i, j));
-      if (grid::distance_to(wall->curve.x, end) <= close * wall->curve.spacing) continue;
-      throw UserMistake(
-          fmt::format("grid \"{}\" reaches ({:.4g}, {:.4g}) along the wall of grid \"{}\", which bends "
-                      "before; let the body stand "
-                      "farther from the bend, or make the grid less deep with a smaller `spacing`",
-                      spec.name, end[0], end[1], wall->name));
-    }
+bool holds(const BodyFittedSpec& spec) {
+  try {
+    return !trouble_behind(spec, grid::MovingGrid(grid_of(spec), 0).x());
+  } catch (const Failure&) {
+    return false;
   }
 }
 
+/// The first distance of lines from an estimate on, with lines to the same depth, that holds.
+double first_that_holds(const BodyFittedSpec& spec, double estimate) {
+  BodyFittedSpec tried = spec;
+  tried.spacing = rounded_down(estimate);
+  constexpr int most_trials = 12;
+  for (int k = 0; k < most_trials; ++k, tried.spacing = rounded_down(0.93 * tried.spacing)) {
+    tried.lines = lines_to(depth_of(spec), tried.spacing, spec.growth);
+    if (holds(tried)) return tried.spacing;
+  }
+  return rounded_down(estimate);
+}
+
+constexpr double margin = 0.95;  // of an estimate: shares are not quite in proportion to distances
+
+void check_behind(const BodyFittedSpec& spec, ConstFieldView x) {
+  const auto trouble = trouble_behind(spec, x);
+  if (!trouble) return;
+  const double spacing = first_that_holds(spec, margin * trouble->part * spec.spacing);
+  throw UserMistake(
+      fmt::format("grid \"{}\": {}; write `spacing: {:.2g}` for it, with `lines: {}`, or leave both out",
+                  spec.name, trouble->what, spacing, lines_to(depth_of(spec), spacing, spec.growth)));
+}
+
+/// An end of a grid lies on a wall, as far as the grid is deep.
+void check_foot(const BodyFittedSpec& spec, const CurveSpec& wall, ConstFieldView x, int i) {
+  constexpr double close = 1e-6;
+  const auto at = [&](int line) {
+    const int j = spec.side == Side::bottom ? line : x.layout.n2 - 1 - line;
+    return Vec2(x(0, i, j), x(1, i, j));
+  };
+  int line = 0;
+  while (line < x.layout.n2 && grid::distance_to(wall.x, at(line)) <= close * wall.spacing) ++line;
+  if (line == x.layout.n2) return;
+  const Vec2 end = at(line);
+  const double room = (at(std::max(line - 1, 0)) - at(0)).norm();
+  const std::string less = room > 0 ? fmt::format(", with `spacing: {:.2g}` at most",
+                                                  0.99 * room / depth_of(spec.lines, spec.growth))
+                                    : "";
+  throw UserMistake(
+      fmt::format("grid \"{}\" reaches ({:.4g}, {:.4g}) along the wall of grid \"{}\", which bends before; "
+                  "let the body stand farther from the bend, or make the grid less deep{}",
+                  spec.name, end[0], end[1], spec.curve.on, less));
+}
+
+/// The ends of a grid that stands on a wall lie on it.
+void check_feet(const BodyFittedSpec& spec, const std::vector<BodyFittedSpec>& specs, ConstFieldView x) {
+  const auto wall = std::ranges::find(specs, spec.curve.on, &BodyFittedSpec::name);
+  if (spec.curve.on.empty() || wall == specs.end()) return;
+  for (const int i : {0, x.layout.n1 - 1}) check_foot(spec, wall->curve, x, i);
+}
+
 }  // namespace
+
+double depth_of(int lines, double growth) {
+  double depth = 0, step = 1;
+  for (int line = 1; line < lines; ++line, step *= growth) depth += step;
+  return depth;
+}
+
+double depth_of(const BodyFittedSpec& spec) {
+  if (!spec.map) return spec.spacing * depth_of(spec.lines, spec.growth);
+  const Vec2 across(spec.map->c1.at_parameters(0, 1, 0) - spec.map->c1.at_parameters(0, 0, 0),
+                    spec.map->c2.at_parameters(0, 1, 0) - spec.map->c2.at_parameters(0, 0, 0));
+  return across.norm();
+}
+
+int lines_to(double depth, double spacing, double growth) {
+  constexpr int fewest = 5, most = 100;
+  constexpr double round_off = 1e-6;
+  int lines = fewest;
+  while (lines < most && spacing * depth_of(lines, growth) < depth * (1 - round_off)) ++lines;
+  return lines;
+}
+
+double sound_spacing(const BodyFittedSpec& spec) {
+  constexpr double any = std::numeric_limits<double>::infinity();
+  if (spec.map) return any;
+  constexpr double close = 0.05;  // of the points' distance: such lines do not meet
+  BodyFittedSpec thin = spec;
+  thin.spacing = close * spec.curve.spacing;
+  thin.lines = 5;
+  const grid::MovingGrid grid(grid_of(thin), 0);
+  const auto bend = grid::most_crowded_bend(grid.x(), spec.side, spec.curve.corners);
+  const double slant = grid::most_slanted_line(grid.x(), spec.side).slant;
+  const double part = std::min(bend ? bend->part : any, slant > 0 ? grid::largest_slant / slant : any);
+  const double estimate = margin * part * thin.spacing;
+  return estimate < spec.spacing ? first_that_holds(spec, estimate) : estimate;
+}
 
 grid::CartesianGrid background_of(const GridSpec& spec) {
   return {.name = spec.name,
@@ -123,7 +223,7 @@ StartingGrids start(const std::vector<BodyFittedSpec>& specs) {
   std::vector<grid::MovingGrid*> pointers;
   for (const BodyFittedSpec& spec : specs) {
     grids.emplace_back(grid_of(spec), 0);
-    if (!spec.map) check_corners(spec, grids.back().x());
+    if (!spec.map) check_behind(spec, grids.back().x());
     check_feet(spec, specs, grids.back().x());
   }
   for (grid::MovingGrid& grid : grids) pointers.push_back(&grid);

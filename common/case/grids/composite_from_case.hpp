@@ -18,6 +18,17 @@ grid::GridDescription grid_of(const BodyFittedSpec& spec);
 /// What the overlap needs to know of body-fitted grids.
 std::vector<grid::BodyFittedGrid> bodies_of(const std::vector<BodyFittedSpec>& specs);
 
+/// Depth of so many lines for each unit of their first distance.
+double depth_of(int lines, double growth);
+/// From the curve to the last line.
+double depth_of(const BodyFittedSpec& spec);
+/// Lines, at least five, that are so deep.
+int lines_to(double depth, double spacing, double growth);
+/// A distance of lines that the bends of a curve hold (grid::most_crowded_bend), and its flat ends on walls
+/// (grid::most_slanted_line), with lines to the depth of `spec`: nearly the largest one, and tried where it is
+/// less than that of `spec`; infinite where there is nothing like that.
+double sound_spacing(const BodyFittedSpec& spec);
+
 /// The grids of all curves at t = 0, with the room they leave each other.
 /// @throws NumbersBroke for folds
 std::vector<grid::MovingGrid> grids_at_start(const std::vector<BodyFittedSpec>& specs);

@@ -28,13 +28,6 @@ double length_of(const CurveSpec& curve) {
   return curve.spacing * (curve.points() - 1);
 }
 
-/// How deep a grid of so many lines is for each unit of its first distance.
-double depth_of(int lines, double growth) {
-  double depth = 0, step = 1;
-  for (int line = 1; line < lines; ++line, step *= growth) depth += step;
-  return depth;
-}
-
 /// Outline, seen closely.
 struct Measures {
   double length = 0;
@@ -140,9 +133,10 @@ bool connects(const Outline& curves, const BodyGrids& grids, const BodyWish& wis
   return connects(grids.core, {ring});
 }
 
-/// How deep a ring may be: for bends and bays of its own curve, and between it and others.
+/// How deep a ring may be: for bends and bays of its own curve, and between it and others; and how far apart
+/// its lines at most, for its bends and its ends on walls.
 struct Room {
-  double own = 0, between = 0;
+  double own = 0, between = 0, spacing = 0;
 };
 
 /// From a closed curve to the rim of a rectangle.
@@ -167,7 +161,8 @@ std::vector<Room> rooms_of(const GridSpec& background, const std::vector<BodyFit
     const double to_gas = ring.side == Side::top ? -1 : 1;
     Room room{.own = std::min(0.5 * grid::narrowest(curve.x, ends_of(curve), to_gas).distance,
                               grid::sharpest_bend(curve.x, ends_of(curve), to_gas, curve.corners).radius),
-              .between = std::numeric_limits<double>::infinity()};
+              .between = std::numeric_limits<double>::infinity(),
+              .spacing = sound_spacing(ring)};
     for (const BodyFittedSpec& other : rings) {
       if (&other != &ring && !stands_on(ring, other) && !stands_on(other, ring))
         room.between = std::min(room.between, 0.5 * grid::gap_between(curve.x, other.curve.x).distance);
@@ -194,9 +189,14 @@ std::vector<RingGrid> with_lines(std::vector<BodyFittedSpec>& rings, const std::
     double depth = std::min(usual, rooms[k].own);
     if (trial.apart) depth = std::min(depth, rooms[k].between - h);
     depth = trial.part * std::max(depth, 2 * h);
-    rings[k].lines = trial.lines;
-    rings[k].spacing = as_written(std::min(h, depth / depth_of(trial.lines, rings[k].growth)));
-    result.push_back({trial.lines, rings[k].spacing});
+    BodyFittedSpec& ring = rings[k];
+    ring.lines = trial.lines;
+    ring.spacing = as_written(std::min(h, depth / depth_of(trial.lines, ring.growth)));
+    if (const double sound = rooms[k].spacing; ring.spacing > sound) {
+      ring.spacing = as_written(sound);
+      ring.lines = lines_to(depth, sound, ring.growth);
+    }
+    result.push_back({ring.lines, ring.spacing});
   }
   return result;
 }
@@ -218,7 +218,7 @@ BodyGrids fit_body(const Outline& curves, double h, const BodyWish& wish, bool o
   if (room < usual)
     trial = {.depth = room, .core = std::min(h, room / 4.5), .curve = trial.curve, .lines = 7};
   constexpr double most_points = 4e6, finer = 0.85;
-  constexpr int most_trials = 12;
+  constexpr int most_trials = 24;
   BodyGrids grids;
   for (int k = 0; k < most_trials; ++k) {
     grids = grids_of(curves, trial, wish, outline);

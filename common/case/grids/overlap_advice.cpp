@@ -22,18 +22,6 @@ using config::Node;
 constexpr double core_by_depth = 0.2;
 constexpr int fewest_lines = 5;
 
-/// From the curve to the last line.
-double depth_of(const BodyFittedSpec& spec) {
-  if (spec.map) {
-    const Vec2 across(spec.map->c1.at_parameters(0, 1, 0) - spec.map->c1.at_parameters(0, 0, 0),
-                      spec.map->c2.at_parameters(0, 1, 0) - spec.map->c2.at_parameters(0, 0, 0));
-    return across.norm();
-  }
-  double depth = 0, step = spec.spacing;
-  for (int line = 1; line < spec.lines; ++line, step *= spec.growth) depth += step;
-  return depth;
-}
-
 grid::Bend bend_of(const BodyFittedSpec& spec) {
   return grid::sharpest_bend(spec.curve.x, spec.curve.closed() ? grid::Curve::closed : grid::Curve::open,
                              spec.side == Side::bottom ? 1 : -1, spec.curve.corners);
@@ -213,26 +201,54 @@ std::optional<Advice> by_trial(const OverlapCheck& check, const Node& place, con
                   *spacing, spacing_of(check.background), lines ? ", or " : "", fewer)};
 }
 
-}  // namespace
+/// The file gives the grids of this solid, and `choose_grids` would have chosen others.
+bool gives_grids(const OverlapCheck& check, const Node& shape) {
+  const Node* points = check.owner.find("grid")->find("points");
+  return points == nullptr || points->place != shape.place;  // what was chosen has the place of the shape
+}
 
-Advice advice_for(const OverlapCheck& check) {
-  const Node* list = check.owner.find("body_fitted");
-  const Node* shape = check.owner.find("shape");
-  const Node& place = list != nullptr ? *list : *shape;
-  const std::string path = fmt::format("{}.{}", check.path, list != nullptr ? "body_fitted" : "shape");
-  if (shape == nullptr) {  // the gas
-    if (const auto touching = almost_touching(check, *list)) return *touching;
-    const auto to_other = too_near(check, *list), to_side = too_near_to_side(check, *list);
-    if (to_side && (!to_other || to_side->missing > to_other->missing)) return *to_side;
-    if (to_other) return *to_other;
-  }
-  if (auto advice = by_trial(check, place, path)) return *advice;
-  if (auto advice = too_sharp(check, place, path)) return *advice;
+/// For grids that are given.
+Advice other_numbers(const OverlapCheck& check, const Node& place, const std::string& path) {
+  if (const auto advice = by_trial(check, place, path)) return *advice;
+  if (const auto advice = too_sharp(check, place, path)) return *advice;
   return {
       place, path,
       fmt::format("change `lines`, `spacing` or the shape; points of {}.grid about {} of the depth of the "
                   "grid along the outline apart leave room for both",
                   check.path, core_by_depth)};
+}
+
+Advice advice_for_solid(const OverlapCheck& check, const Node& shape) {
+  if (!gives_grids(check, shape)) {
+    return {shape, check.path + ".shape",
+            "no grids inside this outline were found that fit; round it more, there and where it meets a "
+            "wall, "
+            "or take `law: rigid` with `motion: fixed`"};
+  }
+  const Node* fitted = check.owner.find("body_fitted");
+  Advice advice =
+      other_numbers(check, fitted != nullptr ? *fitted : shape,
+                    fmt::format("{}.{}", check.path, fitted != nullptr ? "body_fitted" : "shape"));
+  advice.text += "; or leave out `grid` and `body_fitted`, which are then chosen";
+  return advice;
+}
+
+}  // namespace
+
+Advice advice_for(const OverlapCheck& check) {
+  if (const Node* shape = check.owner.find("shape")) return advice_for_solid(check, *shape);
+  const Node& list = *check.owner.find("body_fitted");
+  const std::string path = check.path + ".body_fitted";
+  if (const auto touching = almost_touching(check, list)) return *touching;
+  const auto to_other = too_near(check, list), to_side = too_near_to_side(check, list);
+  if (to_side && (!to_other || to_side->missing > to_other->missing)) return *to_side;
+  if (to_other) return *to_other;
+  if (const auto advice = by_trial(check, list, path)) return *advice;
+  if (const auto advice = too_sharp(check, list, path)) return *advice;
+  return {
+      list, path,
+      "let the lines be closer and fewer with `spacing` and `lines`, give the curve fewer `points`, or round "
+      "it more there"};
 }
 
 }  // namespace fsi

@@ -102,22 +102,56 @@ void check_cells(ConstFieldView x, const std::string& name, double t) {
   }
 }
 
-std::optional<CrowdedCorner> crowded_corner(ConstFieldView x, Side curve) {
+namespace {
+
+/// What is left of the line half-way to the first ghost line, and whether that is enough.
+CrowdedCorner crowd_at(ConstFieldView x, Side curve, int i, double least) {
   const int out = curve == Side::bottom ? -1 : 1, j = curve == Side::bottom ? 0 : x.layout.n2 - 1;
-  const auto at = [x](int i, int line) { return Vec2(x(0, i, line), x(1, i, line)); };
-  constexpr double least = 0.1;
-  double worst = least;
-  std::optional<CrowdedCorner> corner;
+  const auto at = [x](int k, int line) { return Vec2(x(0, k, line), x(1, k, line)); };
+  const Vec2 along = at(i + 1, j) - at(i - 1, j), behind = at(i + 1, j + out) - at(i - 1, j + out);
+  const double share = 0.5 * (1 + behind.dot(along) / along.squaredNorm());
+  const double part = share < 1 ? (1 - least) / (1 - share) : std::numeric_limits<double>::infinity();
+  return {.point = i, .spacing = part * (at(i, j - out) - at(i, j)).norm(), .part = part, .x = at(i, j)};
+}
+
+}  // namespace
+
+std::optional<CrowdedCorner> crowded_corner(ConstFieldView x, Side curve) {
+  std::optional<CrowdedCorner> worst;
   for (int i = 0; i < x.layout.n1; ++i) {
-    const Vec2 along = at(i + 1, j) - at(i - 1, j), behind = at(i + 1, j + out) - at(i - 1, j + out);
-    const double share = 0.5 * (1 + behind.dot(along) / along.squaredNorm());
-    if (share >= worst) continue;
-    worst = share;
-    // The share falls from 1 in proportion to the distance of the lines.
-    const double distance = (at(i, j - out) - at(i, j)).norm();
-    corner = CrowdedCorner{.point = i, .spacing = distance * (1 - least) / (1 - share), .x = at(i, j)};
+    const CrowdedCorner here = crowd_at(x, curve, i, least_share);
+    if (here.part < (worst ? worst->part : 1)) worst = here;
   }
-  return corner;
+  return worst;
+}
+
+std::optional<CrowdedCorner> most_crowded_bend(ConstFieldView x, Side curve, std::span<const int> corners) {
+  const int period = x.layout.n1 - 1;
+  const auto is_beside_corner = [&](int i) {
+    return std::ranges::any_of(corners, [&](int corner) {
+      const int apart = std::abs(i - corner);
+      return std::min(apart, period - apart) <= 1;
+    });
+  };
+  std::optional<CrowdedCorner> worst;
+  for (int i = 0; i < x.layout.n1; ++i) {
+    if (is_beside_corner(i)) continue;
+    const CrowdedCorner here = crowd_at(x, curve, i, least_share_of_bends);
+    if (here.part < (worst ? worst->part : std::numeric_limits<double>::infinity())) worst = here;
+  }
+  return worst;
+}
+
+SlantedLine most_slanted_line(ConstFieldView x, Side curve) {
+  const int in = curve == Side::bottom ? 1 : -1, j = curve == Side::bottom ? 0 : x.layout.n2 - 1;
+  const auto at = [x](int i, int line) { return Vec2(x(0, i, line), x(1, i, line)); };
+  SlantedLine worst;
+  for (int i = 0; i < x.layout.n1; ++i) {
+    const Vec2 along = 0.5 * (at(i + 1, j) - at(i - 1, j)), across = at(i, j + in) - at(i, j);
+    const double slant = std::abs(across.dot(along)) / along.squaredNorm();
+    if (slant > worst.slant) worst = {.point = i, .slant = slant, .x = at(i, j)};
+  }
+  return worst;
 }
 
 }  // namespace fsi::grid

@@ -2,6 +2,7 @@
 /// How good the cells of a grid are.
 
 #include <optional>
+#include <span>
 #include <string>
 
 #include "common/core/field.hpp"
@@ -27,16 +28,41 @@ double cell_quality(ConstFieldView x);
 /// @throws NumbersBroke naming grid, cell, position, t and the corner area of the first folded cell
 void check_cells(ConstFieldView x, const std::string& name, double t);
 
-/// Where a grid cannot hold a convex corner of its curve: behind the curve, where its ghost lines continue
-/// it, lines converge by as much as they fan out before it.
+/// Where a grid cannot hold a convex corner or bend of its curve: behind the curve, where its ghost lines
+/// continue it, lines converge by as much as they fan out before it. The share of the curve that is left of a
+/// line half-way to the first ghost line falls from 1 in proportion to the distance of the lines; at 1/2 the
+/// first ghost line has shrunk to nothing, and beyond it runs backwards.
 struct CrowdedCorner {
   int point = 0;       ///< of the curve
   double spacing = 0;  ///< between the curve and the next line that it would hold
+  double part = 0;     ///< the same over the present one [-]: less than 1 where it is too crowded
   Vec2 x = Vec2::Zero();
 };
 
-/// The most crowded point of the curve on side `curve` (bottom or top) at which the line half-way to the
-/// first ghost line is shorter than a tenth of the curve, or runs backwards; the fluxes through it would.
+/// What must be left [-]: of any curve, for fluxes go through it; and where a curve bends over several points,
+/// whose ghosts would change places otherwise: there the gas grows out of bounds with less than a half, and
+/// a body that yields to it earlier. A margin for bodies that bend is included.
+inline constexpr double least_share = 0.1, least_share_of_bends = 0.55;
+
+/// The most crowded point of the curve on side `curve` (bottom or top) at which less than least_share is left.
 std::optional<CrowdedCorner> crowded_corner(ConstFieldView x, Side curve);
+
+/// The most crowded point of all that are not next to a corner, crowded or not; nothing where no line gets
+/// shorter.
+std::optional<CrowdedCorner> most_crowded_bend(ConstFieldView x, Side curve, std::span<const int> corners);
+
+/// Where lines leave a curve so slantingly, as at a wall that it meets at a flat angle, that a ghost point
+/// lies beside another point of the curve than its own.
+struct SlantedLine {
+  int point = 0;     ///< of the curve
+  double slant = 0;  ///< of the way to the next line, what goes along the curve, in points of it [-]
+  Vec2 x = Vec2::Zero();
+};
+
+/// From there on the pressure behind a wall, continued along the slanted line, feeds the noise before it.
+inline constexpr double largest_slant = 2;
+
+/// The most slanted line from the curve on side `curve` (bottom or top).
+SlantedLine most_slanted_line(ConstFieldView x, Side curve);
 
 }  // namespace fsi::grid

@@ -146,5 +146,46 @@ TEST(Walls, ASolidMayNotLeaveTheSideItsInterfaceEndsOn) {
   EXPECT_NE(message.find("write `right: slip_wall`"), std::string::npos) << message;
 }
 
+/// A body in a gas with the grid of the gas around it as given.
+std::string body_case(const std::string& law, const std::string& shape, const std::string& ring) {
+  return "time: {end: 1}\ngrid: {factor: 2}\n"
+         "fluid:\n"
+         "  grid: {x: [-1.5, 1.5], y: [0, 2]}\n"
+         "  boundary: {left: outflow, right: outflow, bottom: slip_wall, top: outflow}\n"
+         "  initial: {rho: 1, v: [0, 0], p: 1}\n" +
+         ring + "solids:\n  body:\n    rho: 1\n    law: " + law + "\n    shape: " + shape + "\n";
+}
+
+/// The number after some words of a message, as written.
+std::string number_after(const std::string& message, const std::string& words) {
+  const std::size_t at = message.find(words);
+  if (at == std::string::npos) return "";
+  const std::size_t from = at + words.size();
+  return message.substr(from, message.find('`', from) - from);
+}
+
+TEST(LinesAtBends, AreChosenCloseAndGivenOnesThatAreTooWideAreRefusedWithOnesThatHold) {
+  const std::string law = "rigid\n    motion: fixed";
+  struct Body {
+    std::string shape, says;
+  };
+  for (const auto& [shape, says] :
+       {Body{"{kind: polygon, corners: [[-0.3, 0.6], [0.3, 0.6], [0.3, 1.2], [-0.3, 1.2]], radius: 0.03}",
+             "turns too sharply at ("},
+        Body{"{kind: polygon, corners: [[-0.5, 0], [0.5, 0.2], [0.5, 0]], walls: [bottom, bottom]}",
+             "too flat on the wall"}}) {
+    const auto with = [&](const std::string& lines) {
+      return body_case(law, shape, "  body_fitted: [{name: ring, solid: body, " + lines + "}]\n");
+    };
+    EXPECT_EQ(mistake_in(body_case(law, shape, "")), "");
+    const std::string message = mistake_in(with("lines: 8, spacing: 0.05"));
+    EXPECT_NE(message.find(says), std::string::npos) << message;
+    const std::string spacing = number_after(message, "`spacing: "),
+                      lines = number_after(message, "`lines: ");
+    ASSERT_FALSE(spacing.empty() || lines.empty()) << message;
+    EXPECT_EQ(mistake_in(with("lines: " + lines + ", spacing: " + spacing)), "");
+  }
+}
+
 }  // namespace
 }  // namespace fsi

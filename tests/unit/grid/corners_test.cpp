@@ -150,6 +150,91 @@ TEST(CrowdedCorner, WideLinesFoldBehindACornerAndTheSpacingItNamesDoesNot) {
   EXPECT_FALSE(corner_of_grid(0.9 * wide->spacing, sharp_edge));
 }
 
+/// A grid on the outer side of a quarter of a circle between two straight edges, points 0.05 apart, lines so far apart.
+Field around_bend(double radius, double spacing) {
+  const auto x = points_on(
+      rounded_polygon({.corners = {{-1, 0}, {0, 0}, {0, -1}}, .ends = Curve::open, .radius = radius}), 41);
+  HyperbolicMarch march(
+      {.points = 41, .lines = 6, .curve = Side::bottom, .ends = Curve::open, .spacing = spacing});
+  Field grid(march.layout(), 2);
+  march.march(x, grid.view(), 0);
+  return grid;
+}
+
+TEST(MostCrowdedBend, IsWhereGhostLinesOfARoundedCornerChangePlacesAndItsSpacingHolds) {
+  for (const double radius : {0.1, 0.2}) {
+    const Field wide = around_bend(radius, 1.2 * radius), close = around_bend(radius, 0.3 * radius);
+    const auto crowded = most_crowded_bend(wide.view(), Side::bottom, {}),
+               loose = most_crowded_bend(close.view(), Side::bottom, {});
+    ASSERT_TRUE(crowded && loose);
+    EXPECT_FALSE(crowded_corner(wide.view(), Side::bottom));  // not for fluxes through the curve
+    EXPECT_LT(crowded->part, 1);
+    EXPECT_GT(loose->part, 1);
+    EXPECT_LT(crowded->x.norm(), 2 * radius);
+    // Ghost lines are arcs around the bend's centre: half of one is left at 0.9 of its radius.
+    EXPECT_NEAR(crowded->spacing / (0.9 * radius), 1, 0.25);
+    EXPECT_NEAR(loose->spacing / crowded->spacing, 1, 0.15);  // in proportion to the distance of lines
+    const Field held = around_bend(radius, 0.9 * crowded->spacing);
+    EXPECT_GT(most_crowded_bend(held.view(), Side::bottom, {})->part, 1);
+  }
+}
+
+TEST(MostCrowdedBend, SharpCornersAreNone) {
+  const auto x = points_on(sharp({{-1, 0}, {0, 0}, {0, -1}}, Curve::open), 41);
+  HyperbolicMarch march(
+      {.points = 41, .lines = 6, .curve = Side::bottom, .ends = Curve::open, .spacing = 0.08});
+  Field grid(march.layout(), 2);
+  march.march(x, grid.view(), 0);
+  const std::vector<int> corner{20};
+  EXPECT_LT(most_crowded_bend(grid.view(), Side::bottom, {})->part, 1);
+  const auto beside = most_crowded_bend(grid.view(), Side::bottom, corner);
+  EXPECT_TRUE(!beside || beside->part > 1);
+}
+
+TEST(MostSlantedLine, IsThatAtAFlatEndOnAWall) {
+  // The curve rises from the wall y = 0 at an angle; its first line leaves it along the wall.
+  for (const double angle : {0.2, 0.5, 1.2}) {
+    constexpr double spacing = 0.05;
+    const Vec2 up(std::cos(angle), std::sin(angle));
+    const auto x = points_on(sharp({{0, 0}, up}, Curve::open), 41);  // 1/40 apart
+    HyperbolicMarch march({.points = 41,
+                           .lines = 6,
+                           .curve = Side::bottom,
+                           .ends = Curve::open,
+                           .spacing = spacing,
+                           .walls = {Vec2(1, 0), std::nullopt},
+                           .blend = 12});
+    Field grid(march.layout(), 2);
+    march.march(x, grid.view(), 0);
+    const SlantedLine line = most_slanted_line(grid.view(), Side::bottom);
+    EXPECT_LE(line.point, 1);
+    EXPECT_NEAR(line.slant, 2 * std::cos(angle), 0.15) << angle;
+  }
+}
+
+TEST(FlatOnAWall, AFoldWhereTheCurveHasComeDownToItsWallSaysSo) {
+  const auto message = [](double height) -> std::string {
+    const auto x = points_on(sharp({{0, 0}, {0.5, height}, {1, 0.6}}, Curve::open), 41);
+    HyperbolicMarch march({.points = 41,
+                           .lines = 12,
+                           .curve = Side::bottom,
+                           .ends = Curve::open,
+                           .spacing = 0.05,
+                           .walls = {Vec2(1, 0), std::nullopt},
+                           .concave_smoothing = 0,
+                           .blend = 16});
+    Field grid(march.layout(), 2);
+    try {
+      march.march(x, grid.view(), 0);
+    } catch (const NumbersBroke& folded) {
+      return folded.what();
+    }
+    return "";
+  };
+  EXPECT_NE(message(-0.02).find("come down to the wall it stands on"), std::string::npos) << message(-0.02);
+  EXPECT_EQ(message(0.3).find("come down"), std::string::npos);
+}
+
 TEST(CurveCut, ACurveOnAWallIsClosedALittleBehindIt) {
   const CartesianGrid background{.name = "gas", .n1 = 21, .n2 = 21, .x_a = -1, .x_b = 1, .y_a = -1, .y_b = 1};
   // A box on y = 0, in both directions: the wall between its ends is behind it, what is deeper is not.
