@@ -113,10 +113,9 @@ Eigen::VectorXd Coupler::project_modes(Solid& solid) const {
   if (moment_.dt == 0) return Eigen::Map<const Eigen::VectorXd>(modal.q_dot.data(), modal.modes);
   Eigen::VectorXd q_dot = solid.modes.project(modal, sides, moment_.dt);
   if (q_dot.size() == 0) {
-    throw NumbersBroke(fmt::format(
-        "step {}, t = {:.6g}: \"{}\" at interface \"{}\": nothing resists one of its {} modes, no "
-        "mass, no stiffness, no gas",
-        moment_.step, moment_.t, solid.name, first.pair().name, modal.modes));
+    throw NumbersBroke(
+        fmt::format("nothing resists one of its {} modes, no mass, no stiffness, no gas", modal.modes),
+        {.step = moment_.step, .t = moment_.t, .program = solid.name, .interface = first.pair().name});
   }
   return q_dot;
 }

@@ -76,7 +76,7 @@ Coupler coupler_of(const Case& problem, bus::CouplerSession& session) {
   try {
     return {options_of(problem), session.hellos()};
   } catch (const Failure& failure) {
-    session.abort(failure.code(), failure.what());
+    session.abort(failure);
     throw;
   }
 }

@@ -32,9 +32,9 @@ std::int32_t substeps_of(const Bid& bid, double dt, double t) {
   if (!bid.may_substep) return 1;
   const double count = std::max(1.0, std::ceil(dt / bid.dt * (1 - rounding)));
   if (!(count <= most_substeps)) {
-    throw NumbersBroke(
-        fmt::format("t = {:.6g}: the time step of \"{}\" has collapsed to {:.3g}, {:.0f} substeps ({})", t,
-                    bid.from, bid.dt, count, bid.reason));
+    throw NumbersBroke(fmt::format("the time step of \"{}\" has collapsed to {:.3g}, {:.0f} substeps ({})",
+                                   bid.from, bid.dt, count, bid.reason),
+                       {.t = t, .program = bid.from});
   }
   return static_cast<std::int32_t>(count);
 }
@@ -53,8 +53,8 @@ void TimeStepAgreement::archive(Archive& archive) {
 AgreedStep TimeStepAgreement::agree(std::span<const Bid> bids) {
   for (const Bid& bid : bids) {
     if (bid.dt > 0) continue;
-    throw NumbersBroke(
-        fmt::format("t = {:.6g}: the time step of \"{}\" is {:.3g} ({})", t_, bid.from, bid.dt, bid.reason));
+    throw NumbersBroke(fmt::format("the time step of \"{}\" is {:.3g} ({})", bid.from, bid.dt, bid.reason),
+                       {.t = t_, .program = bid.from});
   }
   const Bid* first = smallest(bids);
   AgreedStep step;

@@ -261,10 +261,9 @@ void Component::check_numbers(double t) const {
     for (int i = 0; i < shape.n1; ++i) {
       const double rho = q(0, i, j), p = q(3, i, j);
       if ((rho > 0 && std::fabs(p) < 1e300) || !discretised_.contains(i, j)) continue;
-      throw NumbersBroke(fmt::format(
-          "t = {:.6g}, grid \"{}\", point ({}, {}) at ({:.6g}, {:.6g}): rho = {:.3g}, p = {:.3g}; "
-          "try {}",
-          t, grid_.name(), i, j, x(0, i, j), x(1, i, j), rho, p, remedy_of(scheme_)));
+      throw NumbersBroke(
+          fmt::format("rho = {:.3g}, p = {:.3g}; try {}", rho, p, remedy_of(scheme_)),
+          {.t = t, .grid = grid_.name(), .point = {i, j}, .position = {x(0, i, j), x(1, i, j)}});
     }
   }
 }

@@ -172,7 +172,7 @@ void follow_on_terminal(Source& source, RunState& state) {
   }
   view.message.assign(1, ' ');  // no keys any more
   for (const std::string& line : screen(state, source.now(), view, extent).lines()) fmt::print("{}\n", line);
-  if (const auto& abort = state.abort()) fmt::print("{} ended the run: {}\n", abort->from, abort->reason);
+  if (const auto& abort = state.abort()) fmt::print("{} ended the run: {}\n", abort->from, abort->reason());
 }
 
 void follow_plain(Source& source, RunState& state, bool json) {

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <nlohmann/json.hpp>
 
+#include "common/io/place_json.hpp"
+
 namespace fsi::monitor {
 
 namespace {
@@ -132,7 +134,11 @@ std::string to_json(const RunState& state, double now) {
     result["participants"][name] = program_json(state, program, now);
   }
   if (const auto& abort = state.abort()) {
-    result["abort"] = {{"from", abort->from}, {"exit_code", abort->exit_code}, {"reason", abort->reason}};
+    result["abort"] = {{"from", abort->from},
+                       {"exit_code", abort->exit_code},
+                       {"place", io::to_json(abort->place)},
+                       {"what", abort->what},
+                       {"reason", abort->reason()}};
   }
   return text(result);
 }

@@ -12,6 +12,7 @@
 
 #include "common/bus/peers/peer.hpp"
 #include "common/core/failure.hpp"
+#include "common/io/place_json.hpp"
 
 namespace fsi::monitor {
 
@@ -38,7 +39,8 @@ std::optional<wire::Abort> written_abort(const nlohmann::json& summary, const st
     return wire::Abort{.run = run,
                        .from = failure.value("told_by", "launcher"),
                        .exit_code = failure.value("exit_code", 0),
-                       .reason = failure.value("what", summary.at("reason").get<std::string>())};
+                       .place = io::place_of(failure),
+                       .what = failure.value("what", summary.at("reason").get<std::string>())};
   } catch (const nlohmann::json::exception&) {  // of another version
     return std::nullopt;
   }

@@ -194,6 +194,6 @@ int main(int argc, char** argv) {
     return static_cast<int>(failure.code());
   } catch (const std::exception& error) {
     fmt::print(stderr, "monitor: {}\n", error.what());
-    return static_cast<int>(ExitCode::expectation_missed);
+    return static_cast<int>(ExitCode::internal_error);
   }
 }

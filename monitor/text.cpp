@@ -30,7 +30,7 @@ std::string plain_line(const RunState& state) {
   }
   for (const std::string& what : state.non_finite()) line += fmt::format(" not_finite=\"{}\"", what);
   if (const auto& abort = state.abort()) {
-    line += fmt::format(" reason=\"{}: {}\"", abort->from, abort->reason);
+    line += fmt::format(" reason=\"{}: {}\"", abort->from, abort->reason());
   }
   std::ranges::replace_if(  // names from outside must not steer a terminal
       line, [](unsigned char c) { return c < 0x20 || c == 0x7f; }, ' ');

@@ -69,10 +69,10 @@ class SolidComponent {
   /// Everything the next steps depend on.
   void archive(Archive& archive);
   /// The point that broke: "point (14, 3): det F = -0.02". Empty when all are well.
-  std::string trouble(double dt) const;
+  NumbersBroke breakdown(double dt) const;
 
  private:
-  std::string trouble_at(int i, int j, double dt) const;
+  std::string breakdown_at(int i, int j, double dt) const;
   SweepResult sweep(double dt);
   template <class Row>
   SweepResult sweep_with(double dt);
@@ -275,7 +275,7 @@ void SolidComponent<L>::predict(double t, double dt) {
   }
   measured_ = sweep(dt);
   settled_ += measured_.settled;
-  if (measured_.broken > 0) throw NumbersBroke(trouble(dt));
+  if (measured_.broken > 0) throw breakdown(dt);
 }
 
 template <Law L>
@@ -332,23 +332,25 @@ void SolidComponent<L>::archive(Archive& archive) {
 }
 
 template <Law L>
-std::string SolidComponent<L>::trouble(double dt) const {
+NumbersBroke SolidComponent<L>::breakdown(double dt) const {
+  const ConstFieldView x = grid_.x();
   for (int j = 0; j < layout().n2; ++j) {
     for (const auto& [begin, end] : points_.discretised(j)) {
       for (int i = begin; i < end; ++i) {
-        if (const std::string what = trouble_at(i, j, dt); !what.empty()) {
-          const ConstFieldView x = grid_.x();
-          return fmt::format("grid \"{}\", point ({}, {}), of the reference ({:.4g}, {:.4g}): {}",
-                             grid_.name(), i, j, x(0, i, j), x(1, i, j), what);
-        }
+        const std::string what = breakdown_at(i, j, dt);
+        if (what.empty()) continue;
+        return NumbersBroke(what, {.grid = grid_.name(),
+                                   .point = {i, j},
+                                   .position = {x(0, i, j), x(1, i, j)},
+                                   .of_reference = true});
       }
     }
   }
-  return fmt::format("grid \"{}\": not a number", grid_.name());
+  return NumbersBroke("not a number", {.grid = grid_.name()});
 }
 
 template <Law L>
-std::string SolidComponent<L>::trouble_at(int i, int j, double dt) const {
+std::string SolidComponent<L>::breakdown_at(int i, int j, double dt) const {
   const StateRows rows(q_.view(), j);
   const PointMetrics m = metrics_.at(i, j);
   const Pair d1 = displacement_difference(rows.u1, rows.v1, i, 0.5 * dt),

@@ -123,9 +123,10 @@ class SolidSolver {
   void advance_solid(double t, double dt) {
     try {
       for (SolidComponent<L>& component : components_) component.predict(t, dt);
-    } catch (const NumbersBroke& failure) {
+    } catch (NumbersBroke& failure) {
       for (SolidComponent<L>& component : components_) component.give_back();
-      throw NumbersBroke(fmt::format("step {}, t = {:.6g}, {}", steps_ + 1, t, failure.what()));
+      failure.know({.t = t});
+      throw;
     }
     for (SolidComponent<L>& component : components_) component.complete(t, dt);
     ++steps_;

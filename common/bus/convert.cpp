@@ -1,6 +1,10 @@
 #include "common/bus/convert.hpp"
 
+#include <cmath>
+#include <cstdint>
 #include <cstring>
+#include <limits>
+#include <optional>
 
 #include "common/bus/convert_parts.hpp"
 
@@ -50,6 +54,28 @@ void copy(const amp_fsi_ModalResponse& from, wire::ModalResponse& to) {
   copy(from.g, to.g);
   copy(from.N, to.N);
   copy(from.q_dot, to.q_dot);
+}
+
+amp_fsi_Place borrow(const Place& place) {
+  return {.step = place.step ? static_cast<std::int64_t>(*place.step) : -1,
+          .t = place.t.value_or(std::numeric_limits<double>::quiet_NaN()),
+          .program = borrow(place.program),
+          .interface_name = borrow(place.interface),
+          .grid = borrow(place.grid),
+          .point = borrow(place.point),
+          .position = borrow(place.position),
+          .of_reference = place.of_reference};
+}
+
+void copy(const amp_fsi_Place& from, Place& to) {
+  to.step = from.step < 0 ? std::nullopt : std::optional(static_cast<std::uint64_t>(from.step));
+  to.t = std::isnan(from.t) ? std::nullopt : std::optional(from.t);
+  copy(from.program, to.program);
+  copy(from.interface_name, to.interface);
+  copy(from.grid, to.grid);
+  copy(from.point, to.point);
+  copy(from.position, to.position);
+  to.of_reference = from.of_reference;
 }
 
 template <class... Vectors>
@@ -137,7 +163,8 @@ amp_fsi_Abort borrow(const wire::Abort& abort) {
   return {.run = borrow(abort.run),
           .from = borrow(abort.from),
           .exit_code = abort.exit_code,
-          .reason = borrow(abort.reason)};
+          .place = borrow(abort.place),
+          .what = borrow(abort.what)};
 }
 
 amp_fsi_Control borrow(const wire::Control& control) {
@@ -227,7 +254,8 @@ void copy(const amp_fsi_Abort& from, wire::Abort& to) {
   copy(from.run, to.run);
   copy(from.from, to.from);
   to.exit_code = from.exit_code;
-  copy(from.reason, to.reason);
+  copy(from.place, to.place);
+  copy(from.what, to.what);
 }
 
 void copy(const amp_fsi_Control& from, wire::Control& to) {

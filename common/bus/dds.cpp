@@ -118,7 +118,7 @@ Qos participant_qos(const std::string& run, const RunKey& key, const std::string
 
 dds_return_t checked(dds_return_t result, const std::string& doing) {
   if (result >= 0) return result;
-  throw Failure(ExitCode::expectation_missed,
+  throw Failure(ExitCode::internal_error,
                 fmt::format("bus: {}: {}{}", doing, dds_strretcode(result),
                             last_log_line().empty() ? "" : " (" + last_log_line() + ")"));
 }
@@ -136,7 +136,7 @@ std::shared_ptr<const Entity> join_domain(const std::string& run, double partici
   OpenDomain& domain = open[domain_of(run)];
   if (auto entity = domain.entity.lock()) {
     if (domain.run == run) return entity;
-    throw Failure(ExitCode::expectation_missed,
+    throw Failure(ExitCode::internal_error,
                   fmt::format("bus: runs '{}' and '{}' share a domain and cannot live in one process", run,
                               domain.run));
   }

@@ -6,10 +6,8 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "common/core/failure.hpp"
 #include "common/wire/messages.hpp"
 
 namespace fsi::bus {
@@ -40,17 +38,6 @@ struct BusOptions {
 
 /// A picture of the present state for a wish of `wire::Watch`; nothing where the program does not have it.
 using Draw = std::function<std::optional<wire::Picture>(const std::string& wish)>;
-
-/// The end of a run because another program failed, as that one told it.
-class FailureElsewhere : public Failure {
- public:
-  FailureElsewhere(ExitCode code, std::string program, const std::string& reason)
-      : Failure(code, program + ": " + reason), program_(std::move(program)) {}
-  const std::string& program() const { return program_; }
-
- private:
-  std::string program_;
-};
 
 /// Exchange of one program with the others since it joined.
 struct Statistics {

@@ -171,10 +171,10 @@ void MovingGrid::keep_on_wall(std::size_t end, double t) {
   if (std::abs(off) <= round_off * last.norm()) return;
   if (std::abs(off) > most * last.norm()) {
     throw NumbersBroke(
-        fmt::format("t = {:.6g}, grid \"{}\": the end of its curve has left the wall it stands on, by "
-                    "{:.3g}, at ({:.6g}, "
-                    "{:.6g}); let the solid be clamped there, or slide along the wall",
-                    t, name(), std::abs(off), told[0], told[1]));
+        fmt::format("the end of its curve has left the wall it stands on, by {:.3g}; let the solid be "
+                    "clamped there, or slide along the wall",
+                    std::abs(off)),
+        {.t = t, .grid = name(), .position = {told[0], told[1]}});
   }
   const Vec2 shift = std::abs(slope) > grazing ? Vec2(off / slope / last.norm() * last) : Vec2(off * across);
   put(told + shift, k, description_.curve);
@@ -211,11 +211,11 @@ Vec2 MovingGrid::common_corner(double t, const SideCommand& a, const SideCommand
                                (point_at(b.x, at_b == 0 ? 1 : at_b - 1) - corner_b).norm());
   const double apart = (corner_a - corner_b).norm();
   if (!(apart < cell)) {
-    throw NumbersBroke(fmt::format(
-        "t = {:.6g}, grid \"{}\": the commands for its sides {} and {} put their corner {:.3g} apart, at "
-        "({:.6g}, {:.6g}) and at ({:.6g}, {:.6g}), more than the cell of {:.3g} there",
-        t, name(), name_of(a.side), name_of(b.side), apart, corner_a[0], corner_a[1], corner_b[0],
-        corner_b[1], cell));
+    throw NumbersBroke(
+        fmt::format("the commands for its sides {} and {} put their corner {:.3g} apart, here and at "
+                    "({:.6g}, {:.6g}), more than the cell of {:.3g} there",
+                    name_of(a.side), name_of(b.side), apart, corner_b[0], corner_b[1], cell),
+        {.t = t, .grid = name(), .position = {corner_a[0], corner_a[1]}});
   }
   return 0.5 * (corner_a + corner_b);
 }
@@ -277,9 +277,8 @@ void MovingGrid::check(double t) const {
           std::min({corner_area(x, i, j, 1, 1), corner_area(x, i + 1, j, -1, 1),
                     corner_area(x, i, j + 1, 1, -1), corner_area(x, i + 1, j + 1, -1, -1)});
       if (!(smallest > 0)) {
-        throw NumbersBroke(fmt::format(
-            "t = {:.6g}, grid \"{}\", cell ({}, {}) at ({:.6g}, {:.6g}): folded, corner area = {:.3g}", t,
-            name(), i, j, x(0, i, j), x(1, i, j), smallest));
+        throw NumbersBroke(fmt::format("the cell from here on is folded, corner area = {:.3g}", smallest),
+                           {.t = t, .grid = name(), .point = {i, j}, .position = {x(0, i, j), x(1, i, j)}});
       }
     }
   }

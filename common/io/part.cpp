@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/io/atomic_file.hpp"
+#include "common/io/place_json.hpp"
 
 namespace fsi::io {
 
@@ -18,6 +19,12 @@ nlohmann::ordered_json overlap_json(const Overlap& overlap) {
   json["point"] = overlap.point;
   json["place"] = overlap.place;
   json["t"] = overlap.t;
+  return json;
+}
+
+nlohmann::ordered_json failure_json(const FailureRecord& failure) {
+  nlohmann::ordered_json json = to_json(failure.place);
+  json["what"] = failure.what;
   return json;
 }
 
@@ -58,6 +65,7 @@ std::string to_json(const Part& part) {
                          {"velocity_scale", part.interface->velocity_scale},
                          {"traction_scale", part.interface->traction_scale}};
   }
+  if (part.failure) json["failure"] = failure_json(*part.failure);
   if (part.overlap) json["overlap"] = overlap_json(*part.overlap);
   if (const auto& noise = part.noise) {
     json["noise"] = {{"value", noise->size}, {"noisy", noise->noisy}, {"field", noise->field},

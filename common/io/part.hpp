@@ -51,12 +51,19 @@ struct Overlap {
   std::uint64_t lines_left_out = 0;  ///< of grids whose curves came near others
 };
 
+/// Why a program failed, by its parts.
+struct FailureRecord {
+  Place place;
+  std::string what;
+};
+
 struct Part {
   std::string participant;           ///< "fluid", "coupler" or the solid's name
   std::string role;                  ///< "fluid", "solid", "coupler"
   std::string status = "completed";  ///< "running", "completed", "stopped" or "failed"
   std::string reason;                ///< of a failure or a stop
   std::string origin;  ///< of a failure: the participant that failed; another one, if we only heard of it
+  std::optional<FailureRecord> failure;  ///< `reason` by its parts
   ExitCode exit_code = ExitCode::done;
   double t = 0;
   std::uint64_t steps = 0;  ///< macro steps

@@ -102,6 +102,6 @@ int main(int argc, char** argv) {
     return static_cast<int>(failure.code());
   } catch (const std::exception& error) {
     fmt::print(stderr, "fsi_grids: internal error: {}\n", error.what());
-    return static_cast<int>(fsi::ExitCode::expectation_missed);
+    return static_cast<int>(fsi::ExitCode::internal_error);
   }
 }

@@ -1,5 +1,7 @@
 #include "common/program/participant.hpp"
 
+#include <fmt/format.h>
+
 #include <memory>
 #include <optional>
 #include <vector>

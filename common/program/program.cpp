@@ -16,7 +16,6 @@
 #include <string>
 #include <system_error>
 
-#include "common/bus/options.hpp"
 #include "common/core/command_line.hpp"
 #include "common/core/input/suggest.hpp"
 #include "common/core/log.hpp"
@@ -46,10 +45,10 @@ void catch_signals() {
 }
 
 ExitCode note(const Failure& failure, io::Part& part) {
-  const auto* elsewhere = dynamic_cast<const bus::FailureElsewhere*>(&failure);
   part.status = "failed";
   part.reason = failure.what();
-  part.origin = elsewhere != nullptr ? elsewhere->program() : part.participant;
+  part.origin = failure.origin().empty() ? part.participant : failure.origin();
+  part.failure = {.place = failure.place(), .what = failure.cause()};
   return failure.code();
 }
 
@@ -72,7 +71,7 @@ ExitCode run_body(const std::function<void()>& body, io::Part& part) {
   } catch (const Failure& failure) {
     return note(failure, part);
   } catch (const std::exception& error) {
-    return note({ExitCode::expectation_missed, fmt::format("internal error: {}", error.what())}, part);
+    return note({ExitCode::internal_error, fmt::format("internal error: {}", error.what())}, part);
   }
 }
 

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "common/core/failure.hpp"
+
 namespace fsi::wire {
 
 inline constexpr std::uint32_t protocol_version = 10;
@@ -131,7 +133,10 @@ struct Abort {
   std::string run;
   std::string from;
   std::int32_t exit_code = 1;
-  std::string reason;
+  Place place = {};  ///< where it failed, as far as that is known
+  std::string what;  ///< what is wrong there
+
+  std::string reason() const { return sentence_of(place, what); }
 };
 
 /// An outside request: pause, resume, checkpoint or stop.

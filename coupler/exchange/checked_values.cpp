@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <cstdint>
+#include <string>
+#include <utility>
 
 #include "common/core/failure.hpp"
 
@@ -11,18 +13,19 @@ namespace fsi::coupler {
 
 namespace {
 
-/// Says where: "point 3 at (0.1, 0.2)", where the positions `x` are known.
-std::string place_of(std::size_t k, std::span<const double> x) {
-  if (x.size() / 2 <= k) return fmt::format("point {}", k);
-  return fmt::format("point {} at ({:.4g}, {:.4g})", k, x[k], x[x.size() / 2 + k]);
+Place place_of(const Moment& moment, const wire::PredictedInterface& state) {
+  return {.step = moment.step, .t = moment.t, .program = state.from, .interface = state.interface};
 }
 
 }  // namespace
 
 void throw_broken(const Moment& moment, const wire::PredictedInterface& state, std::size_t k,
                   const std::string& what) {
-  throw NumbersBroke(fmt::format("step {}, t = {:.6g}: \"{}\" at interface \"{}\", {}: {}", moment.step,
-                                 moment.t, state.from, state.interface, place_of(k, state.x), what));
+  Place place = place_of(moment, state);
+  place.point = {static_cast<int>(k)};
+  const std::size_t points = state.x.size() / 2;
+  if (k < points) place.position = {state.x[k], state.x[points + k]};
+  throw NumbersBroke(what, std::move(place));
 }
 
 void check_values(const Moment& moment, const wire::PredictedInterface& state, const char* quantity,
@@ -55,9 +58,9 @@ void check_entries(const Moment& moment, const wire::PredictedInterface& state, 
   }
   for (std::size_t e = 0; e < entries; ++e) {
     if (std::isfinite(matrix.value[e])) continue;
-    throw NumbersBroke(fmt::format(
-        "step {}, t = {:.6g}: \"{}\" at interface \"{}\", entry ({}, {}): {} is {}", moment.step, moment.t,
-        state.from, state.interface, matrix.row[e], matrix.column[e], quantity, matrix.value[e]));
+    throw NumbersBroke(
+        fmt::format("entry ({}, {}) of {} is {}", matrix.row[e], matrix.column[e], quantity, matrix.value[e]),
+        place_of(moment, state));
   }
 }
 

@@ -133,10 +133,14 @@ class BoundaryConditions {
       const Vec2 normal(values.n[k], values.n[n + k]);
       const double p_I = task_.options.p_e - values.w_n[k];
       if (!(p_I > 0 && std::isfinite(p_I) && std::isfinite(values.v_n[k]))) {
-        throw NumbersBroke(fmt::format(
-            "t = {:.6g}, grid \"{}\", interface point {} at ({:.6g}, {:.6g}): p^I = {:.3g}, v_n^I = {:.3g}{}",
-            task_.t, component_.grid().name(), k, x_(0, at.i, at.j), x_(1, at.i, at.j), p_I, values.v_n[k],
-            task_.options.wave_curve ? "" : "; write interface.riemann: exact, for jumps of this size"));
+        throw NumbersBroke(
+            fmt::format(
+                "p^I = {:.3g}, v_n^I = {:.3g}{}", p_I, values.v_n[k],
+                task_.options.wave_curve ? "" : "; write interface.riemann: exact, for jumps of this size"),
+            {.t = task_.t,
+             .grid = component_.grid().name(),
+             .point = {at.i, at.j},
+             .position = {x_(0, at.i, at.j), x_(1, at.i, at.j)}});
       }
       StateVector state = load(q_, at);
       const Vec2 v = state.segment<2>(1);

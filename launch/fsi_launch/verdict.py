@@ -7,6 +7,9 @@ from fsi_launch.failure import DONE, INTERRUPTED, OUTPUT_FAILED, PEER_LOST, TERM
 
 DISK_SIGNALS = (-signal.SIGXFSZ,)   # a file grew larger than the shell allows
 
+# Where in a run something failed, as the programs report it (common/io/place_json.hpp).
+PLACE = ("program", "step", "t", "interface", "grid", "point", "position", "reference_position")
+
 
 @dataclass
 class Verdict:
@@ -77,9 +80,10 @@ def _explain(ending, case, directory, part):
 def _record(ending, parts, code, what):
     """The failure of a run for summary.json. `origin`: the participant where it began."""
     part = parts.get(ending.name, {})
+    known = part.get("failure") or {}
     return {"origin": part.get("origin") or ending.name, "told_by": ending.name, "exit_code": code,
             "signal": signal.Signals(-ending.code).name if ending.lost() else None,
-            "step": part.get("steps"), "t": part.get("t"), "what": part.get("reason") or what}
+            "what": known.get("what") or part.get("reason") or what} | {key: known.get(key) for key in PLACE}
 
 
 def _all_done(outcome, case):

@@ -238,7 +238,7 @@ void write_block(io::Hdf5& group, const std::vector<Heard>& heard) {
     }
     if (const auto& abort = one.abort) {
       aborts.row(std::array{one.at, texts.number(abort->from), static_cast<double>(abort->exit_code),
-                            texts.number(abort->reason)});
+                            texts.number(abort->reason())});
     }
   }
   for (const Table* table : {&messages, &sides, &profiles, &traffic, &aborts}) table->write(group);
@@ -272,7 +272,7 @@ std::vector<Heard> read_block(const io::Hdf5& group) {
                      .abort = wire::Abort{.run = {},
                                           .from = text(row[1]),
                                           .exit_code = static_cast<std::int32_t>(row[2]),
-                                          .reason = text(row[3])}});
+                                          .what = text(row[3])}});
   }
   return heard;
 }

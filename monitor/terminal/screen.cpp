@@ -80,7 +80,7 @@ class Painter {
   void heading() {
     const wire::Telemetry* leader = state_.leader();
     if (const auto& abort = state_.abort()) {
-      frame_.put(0, row_++, fmt::format("{} ended the run: {}", abort->from, abort->reason), Style::bad);
+      frame_.put(0, row_++, fmt::format("{} ended the run: {}", abort->from, abort->reason()), Style::bad);
     }
     if (leader == nullptr) {
       frame_.put(0, row_++, "nothing heard yet", Style::dim);

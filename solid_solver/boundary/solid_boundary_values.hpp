@@ -342,10 +342,10 @@ void SolidBoundary<L>::broke(Side side, int k, double t) const {
   const GridPoint p = grid_point(layout(), side, k);
   const Vec2 T = T_[index(side)][static_cast<std::size_t>(k)];
   throw NumbersBroke(
-      fmt::format("t = {:.6g}, grid \"{}\", point ({}, {}) on side {}: the law {} cannot bear the traction "
-                  "({:.4g}, {:.4g}) per "
-                  "reference area there and stay hyperbolic",
-                  t, grid_.name, p.i, p.j, name_of(side), L::name, T.x(), T.y()));
+      fmt::format("on side {} the law {} cannot bear the traction ({:.4g}, {:.4g}) per reference area "
+                  "and stay hyperbolic",
+                  name_of(side), L::name, T.x(), T.y()),
+      {.t = t, .grid = grid_.name, .point = {p.i, p.j}});
 }
 
 template <Law L>

@@ -178,10 +178,12 @@ void gather_interface(const SolidComponent<L>& component, const L& law, const In
     const SymmetricTensor2 Z = impedance_matrix(law.K(F), n0, rho, eta);
     const Vec2 w = eta * traction_of(s.P, n0);
     if (!w.allFinite()) {
-      throw NumbersBroke(
-          fmt::format("t = {:.6g}, grid \"{}\", interface point {} at ({:.4g}, {:.4g}): the stress is not a "
-                      "number any more, det F = {:.3g}",
-                      moment.t, component.grid().name(), k, x(0, p.i, p.j), x(1, p.i, p.j), determinant(F)));
+      throw NumbersBroke(fmt::format("the stress is not a number any more, det F = {:.3g}", determinant(F)),
+                         {.t = moment.t,
+                          .grid = component.grid().name(),
+                          .point = {p.i, p.j},
+                          .position = {x(0, p.i, p.j), x(1, p.i, p.j)},
+                          .of_reference = true});
     }
     for (std::size_t c = 0; c < 2; ++c) {
       const auto axis = static_cast<int>(c);

@@ -21,6 +21,13 @@ class BrokenNumbers(EndToEnd):
         run = self.launch(*BREAKS)
         self.assertEqual(run.wait(), 3, run.stderr)
         self.assertRegex(run.stderr, r"step \d+, t = .*grid|step \d+, t = .*point")
+        failure = run.summary()["failure"]
+        self.assertEqual(failure["step"], run.summary()["steps"] + 1)
+        self.assertGreater(failure["t"], run.summary()["t"])
+        self.assertEqual(len(failure["point"]), 1 if failure["interface"] else 2)
+        self.assertNotRegex(failure["what"], r"step \d|t = |grid|point")
+        for word in (f"step {failure['step']}", f"({', '.join(map(str, failure['point']))})", failure["what"]):
+            self.assertIn(word, run.summary()["reason"])
         for name, field in (("fluid", "p"), ("solid_solid", "u1")):
             with h5py.File(run.directory / "last_state" / f"{name}.h5") as file:
                 ahead = run.summary()["dt"]["max"] if name != "fluid" else 0  # a solid shows what it has predicted

@@ -44,7 +44,7 @@ constexpr const char* not_before = "20000101000000Z";
 constexpr const char* not_after = "21000101000000Z";
 
 void expect(bool fine, const char* what) {
-  if (!fine) throw Failure(ExitCode::expectation_missed, fmt::format("bus: libcrypto: {} failed", what));
+  if (!fine) throw Failure(ExitCode::internal_error, fmt::format("bus: libcrypto: {} failed", what));
 }
 template <class T>
 T made(T object, const char* what) {

@@ -43,7 +43,7 @@ struct CouplerSession::Implementation {
       wait_for_all();
       welcome(true);
     } catch (const Failure& failure) {
-      link.abort(failure.code(), failure.what());
+      link.abort(failure);
       throw;
     }
   }
@@ -285,7 +285,7 @@ struct CouplerSession::Implementation {
         if (channel.owner == to && channel.interface == interface) return channel;
       }
     }
-    throw Failure(ExitCode::expectation_missed,
+    throw Failure(ExitCode::internal_error,
                   fmt::format("bus: nobody called '{}' has an interface '{}'", to, interface));
   }
 
@@ -378,8 +378,8 @@ void CouplerSession::show(wire::Picture picture) {
   implementation_->link.watchers().publish(std::move(picture));
 }
 
-void CouplerSession::abort(ExitCode code, const std::string& reason) noexcept {
-  implementation_->link.abort(code, reason);
+void CouplerSession::abort(const Failure& failure) noexcept {
+  implementation_->link.abort(failure);
 }
 
 void CouplerSession::leave() noexcept {

@@ -56,7 +56,7 @@ class CouplerSession {
 
   /// Tells everybody that the run is over and why, and makes sure they got it. Does nothing when the end came
   /// from somebody else's Abort.
-  void abort(ExitCode code, const std::string& reason) noexcept;
+  void abort(const Failure& failure) noexcept;
   /// Waits until all that was sent has arrived, then leaves. The destructor does the same.
   void leave() noexcept;
 

@@ -28,7 +28,7 @@ ExitCode exit_code_of(std::int32_t number) {
   constexpr std::array known = {ExitCode::user_mistake,  ExitCode::numbers_broke, ExitCode::peer_lost,
                                 ExitCode::output_failed, ExitCode::interrupted,   ExitCode::terminated};
   const auto* found = std::ranges::find(known, static_cast<ExitCode>(number));
-  return found == known.end() ? ExitCode::expectation_missed : *found;
+  return found == known.end() ? ExitCode::internal_error : *found;
 }
 
 }  // namespace
@@ -114,7 +114,7 @@ void Link::check_aborts() {
     copy(sample, heard);
     aborted_ = true;
   });
-  if (!heard.from.empty()) throw FailureElsewhere(exit_code_of(heard.exit_code), heard.from, heard.reason);
+  if (!heard.from.empty()) throw Failure(exit_code_of(heard.exit_code), heard.what, heard.place, heard.from);
 }
 
 bool Link::time_to_check() {
@@ -192,12 +192,15 @@ void Link::count_dropped(Heard& heard) {
   ++statistics_.stale;
 }
 
-void Link::abort(ExitCode code, const std::string& reason) noexcept {
+void Link::abort(const Failure& failure) noexcept {
   if (aborted_) return;
   aborted_ = true;
   try {
-    const wire::Abort message{
-        .run = options_.run, .from = name_, .exit_code = static_cast<std::int32_t>(code), .reason = reason};
+    const wire::Abort message{.run = options_.run,
+                              .from = name_,
+                              .exit_code = static_cast<std::int32_t>(failure.code()),
+                              .place = failure.place(),
+                              .what = failure.cause()};
     send(abort_writer_, abort_topic, borrow(message));
     abort_writer_.arrived(abort_patience_s);
   } catch (const std::exception&) {  // the program ends anyway; its own failure is the one to report

@@ -112,7 +112,7 @@ class Link {
 
   bool telemetry_due() const { return since(last_telemetry_) > slice_s; }
   void publish(wire::Telemetry telemetry);
-  void abort(ExitCode code, const std::string& reason) noexcept;
+  void abort(const Failure& failure) noexcept;
   /// Waits until what the writers sent has arrived, but not
   /// for long, and not at all when the run was aborted.
   template <class... Writers>

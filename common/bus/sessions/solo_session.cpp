@@ -66,8 +66,8 @@ void SoloSession::show_missing(const Draw& draw, std::uint64_t step) {
   implementation_->link.watchers().show_missing(draw, step);
 }
 
-void SoloSession::abort(ExitCode code, const std::string& reason) noexcept {
-  implementation_->link.abort(code, reason);
+void SoloSession::abort(const Failure& failure) noexcept {
+  implementation_->link.abort(failure);
 }
 
 }  // namespace fsi::bus

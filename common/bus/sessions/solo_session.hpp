@@ -36,7 +36,7 @@ class SoloSession {
   /// The same for wishes that came since, while the run is paused.
   void show_missing(const Draw& draw, std::uint64_t step);
   /// Tells whoever listens that the run is over and why.
-  void abort(ExitCode code, const std::string& reason) noexcept;
+  void abort(const Failure& failure) noexcept;
 
  private:
   struct Implementation;

@@ -69,7 +69,7 @@ struct SolverSession::Implementation {
       say_hello();
       wait_for_welcome();
     } catch (const Failure& failure) {
-      link.abort(failure.code(), failure.what());
+      link.abort(failure);
       throw;
     }
   }
@@ -159,7 +159,7 @@ struct SolverSession::Implementation {
   Channel& channel_of(const std::string& interface) {
     const auto found = std::ranges::find(channels, interface, &Channel::interface);
     if (found != channels.end()) return *found;
-    throw Failure(ExitCode::expectation_missed,
+    throw Failure(ExitCode::internal_error,
                   fmt::format("bus: {} has no interface '{}' in its hello", self.name, interface));
   }
 
@@ -338,8 +338,8 @@ void SolverSession::show_missing(const Draw& draw, std::uint64_t step) {
   implementation_->link.watchers().show_missing(draw, step);
 }
 
-void SolverSession::abort(ExitCode code, const std::string& reason) noexcept {
-  implementation_->link.abort(code, reason);
+void SolverSession::abort(const Failure& failure) noexcept {
+  implementation_->link.abort(failure);
 }
 
 void SolverSession::leave() noexcept {

@@ -246,12 +246,14 @@ void connect_once(const GridSpec& background, const std::vector<BodyFittedSpec>&
   composite.connect(views, 0);
   const grid::OverlapRecord& worst = composite.record();
   if (worst.amplification <= grid::CompositeGrid::sound_amplification) return;
-  throw NumbersBroke(fmt::format(
-      "t = 0, grid \"{}\", point ({}, {}) at ({:.6g}, {:.6g}): it and points of other grids interpolate from "
-      "each "
-      "other so that errors arrive {:.3g} times as large (up to {:.3g} is sound): the overlap is too small",
-      composite.name(worst.grid), worst.i, worst.j, worst.x[0], worst.x[1], worst.amplification,
-      grid::CompositeGrid::sound_amplification));
+  throw NumbersBroke(
+      fmt::format("it and points of other grids interpolate from each other so that errors arrive "
+                  "{:.3g} times as large (up to {:.3g} is sound): the overlap is too small",
+                  worst.amplification, grid::CompositeGrid::sound_amplification),
+      {.t = 0,
+       .grid = composite.name(worst.grid),
+       .point = {worst.i, worst.j},
+       .position = {worst.x[0], worst.x[1]}});
 }
 
 bool connects(const GridSpec& background, const std::vector<BodyFittedSpec>& specs) {

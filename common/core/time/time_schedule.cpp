@@ -57,7 +57,7 @@ PlannedStep TimeSchedule::plan(double t, double bid, const std::string& reason) 
           "time.end = {:g} is {:.2g} steps of {:.3g} ({}) away, more than any run can take (1e11): write "
           "a smaller time.end, or find out what makes the steps so small",
           options_.end, options_.end / bid, bid, reason));
-    throw NumbersBroke(fmt::format("t = {:.6g}: the time step has collapsed to {:.3g} ({})", t, bid, reason));
+    throw NumbersBroke(fmt::format("the time step has collapsed to {:.3g} ({})", bid, reason), {.t = t});
   }
   double dt = bid;
   if (previous_ > 0) dt = std::min(dt, options_.growth * previous_);

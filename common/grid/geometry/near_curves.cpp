@@ -93,13 +93,14 @@ void report_too_near(const NearCurves& near, const CompositeGrid& composite, dou
     const BodyFittedGrid& body = composite.body(static_cast<int>(k) + 1);
     return body.of.empty() ? fmt::format("the curve of grid \"{}\"", body.name) : body.of;
   };
-  throw NumbersBroke(fmt::format(
-      "t = {:.6g}: {} and {} are {:.3g} apart at ({:.4g}, {:.4g}), less than {} of a cell of the gas's "
-      "background ({:.3g}): gas is not computed between bodies so near to each other, nor is contact; let "
-      "the run "
-      "end before, or let them come nearer with a greater grid.factor",
-      t, called(nearest.a), called(nearest.b), nearest.gap.distance, nearest.gap.x[0], nearest.gap.x[1],
-      NearCurves::fewest_cells, cell));
+  throw NumbersBroke(
+      fmt::format(
+          "{} and {} are {:.3g} apart, less than {} of a cell of the gas's background ({:.3g}): gas is not "
+          "computed between bodies so near to each other, nor is contact; let the run end before, or let "
+          "them "
+          "come nearer with a greater grid.factor",
+          called(nearest.a), called(nearest.b), nearest.gap.distance, NearCurves::fewest_cells, cell),
+      {.t = t, .position = {nearest.gap.x[0], nearest.gap.x[1]}});
 }
 
 NearCurves leave_room(std::span<MovingGrid* const> grids, std::span<const BodyFittedGrid> bodies, double t) {

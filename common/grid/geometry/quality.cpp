@@ -95,9 +95,8 @@ void check_cells(ConstFieldView x, const std::string& name, double t) {
     for (int i = 0; i + 1 < x.layout.n1; ++i) {
       const double smallest = cells.smallest(i);
       if (smallest > 0 && std::isfinite(smallest)) continue;
-      throw NumbersBroke(fmt::format(
-          "t = {:.6g}, grid \"{}\", cell ({}, {}) at ({:.6g}, {:.6g}): folded, corner area = {:.3g}", t, name,
-          i, j, x(0, i, j), x(1, i, j), smallest));
+      throw NumbersBroke(fmt::format("the cell from here on is folded, corner area = {:.3g}", smallest),
+                         {.t = t, .grid = name, .point = {i, j}, .position = {x(0, i, j), x(1, i, j)}});
     }
   }
 }

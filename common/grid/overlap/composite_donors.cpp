@@ -250,10 +250,11 @@ std::string CompositeGrid::nearest_curves(const Vec2& x) const {
 
 void CompositeGrid::report_orphans(double t, const char* what) const {
   if (orphans_.count == 0) return;
-  throw NumbersBroke(
-      fmt::format("t = {:.6g}, grid \"{}\", point ({}, {}) at ({:.6g}, {:.6g}): {} ({} such points){}", t,
-                  name(orphans_.grid), orphans_.i, orphans_.j, orphans_.x[0], orphans_.x[1], what,
-                  orphans_.count, nearest_curves(orphans_.x)));
+  throw NumbersBroke(fmt::format("{} ({} such points){}", what, orphans_.count, nearest_curves(orphans_.x)),
+                     {.t = t,
+                      .grid = name(orphans_.grid),
+                      .point = {orphans_.i, orphans_.j},
+                      .position = {orphans_.x[0], orphans_.x[1]}});
 }
 
 }  // namespace fsi::grid

@@ -101,10 +101,11 @@ void CompositeGrid::archive(Archive& archive) {
 
 void CompositeGrid::report_unsolved(const ImplicitPoint& point, double t) const {
   const auto [grid, i, j, x] = point_of(point);
-  throw NumbersBroke(fmt::format(
-      "t = {:.6g}, grid \"{}\", point ({}, {}) at ({:.6g}, {:.6g}): it and points of grid \"{}\" take their "
-      "values from nothing but each other: the overlap is too small",
-      t, name(grid), i, j, x[0], x[1], name(interpolation_[point.list].donor_grid)));
+  throw NumbersBroke(
+      fmt::format("it and points of grid \"{}\" take their values from nothing but each other: the "
+                  "overlap is too small",
+                  name(interpolation_[point.list].donor_grid)),
+      {.t = t, .grid = name(grid), .point = {i, j}, .position = {x[0], x[1]}});
 }
 
 }  // namespace fsi::grid

@@ -29,7 +29,7 @@ class CoupledRun {
 
   void run() {
     run_within(session_, [this] {
-      with_last_state(part_, solver_, last_, [this] { loop(); });
+      with_last_state(solver_, last_, [this] { loop(); });
       session_.leave();
     });
   }

@@ -1,8 +1,7 @@
 #pragma once
 /// What the loops that drive a solver have in common, coupled or alone.
 
-#include <fmt/format.h>
-
+#include <cstdint>
 #include <string>
 
 #include "common/core/failure.hpp"
@@ -34,10 +33,10 @@ struct LastState {
   std::uint64_t step = 0;
 };
 
-/// Runs a time loop. Where the numbers break, the message says
-/// in which step, and the solver leaves the state before it.
+/// Runs a time loop. Where the numbers break, the failure learns the step and what may help, and the solver
+/// leaves the state before it.
 template <class Loop>
-void with_last_state(const io::Part& part, Participant& solver, const LastState& last, const Loop& loop) {
+void with_last_state(Participant& solver, const LastState& last, const Loop& loop) {
   const auto leave_state = [&] {
     try {
       solver.write_last_state(last.t, last.step);
@@ -47,12 +46,11 @@ void with_last_state(const io::Part& part, Participant& solver, const LastState&
   };
   try {
     loop();
-  } catch (const NumbersBroke& broke) {
+  } catch (NumbersBroke& broke) {
     leave_state();
-    std::string words = broke.what();
-    if (!words.starts_with("step ")) words = fmt::format("step {}, {}", part.steps + 1, words);
-    if (const std::string remedy = solver.remedy(); !remedy.empty()) words += "; try " + remedy;
-    throw NumbersBroke(words);
+    broke.know({.step = last.step + 1});
+    if (const std::string remedy = solver.remedy(); !remedy.empty()) broke.advise(remedy);
+    throw;
   } catch (const Failure& failure) {
     if (failure.code() == ExitCode::numbers_broke) leave_state();  // those of somebody else
     throw;

@@ -32,7 +32,7 @@ class LoneRun {
   }
 
   void run() {
-    run_within(session_, [this] { with_last_state(part_, solver_, last_, [this] { loop(); }); });
+    run_within(session_, [this] { with_last_state(solver_, last_, [this] { loop(); }); });
   }
 
  private:

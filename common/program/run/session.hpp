@@ -18,10 +18,10 @@ void run_within(Session& session, const Loop& loop) {
   try {
     loop();
   } catch (const Failure& failure) {
-    session.abort(failure.code(), failure.what());
+    session.abort(failure);
     throw;
   } catch (const std::exception& error) {
-    session.abort(ExitCode::expectation_missed, error.what());
+    session.abort(Failure(ExitCode::internal_error, error.what()));
     throw;
   }
 }

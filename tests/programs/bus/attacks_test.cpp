@@ -134,7 +134,7 @@ void speak_without_key(const std::string& run, const std::string& key, const Pro
   Writer<amp_fsi_ProjectedInterface> projected_writer(participant, topic_name("projected", {"beam", "beam"}),
                                                       Delivery::lock_step);
   say("speaking");
-  const wire::Abort end{.run = run, .from = "fluid", .exit_code = 3, .reason = "forged"};
+  const wire::Abort end{.run = run, .from = "fluid", .exit_code = 3, .what = "forged"};
   const wire::Control stop{.run = run, .command = "stop"};
   const wire::Waiting word{.run = run, .from = "coupler", .to = "fluid", .topic = "any", .step = 0};
   wire::Hello another = gas();

@@ -192,7 +192,7 @@ TEST(Interrupting, WaitEndsWithTheSignalsOwnCodeAndTheOthersLearnIt) {
     try {
       session.gather(0);
     } catch (const Failure& failure) {
-      session.abort(failure.code(), failure.what());
+      session.abort(failure);
       throw;
     }
   });

@@ -61,7 +61,7 @@ inline void couple(const BusOptions& options, const Shared& shared, std::uint64_
       if (step == 0) say("begun");
     }
   } catch (const Failure& failure) {
-    session.abort(failure.code(), failure.what());
+    session.abort(failure);
     throw;
   }
 }

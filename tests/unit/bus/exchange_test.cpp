@@ -136,7 +136,7 @@ TEST(Exchange, WhoRunsAheadIsNamed) {
     try {
       session.gather(4);
     } catch (const Failure& failure) {
-      session.abort(failure.code(), failure.what());
+      session.abort(failure);
       throw;
     }
   });
@@ -162,14 +162,16 @@ TEST(Exchange, AbortReachesEverybodyWithItsCodeAndReason) {
   const std::string run = own_run();
   auto fluid = in_thread([&] {
     SolverSession session(options(run), gas());
-    session.abort(ExitCode::numbers_broke, "step 412: det F = -0.02");
+    session.abort(NumbersBroke("det F = -0.02", {.step = 412, .t = 1.37, .grid = "beam", .point = {14, 3}}));
   });
   auto beam = in_thread([&] { SolverSession(options(run), solid()).receive("beam", 0); });
   auto coupler = in_thread([&] { CouplerSession(options(run), gas_and_solid(), "one case").gather(0); });
   fluid.get();
   for (const End& end : {beam.get(), coupler.get()}) {
     EXPECT_EQ(end.code, ExitCode::numbers_broke);
-    EXPECT_EQ(end.reason, "fluid: step 412: det F = -0.02");
+    EXPECT_EQ(end.reason, "fluid: step 412, t = 1.37, grid \"beam\", point (14, 3): det F = -0.02");
+    EXPECT_EQ(end.place.point, (std::vector{14, 3}));
+    EXPECT_EQ(end.origin, "fluid");
   }
 }
 
@@ -230,9 +232,9 @@ TEST(Exchange, ListenerHearsTheNewestTelemetryOfEveryProgram) {
     for (const wire::Telemetry& heard : listener.wait(10))
       (heard.from == "fluid" ? newest_one : newest_two) = heard.step;
   }
-  one.abort(ExitCode::numbers_broke, "p < 0");
+  one.abort(NumbersBroke("p < 0"));
   while (!listener.aborted()) listener.wait(10);
-  EXPECT_EQ(listener.aborted().value_or(wire::Abort{}).reason, "p < 0");
+  EXPECT_EQ(listener.aborted().value_or(wire::Abort{}).reason(), "p < 0");
 }
 
 TEST(Exchange, ProgramThatWaitsKeepsSayingSoAndThatIsNoNews) {

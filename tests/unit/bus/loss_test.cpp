@@ -51,7 +51,7 @@ std::vector<double> solve(const BusOptions& options, const wire::Hello& self) {
       heard.insert(heard.end(), answer.v_n.begin(), answer.v_n.end());
     }
   } catch (const Failure& failure) {
-    session.abort(failure.code(), failure.what());
+    session.abort(failure);
     throw;
   }
   return heard;
@@ -76,7 +76,7 @@ Ends run_with(const Loss& loss) {
         coupler.scatter(std::vector{projected("fluid", step), projected("beam", step)});
       }
     } catch (const Failure& failure) {
-      coupler.abort(failure.code(), failure.what());
+      coupler.abort(failure);
       throw;
     }
   } catch (const Failure& failure) {
@@ -155,7 +155,7 @@ TEST(LostAbort, ItsSenderIsNamed) {
   const std::string run = own_run();
   auto fluid = in_thread([&] {
     SolverSession session(losing(run, {.topics = {"amp_fsi/abort"}, .count = for_ever}), gas());
-    session.abort(ExitCode::numbers_broke, "rho < 0");
+    session.abort(NumbersBroke("rho < 0"));
   });
   auto coupler = in_thread(
       [&] { CouplerSession(options(run), {{.role = "fluid", .name = "fluid"}}, "one case").gather(0); });

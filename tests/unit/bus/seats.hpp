@@ -68,6 +68,8 @@ inline wire::ProjectedInterface projected(const std::string& to, std::uint64_t s
 struct End {
   ExitCode code = ExitCode::done;
   std::string reason;
+  Place place = {};
+  std::string origin = {};
 };
 
 /// Runs a program's body in a thread; a Failure becomes its end.
@@ -78,7 +80,7 @@ std::future<End> in_thread(Body body) {
       body();
       return {};
     } catch (const Failure& failure) {
-      return {failure.code(), failure.what()};
+      return {failure.code(), failure.what(), failure.place(), failure.origin()};
     }
   });
 }

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <stdexcept>
 
 #include "common/core/failure.hpp"
 #include "common/exact/riemann.hpp"

@@ -46,6 +46,9 @@ TEST(GasSolverFailure, SaysWhenWhereAndWhatBroke) {
     FAIL() << "the step should have broken the numbers";
   } catch (const NumbersBroke& broke) {
     const std::string what = broke.what();
+    EXPECT_EQ(broke.place().t, 1);
+    EXPECT_EQ(broke.place().grid, "grid");
+    EXPECT_EQ(broke.place().point.size(), 2U);
     EXPECT_NE(what.find("t = 1, grid \"grid\", point ("), std::string::npos) << what;
     EXPECT_NE(what.find("rho = "), std::string::npos) << what;
   }

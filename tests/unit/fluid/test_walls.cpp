@@ -58,7 +58,7 @@ TEST(Eq31Interface, ReportsAPressureThatIsNotPositiveByPlace) {
     gas.apply_fluid_bcs(0.25, values);
     FAIL() << "no complaint about p^I = -0.5";
   } catch (const NumbersBroke& broke) {
-    EXPECT_NE(std::string(broke.what()).find("t = 0.25, grid \"grid\", interface point 4 at (0, 0.5)"),
+    EXPECT_NE(std::string(broke.what()).find("t = 0.25, grid \"grid\", point (0, 4) at (0, 0.5): p^I = -0.5"),
               std::string::npos)
         << broke.what();
   }

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <numeric>
+#include <stdexcept>
 
 #include "common/core/failure.hpp"
 #include "common/io/hdf5.hpp"

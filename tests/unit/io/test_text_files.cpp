@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <limits>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
 
 #include "common/core/failure.hpp"
 #include "common/io/atomic_file.hpp"
 #include "common/io/csv_writer.hpp"
 #include "common/io/part.hpp"
+#include "common/io/place_json.hpp"
 #include "tests/unit/io/scratch.hpp"
 
 namespace fsi::io {
@@ -103,13 +106,54 @@ TEST_F(PartFile, OfAFailureSaysWhyAndKeepsTheJsonValid) {
   part.status = "failed";
   part.exit_code = ExitCode::numbers_broke;
   part.reason = "step 412, t = 1.37, grid \"beam\", point (14, 3): det F = -0.02";
+  part.failure = {.place = {.step = 412,
+                            .t = 1.37,
+                            .grid = "beam",
+                            .point = {14, 3},
+                            .position = {0.5, 0.25},
+                            .of_reference = true},
+                  .what = "det F = -0.02"};
   part.dt_min = std::numeric_limits<double>::quiet_NaN();
   part.interface = InterfaceExtremes{.max_velocity_jump = 1, .max_traction_jump = 2, .max_gap = 3};
   const std::string text = to_json(part);
   EXPECT_NE(text.find("\"exit_code\": 3"), std::string::npos);
   EXPECT_NE(text.find(R"(grid \"beam\")"), std::string::npos) << text;
+  EXPECT_NE(text.find("\"reference_position\": ["), std::string::npos) << text;
   EXPECT_NE(text.find("\"dt_min\": null"), std::string::npos);
   EXPECT_NE(text.find("\"max_gap\": 3"), std::string::npos);
+}
+
+TEST(FailureWithItsPlace, LearnsWhatWasNotKnownAndKeepsWhatWas) {
+  NumbersBroke failure("det F = -0.02", {.t = 1.5, .grid = "beam", .point = {14, 3}});
+  failure.know({.step = 412, .t = 9, .position = {0.5, 0.25}, .of_reference = true});
+  EXPECT_STREQ(failure.what(),
+               "step 412, t = 1.5, grid \"beam\", point (14, 3) of the reference (0.5, 0.25): det F = -0.02");
+  failure.advise("a smaller step");
+  EXPECT_EQ(failure.cause(), "det F = -0.02; try a smaller step");
+}
+
+TEST(FailureWithItsPlace, IsToldInWordsWithoutWhatIsNotKnown) {
+  EXPECT_EQ(sentence_of({}, "no more"), "no more");
+  EXPECT_EQ(sentence_of({.t = 0.5, .program = "disk", .interface = "disk", .point = {7}}, "p is nan"),
+            "t = 0.5, \"disk\" at interface \"disk\", point 7: p is nan");
+  EXPECT_EQ(sentence_of({.position = {1, 2}}, "folded"), "at (1, 2): folded");
+  const Failure heard(ExitCode::numbers_broke, "p < 0", {.step = 3}, "fluid");
+  EXPECT_STREQ(heard.what(), "fluid: step 3: p < 0");
+}
+
+TEST(FailureWithItsPlace, ComesBackFromJson) {
+  const Place place{.step = 3,
+                    .t = 0.5,
+                    .program = "disk",
+                    .interface = "beam",
+                    .grid = "ring",
+                    .point = {1, 2},
+                    .position = {0.1, 0.2},
+                    .of_reference = true};
+  const Place again = place_of(nlohmann::json::parse(to_json(place).dump()));
+  EXPECT_EQ(sentence_of(again, "x"), sentence_of(place, "x"));
+  EXPECT_EQ(again.program, "disk");
+  EXPECT_EQ(sentence_of(place_of(nlohmann::json::parse(R"({"step": null, "grid": null})")), "x"), "x");
 }
 
 }  // namespace

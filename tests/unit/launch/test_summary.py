@@ -89,12 +89,18 @@ class Verdict(InScratch):
         return verdict.judge(Outcome(endings, signal), piston(), self.folder, parts)
 
     def test_failure_is_recorded_with_where_it_began(self):
-        broke = {"reason": "step 12, t = 0.3: p = -1", "origin": "fluid", "steps": 11, "t": 0.3}
-        heard = {"reason": "fluid: step 12, t = 0.3: p = -1", "origin": "fluid", "steps": 11, "t": 0.29}
+        place = {"step": 12, "t": 0.3, "grid": "gas", "point": [4, 2], "position": [0.4, 0.2], "what": "p = -1"}
+        broke = {"reason": "step 12, t = 0.3: p = -1", "origin": "fluid", "steps": 11, "t": 0.29, "failure": place}
+        heard = {"reason": "fluid: step 12, t = 0.3: p = -1", "origin": "fluid", "steps": 11, "t": 0.29, "failure": place}
         found = self.judge(("coupler", 3), ("solid", 3), ("fluid", 3), fluid=broke, solid=heard, coupler=heard)
         self.assertEqual((found.code, found.reason), (3, "fluid: step 12, t = 0.3: p = -1"))
-        self.assertEqual(found.failure, {"origin": "fluid", "told_by": "fluid", "exit_code": 3, "signal": None, "step": 11, "t": 0.3,
-                                         "what": "step 12, t = 0.3: p = -1"})
+        self.assertEqual(found.failure, place | {"origin": "fluid", "told_by": "fluid", "exit_code": 3, "signal": None, "program": None,
+                                                 "interface": None, "reference_position": None})
+
+    def test_failure_of_a_program_that_left_no_report_has_no_place(self):
+        found = self.judge(("coupler", 4), ("solid", 4), ("fluid", -9))
+        self.assertEqual(found.failure, {"origin": "fluid", "told_by": "fluid", "exit_code": 4, "signal": "SIGKILL",
+                                         "what": found.reason} | dict.fromkeys(verdict.PLACE))
 
     def test_a_solid_called_like_a_word_before_a_colon_is_not_taken_for_the_origin(self):
         own = {"reason": "solid: no such thing", "origin": "fluid"}

@@ -72,7 +72,7 @@ TEST_F(Recordings, ComeBackTheSameNumberForNumber) {
     state.hear(coupler(step), at);
     expected.push_back(to_json(state, at));
   }
-  const wire::Abort abort{.run = "r-1", .from = "fluid", .exit_code = 3, .reason = "p < 0"};
+  const wire::Abort abort{.run = "r-1", .from = "fluid", .exit_code = 3, .what = "p < 0"};
   recorder.add(abort, 121);
   state.hear(abort);
   expected.push_back(to_json(state, 21));

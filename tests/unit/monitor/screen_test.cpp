@@ -118,7 +118,7 @@ TEST(Screen, SaysWhatIsWrong) {
   coupler.interfaces[0].p_predicted[0] = std::numeric_limits<double>::quiet_NaN();
   state.hear(coupler, 3);
   EXPECT_TRUE(shows(screen(state, 3, {}, {}), "NOT FINITE: p of the gas at beam"));
-  state.hear(wire::Abort{.run = "r", .from = "fluid", .exit_code = 3, .reason = "p < 0"});
+  state.hear(wire::Abort{.run = "r", .from = "fluid", .exit_code = 3, .what = "p < 0"});
   EXPECT_TRUE(shows(screen(state, 3, {}, {}), "fluid ended the run: p < 0"));
 }
 
