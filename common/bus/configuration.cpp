@@ -1,7 +1,9 @@
 #include "common/bus/configuration.hpp"
 
 #include <fmt/format.h>
+#include <zlib.h>
 
+#include <cstdint>
 #include <cstdlib>
 #include <fstream>
 
@@ -73,9 +75,8 @@ std::string configuration_xml(const std::string& run, double participant_lease_s
 }
 
 std::uint32_t domain_of(const std::string& run) {
-  std::uint32_t hash = 2166136261U;  // FNV-1a
-  for (const char c : run) hash = (hash ^ static_cast<unsigned char>(c)) * 16777619U;
-  return 1 + hash % domains;
+  const uLong checksum = crc32_z(0, reinterpret_cast<const Bytef*>(run.data()), run.size());
+  return 1 + static_cast<std::uint32_t>(checksum) % domains;
 }
 
 std::vector<std::string> start_up_warnings() {

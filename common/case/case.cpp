@@ -1,8 +1,11 @@
 #include "common/case/case.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <openssl/evp.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <filesystem>
 
@@ -25,11 +28,12 @@ namespace {
 
 using config::Node;
 
-/// FNV-1a, 64 bit: the same on every machine.
+/// The first 64 bits of SHA-256 in hexadecimal digits.
 std::string digest_of(const std::string& text) {
-  std::uint64_t hash = 14695981039346656037ULL;
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
-  return fmt::format("{:016x}", hash);
+  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
+  if (EVP_Digest(text.data(), text.size(), digest.data(), nullptr, EVP_sha256(), nullptr) != 1)
+    throw Failure(ExitCode::internal_error, "libcrypto computes no SHA-256");
+  return fmt::format("{:02x}", fmt::join(digest.begin(), digest.begin() + 8, ""));
 }
 
 std::vector<std::string> keys_of(const Node& map) {

@@ -8,7 +8,7 @@ namespace fsi::io {
 
 struct Checksum {
   std::uint64_t bytes = 0;
-  std::uint32_t crc32 = 0;  ///< as zlib computes it
+  std::uint32_t crc32 = 0;  ///< of zlib: 0 of nothing
 
   bool operator==(const Checksum&) const = default;
 };
