@@ -209,8 +209,7 @@ void BeamParticipant::write_tables(double t, double /*dt*/, ProjectedStates /*pr
   }
   centre /= weight;
   const Vec2 v = (spec_.rho > 0 ? motion_.momentum() : carried) / weight;
-  forces_->row({t, load_.force[0], load_.force[1], load_.moment, load_.power, centre[0], centre[1], v[0],
-                v[1], angle / weight});
+  forces_->row(t, load_, {.centre = centre, .velocity = v, .angle = angle / weight});
   energies_->row({t, motion_.kinetic_energy(), model.strain_energy(motion_.u()), impulse_.sum().power});
   if (!probe_table_) return;
   std::vector<double> row{t};
@@ -222,27 +221,11 @@ void BeamParticipant::write_tables(double t, double /*dt*/, ProjectedStates /*pr
 }
 
 void BeamParticipant::report(double /*t*/, io::Part& part) const {
-  const Totals now = totals();
-  const rigid::GasLoad& impulse = impulse_.sum();
   part.health["min_det_F"] = 1;
-  part.conservation = {{"mass", 0},
-                       {"energy", now.energy - initial_.energy},
-                       {"energy_initial", initial_.energy},
-                       {"momentum1", now.momentum[0] - initial_.momentum[0]},
-                       {"momentum2", now.momentum[1] - initial_.momentum[1]},
-                       {"angular_momentum", now.angular_momentum - initial_.angular_momentum},
-                       {"angular_momentum_initial", initial_.angular_momentum},
-                       {"impulse1", impulse.force[0]},
-                       {"impulse2", impulse.force[1]},
-                       {"angular_impulse", impulse.moment},
-                       {"work", impulse.power}};
-  if (!is_surrounded(spec_)) return;
-  part.conservation["momentum1_defect"] = part.conservation["momentum1"] - impulse.force[0];
-  part.conservation["momentum2_defect"] = part.conservation["momentum2"] - impulse.force[1];
-  part.conservation["energy_defect"] = part.conservation["energy"] - impulse.power;
+  part.conservation = rigid::conservation_of(totals(), initial_, impulse_.sum(), is_surrounded(spec_));
 }
 
-BeamParticipant::Totals BeamParticipant::totals() const {
+rigid::BodyTotals BeamParticipant::totals() const {
   return {.momentum = motion_.momentum(),
           .angular_momentum = motion_.angular_momentum(),
           .energy = motion_.kinetic_energy() + motion_.model().strain_energy(motion_.u())};
@@ -275,25 +258,14 @@ Eigen::VectorXd BeamParticipant::own_load(double t) const {
 }
 
 void BeamParticipant::open_tables() {
-  forces_.emplace(setup_.run_dir + "/forces_" + spec_.name + ".csv",
-                  std::vector<std::string>{"t [time]", "force1 [force/depth]", "force2 [force/depth]",
-                                           "moment [force*length/depth]", "power [power/depth]",
-                                           "centre1 [length]", "centre2 [length]", "velocity1 [length/time]",
-                                           "velocity2 [length/time]", "angle [rad]"},
-                  setup_.opening());
+  forces_.emplace(setup_, spec_.name);
   energies_.emplace(setup_.run_dir + "/energies_" + spec_.name + ".csv",
                     std::vector<std::string>{"t [time]", "kinetic [energy/depth]", "strain [energy/depth]",
                                              "work [energy/depth]"},
                     setup_.opening());
-  std::vector<std::string> columns{"t [time]"};
-  for (const ProbeSpec& probe : setup_.problem.output.probes) {
-    if (probe.in != spec_.name) continue;
-    probe_places_.emplace_back(probe.x, probe.y);
-    probes_.push_back(attach(motion_.model().line(), probe_places_.back()));
-    for (const char* quantity : quantities) columns.push_back(fmt::format("{}.{}", probe.name, quantity));
-  }
-  if (!probes_.empty())
-    probe_table_.emplace(setup_.run_dir + "/parts/probes_" + spec_.name + ".csv", columns, setup_.opening());
+  probe_places_ = rigid::probe_places(setup_, spec_.name);
+  for (const Vec2& place : probe_places_) probes_.push_back(attach(motion_.model().line(), place));
+  probe_table_ = rigid::probe_table(setup_, spec_.name, quantities);
 }
 
 void BeamParticipant::place_grids() {

@@ -15,7 +15,7 @@
 #include "common/io/grid_writer.hpp"
 #include "common/program/participant.hpp"
 #include "solid_solver/beam/from_case.hpp"
-#include "solid_solver/rigid/load.hpp"
+#include "solid_solver/rigid/body_report.hpp"
 
 namespace fsi::beam {
 
@@ -42,7 +42,8 @@ class BeamParticipant final : public Participant {
   BeamMotion& motion_;
   const std::vector<Skin>& skins_;
   io::GridWriter fields_;
-  std::optional<io::CsvWriter> forces_, probe_table_, energies_;
+  std::optional<rigid::ForceTable> forces_;
+  std::optional<io::CsvWriter> probe_table_, energies_;
   std::vector<Attached> probes_;
   std::vector<Vec2> probe_places_;  ///< reference positions
   /// A skin in the fields: two lines of points, its outline and a line just beside the centre line.
@@ -57,13 +58,9 @@ class BeamParticipant final : public Participant {
   rigid::Impulse impulse_;
   double dt_ = 0;  ///< of the step going on; 0 before the first
 
-  struct Totals {
-    Vec2 momentum;
-    double angular_momentum, energy;
-  };
-  Totals initial_;
+  rigid::BodyTotals initial_;
 
-  Totals totals() const;
+  rigid::BodyTotals totals() const;
   std::vector<io::GridOutput> fields();
   /// The values of `quantities` at a point of the beam.
   std::array<double, 12> values_at(const Attached& point, const Vec2& x_bar) const;

@@ -1,7 +1,5 @@
 #include "solid_solver/rigid/port.hpp"
 
-#include <fmt/format.h>
-
 #include <Eigen/Cholesky>
 #include <array>
 #include <limits>
@@ -145,8 +143,7 @@ void RigidParticipant::archive(Archive& archive) {
 void RigidParticipant::write_tables(double t, double /*dt*/, ProjectedStates /*projected*/) {
   const Pose& pose = body_.pose();
   const Vec3 v = body_.velocity();
-  forces_->row({t, load_.force[0], load_.force[1], load_.moment, load_.power, pose.centre[0], pose.centre[1],
-                v[0], v[1], pose.angle});
+  forces_->row(t, load_, {.centre = pose.centre, .velocity = {v[0], v[1]}, .angle = pose.angle});
   if (!probe_table_) return;
   std::vector<double> row{t};
   for (const Vec2& x_bar : probes_) {
@@ -157,27 +154,13 @@ void RigidParticipant::write_tables(double t, double /*dt*/, ProjectedStates /*p
 }
 
 void RigidParticipant::report(double /*t*/, io::Part& part) const {
-  const Totals now = totals();
-  const GasLoad& impulse = impulse_.sum();
   part.health["min_det_F"] = 1;
-  part.conservation = {{"mass", 0},
-                       {"energy", now.energy - initial_.energy},
-                       {"energy_initial", initial_.energy},
-                       {"momentum1", now.momentum[0] - initial_.momentum[0]},
-                       {"momentum2", now.momentum[1] - initial_.momentum[1]},
-                       {"angular_momentum", now.angular_momentum - initial_.angular_momentum},
-                       {"angular_momentum_initial", initial_.angular_momentum},
-                       {"impulse1", impulse.force[0]},
-                       {"impulse2", impulse.force[1]},
-                       {"angular_impulse", impulse.moment},
-                       {"work", impulse.power}};
-  if (spec_.body_force || spec_.body_fitted.empty() || !spec_.body_fitted.front().curve.closed()) return;
-  part.conservation["momentum1_defect"] = part.conservation["momentum1"] - impulse.force[0];
-  part.conservation["momentum2_defect"] = part.conservation["momentum2"] - impulse.force[1];
-  part.conservation["energy_defect"] = part.conservation["energy"] - impulse.power;
+  part.conservation = conservation_of(
+      totals(), initial_, impulse_.sum(),
+      !spec_.body_force && !spec_.body_fitted.empty() && spec_.body_fitted.front().curve.closed());
 }
 
-RigidParticipant::Totals RigidParticipant::totals() const {
+BodyTotals RigidParticipant::totals() const {
   return {.momentum = body_.momentum(),
           .angular_momentum = body_.angular_momentum(),
           .energy = body_.kinetic_energy()};
@@ -192,20 +175,9 @@ Vec3 RigidParticipant::own_load(double t) const {
 }
 
 void RigidParticipant::open_tables() {
-  forces_.emplace(setup_.run_dir + "/forces_" + spec_.name + ".csv",
-                  std::vector<std::string>{"t [time]", "force1 [force/depth]", "force2 [force/depth]",
-                                           "moment [force*length/depth]", "power [power/depth]",
-                                           "centre1 [length]", "centre2 [length]", "velocity1 [length/time]",
-                                           "velocity2 [length/time]", "angle [rad]"},
-                  setup_.opening());
-  std::vector<std::string> columns{"t [time]"};
-  for (const ProbeSpec& probe : setup_.problem.output.probes) {
-    if (probe.in != spec_.name) continue;
-    probes_.emplace_back(probe.x, probe.y);
-    for (const char* quantity : quantities) columns.push_back(fmt::format("{}.{}", probe.name, quantity));
-  }
-  if (!probes_.empty())
-    probe_table_.emplace(setup_.run_dir + "/parts/probes_" + spec_.name + ".csv", columns, setup_.opening());
+  forces_.emplace(setup_, spec_.name);
+  probes_ = probe_places(setup_, spec_.name);
+  probe_table_ = probe_table(setup_, spec_.name, quantities);
 }
 
 void RigidParticipant::place_grids() {

@@ -9,8 +9,8 @@
 #include "common/io/csv_writer.hpp"
 #include "common/io/grid_writer.hpp"
 #include "common/program/participant.hpp"
+#include "solid_solver/rigid/body_report.hpp"
 #include "solid_solver/rigid/from_case.hpp"
-#include "solid_solver/rigid/load.hpp"
 
 namespace fsi::rigid {
 
@@ -36,7 +36,8 @@ class RigidParticipant final : public Participant {
   BodyFromCase from_case_;
   RigidBody& body_;
   io::GridWriter fields_;
-  std::optional<io::CsvWriter> forces_, probe_table_;
+  std::optional<ForceTable> forces_;
+  std::optional<io::CsvWriter> probe_table_;
   std::vector<Vec2> probes_;  ///< reference positions
   /// An outline in the fields: two lines of points, itself and the centre of the body.
   struct Drawn {
@@ -49,13 +50,9 @@ class RigidParticipant final : public Participant {
   Impulse impulse_;
   double dt_ = 0;  ///< of the step going on; 0 before the first
 
-  struct Totals {
-    Vec2 momentum;
-    double angular_momentum, energy;
-  };
-  Totals initial_;
+  BodyTotals initial_;
 
-  Totals totals() const;
+  BodyTotals totals() const;
   std::vector<io::GridOutput> fields();
   Vec3 own_load(double t) const;
   void open_tables();
