@@ -30,7 +30,7 @@ struct Gent {
   double J_m = std::numeric_limits<double>::max();  ///< largest I1 - 3 [-]
 
   static constexpr std::array<OwnNumber<Gent>, 1> own_numbers{
-      {{.key = "J_m", .member = &Gent::J_m, .typical = 8}}};
+      {{.key = "J_m", .meaning = "largest I1 - 3", .unit = "-", .member = &Gent::J_m, .typical = 8}}};
 
   /// Energy per unit reference volume.
   double psi(const Tensor2& F) const {

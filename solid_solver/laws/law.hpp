@@ -25,7 +25,9 @@ struct Stiffness {
 /// A number that one law takes besides lambda and mu. A law L lists those it has in `L::own_numbers`.
 template <class L>
 struct OwnNumber {
-  std::string_view key;  ///< of the solid in a case file
+  std::string_view key;      ///< of the solid in a case file
+  std::string_view meaning;  ///< for the documentation of the case file, and where it is missing
+  std::string_view unit;     ///< pressure, ..; "-" of a pure number
   double L::*member;
   double typical;  ///< for the tests that run over all laws
 };

@@ -6,6 +6,7 @@
 
 #include "solid_solver/laws/law.hpp"
 #include "solid_solver/laws/logarithm.hpp"
+#include "solid_solver/laws/shape_and_area.hpp"
 
 namespace fsi::solid {
 
@@ -28,49 +29,29 @@ struct MooneyRivlin {
   double mu = 0;      ///< shear modulus of the rest state, 2 (c10 + c01) [pressure]
   double c01 = 0;     ///< coefficient of I2 - 3 [pressure]
 
-  static constexpr std::array<OwnNumber<MooneyRivlin>, 1> own_numbers{
-      {{.key = "c01", .member = &MooneyRivlin::c01, .typical = 0.3}}};
+  static constexpr std::array<OwnNumber<MooneyRivlin>, 1> own_numbers{{{.key = "c01",
+                                                                        .meaning = "coefficient of I2 - 3",
+                                                                        .unit = "pressure",
+                                                                        .member = &MooneyRivlin::c01,
+                                                                        .typical = 0.3}}};
 
   /// Energy per unit reference volume.
   double psi(const Tensor2& F) const {
-    const double J = F.a11 * F.a22 - F.a12 * F.a21;
+    const double J = determinant_of(F);
     const double log_J = logarithm(J);
-    const double stretch = F.a11 * F.a11 + F.a12 * F.a12 + F.a21 * F.a21 + F.a22 * F.a22 - 2.0;
-    return 0.5 * mu * stretch - mu * log_J + c01 * (J * J - 1.0 - 2.0 * log_J) +
+    return 0.5 * mu * stretch_of(F) - mu * log_J + c01 * (J * J - 1.0 - 2.0 * log_J) +
            0.5 * (lambda - 4.0 * c01) * log_J * log_J;
   }
 
   /// Nominal stress, paper eq. (7): mu F^T + c F^-1, c = J dU/dJ of the part U(J) of psi.
   [[gnu::always_inline]] Tensor2 P(const Tensor2& F) const {
-    const double J = F.a11 * F.a22 - F.a12 * F.a21;
-    const double c = area_stress(J) / J;
-    return {.a11 = mu * F.a11 + c * F.a22,
-            .a12 = mu * F.a21 - c * F.a12,
-            .a21 = mu * F.a12 - c * F.a21,
-            .a22 = mu * F.a22 + c * F.a11};
+    return stress_of_shape_and_area(F, mu, area_stress(determinant_of(F)));
   }
 
   /// paper eq. (8): K_ijkl = mu d_il d_jk + k G_ij G_lk - c G_ik G_lj, G = F^-1, c as in P, k = J dc/dJ.
   [[gnu::always_inline]] Stiffness K(const Tensor2& F) const {
-    const double J = F.a11 * F.a22 - F.a12 * F.a21;
-    const double c = -area_stress(J);
-    const double k = lambda + 4.0 * c01 * (J * J - 1.0);
-    const double inverse_J = 1.0 / J;
-    const double g11 = inverse_J * F.a22;
-    const double g12 = -inverse_J * F.a12;
-    const double g21 = -inverse_J * F.a21;
-    const double g22 = inverse_J * F.a11;
-    const double both = k + c;
-    return {.k1111 = mu + both * g11 * g11,
-            .k1112 = both * g11 * g21,
-            .k1121 = both * g11 * g12,
-            .k1122 = k * g11 * g22 + c * g12 * g21,
-            .k1221 = mu + both * g12 * g12,
-            .k1222 = both * g12 * g22,
-            .k2112 = mu + both * g21 * g21,
-            .k2121 = k * g21 * g12 + c * g22 * g11,
-            .k2122 = both * g21 * g22,
-            .k2222 = mu + both * g22 * g22};
+    const double J = determinant_of(F);
+    return stiffness_of_shape_and_area(F, mu, -area_stress(J), lambda + 4.0 * c01 * (J * J - 1.0));
   }
 
  private:

@@ -78,9 +78,9 @@ MUTATIONS = [
      "test_laws", "EveryLaw*"),
     ("K of Saint Venant-Kirchhoff: index of the stress", "solid_solver/laws/saint_venant_kirchhoff.hpp",
      ".k1221 = S.a11 + both", ".k1221 = S.a22 + both", "test_laws", "EveryLaw*"),
-    ("K of the neo-Hookean law: shear term", "solid_solver/laws/neo_hookean.hpp",
-     "lambda * g21 * g12 + c * g22 * g11", "lambda * g21 * g12 - c * g22 * g11", "test_laws", "EveryLaw*"),
-    ("P of the neo-Hookean law", "solid_solver/laws/neo_hookean.hpp",
+    ("K of laws of shape and area: shear term", "solid_solver/laws/shape_and_area.hpp",
+     "k * g21 * g12 + c * g22 * g11", "k * g21 * g12 - c * g22 * g11", "test_laws", "EveryLaw*"),
+    ("P of laws of shape and area", "solid_solver/laws/shape_and_area.hpp",
      "mu * F.a21 - c * F.a12", "mu * F.a21 + c * F.a12", "test_laws", "EveryLaw*"),
     # --- solid: sweep, metrics, dissipation, time step
     ("solid's face problem: coupling of the components", f"{SOLID}/riemann.hpp",

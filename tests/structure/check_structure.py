@@ -114,7 +114,7 @@ def forbidden(path, target, generated):
     if folder in PROGRAM_FOLDERS and top(target) in PROGRAM_FOLDERS and top(target) != folder:
         return f"the programs meet only on the bus: {folder} must not include {top(target)}"
     if folder in ("common", "reference", "examples") and top(target) in PROGRAM_FOLDERS:
-        if not (target.startswith("solid_solver/laws/") and where.startswith(("reference/", "common/exact/"))):
+        if not (target.startswith("solid_solver/laws/") and where.startswith(("reference/", "common/exact/", "common/case/schema/"))):
             return f"{folder} must not know the program {top(target)}"
     if target.startswith(UNKNOWN.get(folder, ())):
         return f"{folder} must not know {Path(target).parent}"
@@ -144,7 +144,7 @@ KERNEL_FOLDERS = ("fluid_solver/kernels", "fluid_solver/kernels/riemann", "solid
 # What those of the solid know besides: the runs of points they pass over, and the limiter's name.
 BESIDE_SOLID_KERNELS = ("solid_solver/solid_points.hpp", "solid_solver/options.hpp")
 # Of common/core, what logs, reads a case or throws.
-NOT_FOR_KERNELS = tuple(f"common/core/{name}.hpp" for name in ("log", "config", "failure", "expression", "suggest", "archive"))
+NOT_FOR_KERNELS = (*(f"common/core/{name}.hpp" for name in ("log", "failure", "archive", "command_line")), "common/core/input/")
 EFFECTS = re.compile(r"\bthrow\b|\bspdlog::|\bstd::c(?:out|err)\b|\bf?printf\s*\(|\bfmt::print\b")
 
 
@@ -154,7 +154,7 @@ def is_kernel(where):
 
 def known_to_kernels(where, target):
     if target.startswith("common/core/"):
-        return target not in NOT_FOR_KERNELS
+        return not target.startswith(NOT_FOR_KERNELS)
     same_program = top(target) == top(where)
     return same_program and (is_kernel(target) or (where.startswith("solid_solver/kernels/") and target in BESIDE_SOLID_KERNELS))
 

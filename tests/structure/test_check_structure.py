@@ -129,6 +129,7 @@ class Kernels(Copy):
         self.assert_bites("kernels", where, '#include "fluid_solver/gas_options.hpp"')
         self.assert_bites("kernels", where, '#include "common/grid/intervals.hpp"')
         self.assert_bites("kernels", where, '#include "common/core/log.hpp"')
+        self.assert_bites("kernels", where, '#include "common/core/input/config.hpp"')
         self.assert_allows("kernels", where, '#include "common/core/types.hpp"')
         self.assert_allows("kernels", where, '#include "fluid_solver/kernels/limiter.hpp"')
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/case/document/reader.hpp"
+#include "common/case/schema/law_numbers.hpp"
 #include "common/case/schema/laws.hpp"
 
 namespace fsi {
@@ -83,15 +84,22 @@ void set_moduli(const Node& solid, const std::string& path, const Form& form, So
 }
 
 /// Of a number that the law alone takes.
-double own_number(const Node& solid, const std::string& path, const SolidSpec& spec, const char* key,
-                  string_view what) {
-  const Node* node = solid.find(key);
-  if (node == nullptr) {
-    fail(solid.place, path,
-         fmt::format("law `{}` needs `{}`, {}; on the command line: --set {}.{}=..", spec.law, key, what,
-                     path, key));
-  }
-  return *node->number;
+template <class L>
+double own_number(const Node& solid, const std::string& path, const solid::OwnNumber<L>& number) {
+  if (const Node* node = solid.find(std::string(number.key))) return *node->number;
+  fail(solid.place, path,
+       fmt::format("law `{}` needs `{}`, the {} [{}]; on the command line: --set {}.{}=..", L::name,
+                   number.key, number.meaning, number.unit, path, number.key));
+}
+
+void read_own_numbers(const Node& solid, const std::string& path, SolidSpec& spec) {
+  schema::for_every_law([&]<class L>() {
+    if constexpr (requires { L::own_numbers; }) {
+      if (spec.law != L::name) return;
+      for (const auto& number : L::own_numbers)
+        spec.data[std::string(number.key)] = own_number(solid, path, number);
+    }
+  });
 }
 
 /// Beyond these bounds the energy has no lower one.
@@ -128,16 +136,9 @@ void build_material(const Node& solid, const std::string& path, SolidSpec& spec)
   if (form != nullptr) set_moduli(solid, path, *form, spec);
   if (spec.law == rigid_law || spec.law == external_law) return;
   if (form == nullptr) fail(solid.place, path, fmt::format("the moduli are missing; write {}", advice));
-  if (spec.law == "mooney_rivlin") {
-    const double c01 = own_number(solid, path, spec, "c01", "the coefficient of I2 - 3 [pressure]");
-    check_mooney_rivlin(solid, path, spec, c01);
-    spec.data["c01"] = c01;
-  }
-  if (spec.law == "gent") {
-    const double J_m = own_number(solid, path, spec, "J_m", "the largest I1 - 3 [-]");
-    check_gent(solid, path, spec, J_m);
-    spec.data["J_m"] = J_m;
-  }
+  read_own_numbers(solid, path, spec);
+  if (spec.law == "mooney_rivlin") check_mooney_rivlin(solid, path, spec, spec.data["c01"]);
+  if (spec.law == "gent") check_gent(solid, path, spec, spec.data["J_m"]);
 }
 
 }  // namespace fsi

@@ -1,6 +1,7 @@
 #include <array>
 
 #include "common/case/case.hpp"
+#include "common/case/schema/law_numbers.hpp"
 #include "common/case/schema/laws.hpp"
 #include "common/case/schema/schema.hpp"
 
@@ -315,6 +316,7 @@ constexpr array solid_keys{
 constinit const Section solid_boundary_section{
     .title = "A side of a solid", .keys = {}, .variants = solid_boundary_variants, .default_kind = ""};
 
-constinit const Section solid_section{.title = "A solid", .keys = solid_keys};
+constexpr auto solid_and_law_keys = with_law_numbers<solid_keys>();
+constinit const Section solid_section{.title = "A solid", .keys = solid_and_law_keys};
 
 }  // namespace fsi::schema

@@ -1,14 +1,26 @@
 #pragma once
 /// Deformation gradients, differences and index notation for the tests of the laws.
 
+#include <gtest/gtest.h>
+
 #include <Eigen/LU>
 #include <cmath>
+#include <variant>
 #include <vector>
 
 #include "common/core/types.hpp"
-#include "solid_solver/laws/law.hpp"
+#include "solid_solver/laws/every_law.hpp"
 
 namespace fsi::solid::testing {
+
+/// All laws for typed tests.
+template <class Variant>
+struct TypesOf;
+template <class... Types>
+struct TypesOf<std::variant<Types...>> {
+  using type = ::testing::Types<Types...>;
+};
+using EveryLawTested = TypesOf<solid::EveryLaw>::type;
 
 inline Tensor2 plain(const Mat2& A) {
   return {A(0, 0), A(0, 1), A(1, 0), A(1, 1)};

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "deformations.hpp"
-#include "every_law.hpp"
 #include "solid_solver/kernels/impedance.hpp"
 
 namespace fsi::solid::testing {
@@ -37,8 +36,7 @@ class Impedance : public ::testing::Test {
   }
 };
 
-using Laws = ::testing::Types<FSI_EVERY_LAW>;
-TYPED_TEST_SUITE(Impedance, Laws);
+TYPED_TEST_SUITE(Impedance, EveryLawTested);
 
 const Vec2 normals[] = {{1.0, 0.0}, {0.0, -1.0}, {0.6, 0.8}, {-0.28, 0.96}};
 
