@@ -39,16 +39,6 @@ std::optional<Spacing> lattice_of(const grid::MovingGrid& grid) {
   return Spacing{dx, dy};
 }
 
-AnyRiemann riemann_of(const GasOptions& options) {
-  switch (options.riemann) {
-    case Riemann::roe:
-      return RiemannRoe{options.gamma, options.entropy_fix};
-    case Riemann::hllc:
-      return RiemannHllc{options.gamma};
-  }
-  std::abort();  // all are there
-}
-
 AnyLimiter limiter_of(Limiter limiter) {
   switch (limiter) {
     case Limiter::none:
@@ -78,7 +68,7 @@ Component::Component(grid::MovingGrid grid, const GasOptions& options, std::arra
       spacing_(lattice_of(grid_)),
       scheme_{.gamma = options.gamma,
               .p_floor = 0,
-              .riemann = riemann_of(options),
+              .riemann = riemann_named(options.riemann, {options.gamma, options.entropy_fix}),
               .limiter = limiter_of(options.limiter),
               .viscosity = {.shock = options.shock_viscosity, .linear = options.linear_diffusion}},
       state_(grid_.layout(), 4),

@@ -4,13 +4,14 @@
 /// enumeration and one in its table; a `switch` that does not know it yet does not compile (-Wswitch).
 
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <string_view>
 
+#include "common/core/riemann_solvers.hpp"
+
 namespace fsi {
 
-/// The Riemann solver of the gas.
-enum class RiemannSolver { roe, hllc };
 /// Limiter of the slopes in the gas; none: centred slopes.
 enum class GasLimiter { none, minmod, mc, van_leer };
 /// Limiter of the slopes in a solid.
@@ -49,10 +50,12 @@ template <class E>
 inline constexpr std::array<Named<E>, 0> names_of{};
 
 template <>
-inline constexpr std::array names_of<RiemannSolver>{
-    Named<RiemannSolver>{RiemannSolver::roe, "roe"},
-    Named<RiemannSolver>{RiemannSolver::hllc, "hllc"},
-};
+inline constexpr auto names_of<RiemannSolver> = [] {
+  std::array<Named<RiemannSolver>, riemann_solver_names.size()> table{};
+  for (std::size_t k = 0; k < table.size(); ++k)
+    table[k] = {static_cast<RiemannSolver>(k), riemann_solver_names[k]};
+  return table;
+}();
 template <>
 inline constexpr std::array names_of<GasLimiter>{
     Named<GasLimiter>{GasLimiter::none, "none"},

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "fluid_solver/kernels/limiter.hpp"
-#include "fluid_solver/kernels/riemann/any_riemann.hpp"
+#include "fluid_solver/kernels/riemann/every_riemann.hpp"
 #include "fluid_solver/kernels/rows.hpp"
 #include "fluid_solver/kernels/sweep_runs.hpp"
 #include "fluid_solver/kernels/viscous_rows.hpp"

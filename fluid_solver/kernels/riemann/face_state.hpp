@@ -13,4 +13,10 @@ struct FaceFlux {
   double mass, normal, tangential, energy;
 };
 
+/// What a Riemann solver may need to know; each takes what it does by `S::with(numbers)`.
+struct RiemannNumbers {
+  double gamma;        ///< ratio of specific heats [-]
+  double entropy_fix;  ///< width of the sonic-point fix [-]
+};
+
 }  // namespace fsi::fluid

@@ -14,7 +14,9 @@
 namespace fsi::fluid {
 
 struct RiemannHllc {
-  double gamma;
+  double gamma;  ///< ratio of specific heats [-]
+
+  static RiemannHllc with(const RiemannNumbers& numbers) { return {.gamma = numbers.gamma}; }
 
   /// Flux of paper eq. (1) minus what the moving face sweeps over, the second and third terms of (31).
   [[gnu::always_inline]] FaceFlux operator()(const FaceState& L, const FaceState& R, double g_n) const {

@@ -17,9 +17,13 @@
 namespace fsi::fluid {
 
 struct RiemannRoe {
-  double gamma;
+  double gamma;                                  ///< ratio of specific heats [-]
   double entropy_fix;                            ///< |lambda| is rounded off below entropy_fix * c [-]
   static constexpr double least_density = 1e-3;  ///< between the waves, as part of the mean density [-]
+
+  static RiemannRoe with(const RiemannNumbers& numbers) {
+    return {.gamma = numbers.gamma, .entropy_fix = numbers.entropy_fix};
+  }
 
   /// Flux of paper eq. (1) minus what the moving face sweeps over, the second and third terms of (31). One
   /// root and one division serve all Roe averages: sqrt(rho_L) / (sqrt(rho_L) + sqrt(rho_R)) = rho_L / (rho_L
