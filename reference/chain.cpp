@@ -30,10 +30,14 @@ std::optional<AnyLaw> law_among(const std::string& name, double lambda, double m
 AnyLaw law_named(const std::string& name, double lambda, double mu,
                  const std::map<std::string, double>& own) {
   if (const auto law = law_among(name, lambda, mu, own)) return *law;
-  throw UserMistake(
-      fmt::format("the one-dimensional reference knows no law '{}'; write linear_elastic, "
-                  "saint_venant_kirchhoff, neo_hookean, mooney_rivlin or gent",
-                  name));
+  throw UserMistake(fmt::format(
+      "the one-dimensional reference knows no law '{}'; write one of laws with a stress, such as neo_hookean",
+      name));
+}
+
+Difference error_from(Difference difference) {
+  for (const auto quantity : differences) difference.*quantity /= 3;
+  return difference;
 }
 
 std::vector<double> at_masses(std::span<const double> middle, Start start) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <variant>
 
 #include "common/core/failure.hpp"
 #include "reference/chain.hpp"
@@ -355,17 +356,7 @@ DiskOutput Rings<L>::output() const {
 DiskRun solve_disk_while_sound(const DiskProblem& problem, int points) {
   return std::visit(
       [&]<class L>(const L& law) {
-        DiskRun run;
-        try {
-          Rings<L> rings(problem, law, points);
-          for (const double t : problem.times) {
-            rings.run_to(t);
-            run.outputs.push_back(rings.output());
-          }
-        } catch (const NumbersBroke& broke) {
-          run.broke = broke.what();
-        }
-        return run;
+        return run_while_sound(problem.times, [&] { return Rings<L>(problem, law, points); });
       },
       law_named(problem.law, problem.lambda, problem.mu, problem.own));
 }
@@ -376,7 +367,7 @@ std::vector<DiskOutput> solve_disk(const DiskProblem& problem, int points) {
   return std::move(run.outputs);
 }
 
-DiskDifference compare(const DiskOutput& fine, const DiskOutput& coarse) {
+Difference compare(const DiskOutput& fine, const DiskOutput& coarse) {
   const exact::CubicTable gas(fine.r, {fine.rho, fine.v, fine.p});
   const exact::CubicTable solid(fine.r_bar,
                                 {fine.u1, fine.u2, fine.v1, fine.v2, fine.P11, fine.P12, fine.P21, fine.P22});

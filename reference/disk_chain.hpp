@@ -15,6 +15,8 @@
 #include <string>
 #include <vector>
 
+#include "reference/chain.hpp"
+
 namespace fsi::reference {
 
 /// What the rotating disk is. The disk has radius 1. Smooth flow: the gas keeps its entropy.
@@ -56,19 +58,12 @@ struct DiskOutput {
 /// @throws UserMistake for an unknown law @throws NumbersBroke when a spring folds
 std::vector<DiskOutput> solve_disk(const DiskProblem& problem, int points);
 
-/// A solution as far as it goes.
-struct DiskRun {
-  std::vector<DiskOutput> outputs;  ///< before the spring folded
-  std::string broke;                ///< where and when one did; empty where none did
-};
+using DiskRun = Run<DiskOutput>;
 
 /// The same, but a spring that folds ends the solution only.
 DiskRun solve_disk_while_sound(const DiskProblem& problem, int points);
 
 /// Largest differences between two solutions, the finer one read at the points of the coarser one.
-struct DiskDifference {
-  double rho = 0, v = 0, p = 0, u_bar = 0, v_bar = 0, P_bar = 0;
-};
-DiskDifference compare(const DiskOutput& fine, const DiskOutput& coarse);
+Difference compare(const DiskOutput& fine, const DiskOutput& coarse);
 
 }  // namespace fsi::reference

@@ -5,25 +5,13 @@
 #include "common/io/atomic_file.hpp"
 #include "common/io/grid_writer.hpp"
 #include "common/io/hdf5.hpp"
+#include "reference/reference_main.hpp"
 
 namespace fsi::reference {
 
 namespace {
 
-constexpr double DiskDifference::*quantities[] = {&DiskDifference::rho,   &DiskDifference::v,
-                                                  &DiskDifference::p,     &DiskDifference::u_bar,
-                                                  &DiskDifference::v_bar, &DiskDifference::P_bar};
-
-void write_errors(io::Hdf5& group, const DiskDifference& error) {
-  group.write_attribute("estimated_error_rho", error.rho);
-  group.write_attribute("estimated_error_v", error.v);
-  group.write_attribute("estimated_error_p", error.p);
-  group.write_attribute("estimated_error_u_bar", error.u_bar);
-  group.write_attribute("estimated_error_v_bar", error.v_bar);
-  group.write_attribute("estimated_error_P_bar", error.P_bar);
-}
-
-void write_output(io::Hdf5 group, const DiskOutput& output, const DiskDifference& error) {
+void write_output(io::Hdf5 group, const DiskOutput& output, const Difference& error) {
   group.write_attribute("t", output.t);
   group.write_attribute("energy", output.totals.energy());
   group.write_attribute("kinetic_energy_solid", output.totals.kinetic_solid);
@@ -51,32 +39,30 @@ void write_output(io::Hdf5 group, const DiskOutput& output, const DiskDifference
 
 }  // namespace
 
-DiskDifference largest(const std::vector<DiskDifference>& all) {
-  DiskDifference result;
+Difference largest(const std::vector<Difference>& all) {
+  Difference result;
   for (const auto& one : all) {
-    for (const auto quantity : quantities) result.*quantity = std::max(result.*quantity, one.*quantity);
+    for (const auto quantity : differences) result.*quantity = std::max(result.*quantity, one.*quantity);
   }
   return result;
 }
 
-std::vector<DiskDifference> estimated_errors(const std::vector<DiskOutput>& fine,
-                                             const std::vector<DiskOutput>& half) {
-  std::vector<DiskDifference> errors;
+std::vector<Difference> estimated_errors(const std::vector<DiskOutput>& fine,
+                                         const std::vector<DiskOutput>& half) {
+  std::vector<Difference> errors;
   for (std::size_t k = 0; k < std::min(fine.size(), half.size()); ++k) {
-    errors.push_back(compare(fine[k], half[k]));
-    for (const auto quantity : quantities) errors.back().*quantity /= 3;
+    errors.push_back(error_from(compare(fine[k], half[k])));
   }
   return errors;
 }
 
-void write_disk_table(const std::string& path, const DiskRun& run,
-                      const std::vector<DiskDifference>& errors) {
+void write_disk_table(const std::string& path, const DiskRun& run, const std::vector<Difference>& errors) {
   io::Hdf5 file = io::Hdf5::create(io::aside(path));
   write_errors(file, largest(errors));
   if (!run.broke.empty()) file.write_attribute("broke", run.broke);
   for (std::size_t k = 0; k < run.outputs.size(); ++k) {
     const bool known = k < errors.size();
-    write_output(file.make_group(io::output_name(k)), run.outputs[k], known ? errors[k] : DiskDifference{});
+    write_output(file.make_group(io::output_name(k)), run.outputs[k], known ? errors[k] : Difference{});
   }
   file.close();
   io::rename_into_place(path);

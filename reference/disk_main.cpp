@@ -8,11 +8,10 @@
 #include <string>
 
 #include "common/case/case.hpp"
-#include "common/core/command_line.hpp"
-#include "common/core/failure.hpp"
 #include "common/io/atomic_file.hpp"
 #include "reference/disk_case.hpp"
 #include "reference/disk_file.hpp"
+#include "reference/reference_main.hpp"
 
 namespace fsi::reference {
 namespace {
@@ -31,39 +30,23 @@ void run(const std::string& case_path, const std::string& run_dir) {
   write_disk_table(run_dir + "/reference.h5", run, errors);
   if (!run.broke.empty())
     fmt::print(stderr, "reference_disk: warning: {}; no errors from then on\n", run.broke);
-  const DiskDifference error = largest(errors);
+  const Difference error = largest(errors);
   const DiskTotals& first = fine.front().totals;
   const DiskTotals& last = fine.back().totals;
   fmt::print(
-      "reference_disk: {} points per unit length; observed order {:.2f}; estimated errors rho {:.1e}, v "
-      "{:.1e}, p {:.1e}, u_bar {:.1e}, v_bar {:.1e}, P_bar {:.1e}; change of energy {:.1e} of {:.3e}, of "
-      "angular momentum {:.1e} of {:.3e}\n",
-      points, rate, error.rho, error.v, error.p, error.u_bar, error.v_bar, error.P_bar,
-      last.energy() - first.energy(), first.energy(), last.angular_momentum - first.angular_momentum,
-      first.angular_momentum);
-  if (rate < 1.5) {
-    fmt::print(stderr,
-               "reference_disk: warning: order {:.2f} instead of 2: a wave has steepened into a shock, where "
-               "the isentropic reference is wrong; turn the disk more gently or end earlier\n",
-               rate);
-  }
+      "reference_disk: {} points per unit length; observed order {:.2f}; estimated errors {}; change of "
+      "energy "
+      "{:.1e} of {:.3e}, of angular momentum {:.1e} of {:.3e}\n",
+      points, rate, words_of(error), last.energy() - first.energy(), first.energy(),
+      last.angular_momentum - first.angular_momentum, first.angular_momentum);
+  warn_of_shock("reference_disk", rate, "turn the disk more gently");
 }
 
 }  // namespace
 }  // namespace fsi::reference
 
 int main(int argc, char** argv) {
-  fsi::CommandLine line("Fine one-dimensional solution of a disk that turns in a gas");
-  std::string case_path;
-  std::string run_dir;
-  line.add_option("--case", case_path, "case file (YAML)").required();
-  line.add_option("--run-dir", run_dir, "folder of the results").required();
-  try {
-    if (!line.parse(argc, argv)) return 0;
-    fsi::reference::run(case_path, run_dir);
-    return static_cast<int>(fsi::ExitCode::done);
-  } catch (const fsi::Failure& failure) {
-    fmt::print(stderr, "reference_disk: {}\n", failure.what());
-    return static_cast<int>(failure.code());
-  }
+  return fsi::reference::run_reference(argc, argv, "reference_disk",
+                                       "Fine one-dimensional solution of a disk that turns in a gas",
+                                       fsi::reference::run);
 }

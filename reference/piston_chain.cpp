@@ -226,17 +226,7 @@ PistonOutput Chain<L>::output() const {
 PistonRun solve_piston_while_sound(const PistonProblem& problem, int points) {
   return std::visit(
       [&]<class L>(const L& law) {
-        PistonRun run;
-        try {
-          Chain<L> chain(problem, law, points);
-          for (const double t : problem.times) {
-            chain.run_to(t);
-            run.outputs.push_back(chain.output());
-          }
-        } catch (const NumbersBroke& broke) {
-          run.broke = broke.what();
-        }
-        return run;
+        return run_while_sound(problem.times, [&] { return Chain<L>(problem, law, points); });
       },
       law_named(problem.law, problem.lambda, problem.mu, problem.own));
 }
@@ -247,8 +237,8 @@ std::vector<PistonOutput> solve_piston(const PistonProblem& problem, int points)
   return std::move(run.outputs);
 }
 
-PistonDifference compare(const std::vector<PistonOutput>& fine, const std::vector<PistonOutput>& coarse) {
-  PistonDifference d;
+Difference compare(const std::vector<PistonOutput>& fine, const std::vector<PistonOutput>& coarse) {
+  Difference d;
   for (std::size_t k = 0; k < std::min(fine.size(), coarse.size()); ++k) {
     const exact::CubicTable gas(fine[k].x, {fine[k].rho, fine[k].v, fine[k].p});
     const exact::CubicTable solid(fine[k].x_bar, {fine[k].u, fine[k].v_bar, fine[k].P11, fine[k].P22});

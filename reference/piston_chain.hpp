@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "common/exact/riemann.hpp"
+#include "reference/chain.hpp"
 
 namespace fsi::reference {
 
@@ -44,20 +45,13 @@ struct PistonOutput {
 /// @throws UserMistake for an unknown law @throws NumbersBroke when a spring folds
 std::vector<PistonOutput> solve_piston(const PistonProblem& problem, int points);
 
-/// A solution as far as it goes.
-struct PistonRun {
-  std::vector<PistonOutput> outputs;  ///< before the spring folded
-  std::string broke;                  ///< where and when one did; empty where none did
-};
+using PistonRun = Run<PistonOutput>;
 
 /// The same, but a spring that folds ends the solution only.
 PistonRun solve_piston_while_sound(const PistonProblem& problem, int points);
 
-/// Largest differences between two solutions, the finer one read at the points of the coarser one.
-struct PistonDifference {
-  double rho = 0, v = 0, p = 0, u_bar = 0, v_bar = 0, P_bar = 0;
-};
-/// At the output times that both have.
-PistonDifference compare(const std::vector<PistonOutput>& fine, const std::vector<PistonOutput>& coarse);
+/// Largest differences between two solutions, the finer one read at the points of the coarser one, at the output times
+/// that both have.
+Difference compare(const std::vector<PistonOutput>& fine, const std::vector<PistonOutput>& coarse);
 
 }  // namespace fsi::reference

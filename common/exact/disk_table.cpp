@@ -44,19 +44,10 @@ Vec2 ray(double x, double y, double r) {
 
 }  // namespace
 
-DiskTable::DiskTable(const std::string& path) {
-  const io::Hdf5 file = io::Hdf5::open(path);
-  if (file.has_attribute("broke")) broke_ = file.text_attribute("broke");
-  for (const auto& name : file.names()) {
-    const io::Hdf5 output = file.group(name);
-    times_.push_back(output.number_attribute("t"));
-    gas_.push_back(gas_table(output.group("gas")));
-    solid_.push_back(solid_table(output.group("solid")));
-  }
-}
+DiskTable::DiskTable(const std::string& path) : TabulatedSolution(path, gas_table, solid_table) {}
 
 GasState DiskTable::gas(double x, double y, double t) const {
-  const CubicTable& table = gas_[index_of_time(times_, t)];
+  const CubicTable& table = gas_at(t);
   const double r = std::hypot(x, y);
   const auto values = table(std::clamp(r, table.front(), table.back()));
   const Vec2 e = ray(x, y, r);
@@ -64,7 +55,7 @@ GasState DiskTable::gas(double x, double y, double t) const {
 }
 
 SolidState DiskTable::solid(double x_bar, double y_bar, double t) const {
-  const CubicTable& table = solid_[index_of_time(times_, t)];
+  const CubicTable& table = solid_at(t);
   const double r = std::hypot(x_bar, y_bar);
   const auto values = table(std::min(r, table.back()));
   const Vec2 e = ray(x_bar, y_bar, r);

@@ -13,21 +13,13 @@ namespace fsi::exact {
 /// to Cartesian components. Cubic between the points of the table, continued through the centre as a smooth
 /// field: vectors odd in the radius, stress even. Off its ends (a point just inside the rim, gas beyond the
 /// reach of any wave) the state at the end holds. Known at output times only.
-class DiskTable final : public Solution {
+class DiskTable final : public TabulatedSolution {
  public:
   /// @throws OutputFailed when the file cannot be read
   explicit DiskTable(const std::string& path);
 
   GasState gas(double x, double y, double t) const override;
   SolidState solid(double x_bar, double y_bar, double t) const override;
-  bool only_at_output_times() const override { return true; }
-  std::string missing_at(double t) const override { return reason_beyond(times_, broke_, t); }
-  const std::vector<double>& times() const { return times_; }
-
- private:
-  std::vector<double> times_;
-  std::string broke_;  ///< why the run that made it ended early; empty where it did not
-  std::vector<CubicTable> gas_, solid_;
 };
 
 }  // namespace fsi::exact

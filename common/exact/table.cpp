@@ -53,16 +53,26 @@ CubicTable read_table(const io::Hdf5& group, const std::vector<std::string>& nam
 
 }  // namespace
 
-PistonTable::PistonTable(const std::string& path) {
+TabulatedSolution::TabulatedSolution(const std::string& path, const Reading& gas, const Reading& solid) {
   const io::Hdf5 file = io::Hdf5::open(path);
   if (file.has_attribute("broke")) broke_ = file.text_attribute("broke");
   for (const auto& name : file.names()) {
     const io::Hdf5 output = file.group(name);
     times_.push_back(output.number_attribute("t"));
-    gas_.push_back(read_table(output.group("gas"), {"x", "rho", "v", "p"}));
-    solid_.push_back(read_table(output.group("solid"), {"x_bar", "u", "v", "P11", "P22"}));
+    gas_.push_back(gas(output.group("gas")));
+    solid_.push_back(solid(output.group("solid")));
   }
 }
+
+PistonTable::PistonTable(const std::string& path)
+    : TabulatedSolution(
+          path,
+          [](const io::Hdf5& group) {
+            return read_table(group, {"x", "rho", "v", "p"});
+          },
+          [](const io::Hdf5& group) {
+            return read_table(group, {"x_bar", "u", "v", "P11", "P22"});
+          }) {}
 
 std::size_t index_of_time(const std::vector<double>& times, double t) {
   for (std::size_t k = 0; k < times.size(); ++k) {
@@ -79,12 +89,12 @@ std::string reason_beyond(const std::vector<double>& times, const std::string& b
 }
 
 GasState PistonTable::gas(double x, double /*y*/, double t) const {
-  const auto values = gas_[index_of_time(times_, t)](x);
+  const auto values = gas_at(t)(x);
   return {.rho = values[0], .v1 = values[1], .v2 = 0, .p = values[2]};
 }
 
 SolidState PistonTable::solid(double x_bar, double /*y_bar*/, double t) const {
-  const auto values = solid_[index_of_time(times_, t)](x_bar);
+  const auto values = solid_at(t)(x_bar);
   SolidState state;
   state.u[0] = values[0];
   state.v[0] = values[1];

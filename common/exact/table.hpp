@@ -1,10 +1,15 @@
 #pragma once
 /// A one-dimensional solution tabulated on fine points at output times, as `reference_piston` computes it.
 
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "common/exact/solution.hpp"
+
+namespace fsi::io {
+class Hdf5;
+}
 
 namespace fsi::exact {
 
@@ -32,23 +37,37 @@ std::size_t index_of_time(const std::vector<double>& times, double t);
 /// Why a table that was made to the time where its run `broke` says nothing of time t; empty where it does.
 std::string reason_beyond(const std::vector<double>& times, const std::string& broke, double t);
 
-/// The piston in uniaxial strain: motion along x only, the same for every y. Asked at a time that is not in
-/// the table it throws: the table is a yardstick at output times, not a source of boundary data.
-class PistonTable final : public Solution {
+/// What a run of a one-dimensional reference leaves: a table of gas and solid per output time. Asked at a time
+/// that is not in it it throws: it is a yardstick at output times, not a source of boundary data.
+class TabulatedSolution : public Solution {
+ public:
+  bool only_at_output_times() const override { return true; }
+  std::string missing_at(double t) const override { return reason_beyond(times_, broke_, t); }
+  const std::vector<double>& times() const { return times_; }
+
+ protected:
+  /// How a group of the file becomes a table.
+  using Reading = std::function<CubicTable(const io::Hdf5& group)>;
+  /// @throws OutputFailed when the file cannot be read
+  TabulatedSolution(const std::string& path, const Reading& gas, const Reading& solid);
+
+  const CubicTable& gas_at(double t) const { return gas_[index_of_time(times_, t)]; }
+  const CubicTable& solid_at(double t) const { return solid_[index_of_time(times_, t)]; }
+
+ private:
+  std::vector<double> times_;
+  std::string broke_;  ///< why the run that made it ended early; empty where it did not
+  std::vector<CubicTable> gas_, solid_;
+};
+
+/// The piston in uniaxial strain: motion along x only, the same for every y.
+class PistonTable final : public TabulatedSolution {
  public:
   /// @throws OutputFailed when the file cannot be read
   explicit PistonTable(const std::string& path);
 
   GasState gas(double x, double y, double t) const override;
   SolidState solid(double x_bar, double y_bar, double t) const override;
-  bool only_at_output_times() const override { return true; }
-  std::string missing_at(double t) const override { return reason_beyond(times_, broke_, t); }
-  const std::vector<double>& times() const { return times_; }
-
- private:
-  std::vector<double> times_;
-  std::string broke_;  ///< why the run that made it ended early; empty where it did not
-  std::vector<CubicTable> gas_, solid_;
 };
 
 }  // namespace fsi::exact

@@ -104,7 +104,7 @@ TEST(PistonChain, LawsMeetLikeTheSquareOfTheAmplitude) {
 TEST(PistonChain, DifferenceOfTwoRunsFallsFourfoldWhenBothAreRefined) {
   const auto problem = pushed("saint_venant_kirchhoff", 0.03);
   const auto a = solve_piston(problem, 100), b = solve_piston(problem, 200), c = solve_piston(problem, 400);
-  const PistonDifference coarse = compare(b, a), fine = compare(c, b);
+  const Difference coarse = compare(b, a), fine = compare(c, b);
   EXPECT_NEAR(coarse.u_bar / fine.u_bar, 4, 0.3);
   EXPECT_NEAR(coarse.P_bar / fine.P_bar, 4, 0.6);
   EXPECT_NEAR(coarse.p / fine.p, 4, 0.6);

@@ -131,7 +131,7 @@ TEST(Eq48RotatingDisk, TheGasKeepsMassMomentumAndEnergyInSpace) {
 
 TEST(Eq49RotatingDisk, TheSolidKeepsItsMomentumInCartesianComponentsAtEveryAngle) {
   const std::string path = testing::TempDir() + "fsi_disk_eq49.h5";
-  write_disk_table(path, {.outputs = around_t(), .broke = ""}, std::vector<DiskDifference>(3));
+  write_disk_table(path, {.outputs = around_t(), .broke = ""}, std::vector<Difference>(3));
   const exact::DiskTable table(path);
   std::filesystem::remove(path);
   const double step = 2e-3;

@@ -31,7 +31,7 @@ class DiskFile : public testing::Test {
 
   std::filesystem::path directory;
   std::vector<DiskOutput> fine;
-  std::vector<DiskDifference> errors;
+  std::vector<Difference> errors;
 };
 
 TEST_F(DiskFile, StartsAsTheGivenRotationOfAnUnstrainedDisk) {
@@ -108,7 +108,7 @@ TEST_F(DiskFile, TellsItsErrorsAndWhatIsConserved) {
 
 TEST_F(DiskFile, EstimatedErrorIsTheDistanceToAMuchFinerRun) {
   const auto exact = solve_disk(papers_disk(1, 0.3, {0, 0.4}), 1600);
-  const DiskDifference error = compare(exact[1], fine[1]);
+  const Difference error = compare(exact[1], fine[1]);
   EXPECT_NEAR(errors[1].u_bar / error.u_bar, 1, 0.15);  // exact in the limit of many points
   EXPECT_NEAR(errors[1].P_bar / error.P_bar, 1, 0.3);
 }
