@@ -8,7 +8,8 @@ import time
 from pathlib import Path
 
 from amp_fsi.results import Run
-from fsi_launch import paths, processes
+from fsi_launch import paths
+from fsi_launch.living import processes
 from fsi_launch.failure import EXPECTATION_MISSED
 
 POLL = 0.05     # [s] between two looks

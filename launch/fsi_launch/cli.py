@@ -4,7 +4,8 @@ import argparse
 import os
 import sys
 
-from fsi_launch import interrupts, paths
+from fsi_launch import paths
+from fsi_launch.living import interrupts
 from fsi_launch.failure import DONE, Failure, INTERRUPTED, OUTPUT_FAILED, TERMINATED, UserMistake
 
 REQUESTS = ("pause", "resume", "checkpoint", "stop")
@@ -54,27 +55,27 @@ def _gallery(options):
 
 
 def _converge(options):
-    from fsi_launch import converge
+    from fsi_launch.studies import converge
     return converge.main(options)
 
 
 def _study(options):
-    from fsi_launch import study
+    from fsi_launch.studies import study
     return study.main(options)
 
 
 def _test(options):
-    from fsi_launch import testing
+    from fsi_launch.trials import testing
     return testing.main(options)
 
 
 def _bench(options):
-    from fsi_launch import bench
+    from fsi_launch.trials import bench
     return bench.main(options)
 
 
 def _faults(options):
-    from fsi_launch import faults
+    from fsi_launch.trials import faults
     return faults.main(options)
 
 

@@ -10,11 +10,13 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from fsi_launch import case as cases
-from fsi_launch import interrupts, paths, probes, registry, restart, summary, verdict
+from fsi_launch import paths
+from fsi_launch.living import interrupts, registry
+from fsi_launch.results import probes, restart, summary, verdict
 from fsi_launch.failure import (DONE, EXPECTATION_MISSED, Failure, NUMBERS_BROKE, OUTPUT_FAILED, USER_MISTAKE, UserMistake)
-from fsi_launch.progress import Progress
-from fsi_launch.supervise import Outcome, Program, Supervisor
-from fsi_launch.watch import Monitor
+from fsi_launch.living.progress import Progress
+from fsi_launch.living.supervise import Outcome, Program, Supervisor
+from fsi_launch.living.watch import Monitor
 
 
 FRAMES = 60     # of a movie

@@ -21,7 +21,7 @@ LONG = ("elastic_piston", "--set", "grid.factor=2", "--set", "time.dt=1e-7", "--
         "--set", "expect={}")
 
 sys.path.insert(0, str(ROOT / "launch"))
-from fsi_launch import processes  # noqa: E402
+from fsi_launch.living import processes  # noqa: E402
 
 
 def until(condition):
@@ -36,7 +36,7 @@ def let_pass(seconds):
 
 
 # A launcher that waits for programs to end by themselves instead of ending them after a while.
-PATIENT = "from fsi_launch import supervise\nsupervise.GRACE = supervise.AFTER_STOP = supervise.STOP_GRACE = 1e6\n"
+PATIENT = "from fsi_launch.living import supervise\nsupervise.GRACE = supervise.AFTER_STOP = supervise.STOP_GRACE = 1e6\n"
 
 
 class Launched:

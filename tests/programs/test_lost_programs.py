@@ -70,7 +70,7 @@ class LostPrograms(EndToEnd):
 class Joining(EndToEnd):
     """A program of somebody else's that does not join the run. Nobody but what is tested has a limit of time."""
 
-    ENDLESS = "from fsi_launch import supervise\nsupervise.GRACE = supervise.LAST_GRACE = 1e6\n"
+    ENDLESS = "from fsi_launch.living import supervise\nsupervise.GRACE = supervise.LAST_GRACE = 1e6\n"
 
     def run_with(self, program, *options, code=4):
         """The summary of a run whose solid is this script."""

@@ -30,7 +30,7 @@ class Waits(unittest.TestCase):
 
     def test_clocks_have_their_homes(self):
         self.assertEqual(self.found("tests/programs/running.py", "time.sleep(1)"), [])
-        self.assertEqual(self.found("launch/fsi_launch/processes.py", "time.sleep(1)"), [])
+        self.assertEqual(self.found("launch/fsi_launch/living/processes.py", "time.sleep(1)"), [])
 
 
 if __name__ == "__main__":

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from fsi_launch.failure import DONE, EXPECTATION_MISSED, UserMistake
 from fsi_launch.gallery import problems
-from fsi_launch.summary import aligned
+from fsi_launch.results.summary import aligned
 
 HEADING = ("quantity", "computed", "known", "allowed", "verdict")
 

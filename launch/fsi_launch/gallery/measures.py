@@ -4,7 +4,7 @@ import json
 
 import numpy as np
 
-from fsi_launch import summary
+from fsi_launch.results import summary
 from fsi_launch.failure import EXPECTATION_MISSED, Failure
 from fsi_launch.plot import data
 

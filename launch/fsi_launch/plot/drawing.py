@@ -5,7 +5,7 @@ import os
 import sys
 import traceback
 
-from fsi_launch import interrupts
+from fsi_launch.living import interrupts
 from fsi_launch.plot import style
 
 MOST_PROCESSES = 8      # each holds a picture in memory

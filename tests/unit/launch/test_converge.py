@@ -5,7 +5,7 @@ import unittest
 
 import launcher  # noqa: F401  the path of the modules
 
-from fsi_launch import converge
+from fsi_launch.studies import converge
 
 
 class Rates(unittest.TestCase):

@@ -6,7 +6,7 @@ import unittest
 
 import launcher  # noqa: F401  the path of the modules
 
-from fsi_launch import progress
+from fsi_launch.living import progress
 
 
 class Lines(unittest.TestCase):

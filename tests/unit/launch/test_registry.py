@@ -9,7 +9,7 @@ from unittest import mock
 
 from launcher import InScratch
 
-from fsi_launch import registry
+from fsi_launch.living import registry
 from fsi_launch.failure import Failure
 
 

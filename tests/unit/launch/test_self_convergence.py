@@ -7,7 +7,7 @@ from pathlib import Path
 
 import launcher  # noqa: F401  the path of the modules
 
-from fsi_launch import self_convergence
+from fsi_launch.studies import self_convergence
 
 COLUMNS = ("t [time]", "centre1 [length]", "centre2 [length]", "velocity1 [length/time]", "velocity2 [length/time]", "angle [rad]")
 

@@ -7,7 +7,7 @@ import zlib
 
 from launcher import InScratch
 
-from fsi_launch import restart
+from fsi_launch.results import restart
 
 
 class Sets(InScratch):

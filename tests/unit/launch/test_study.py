@@ -6,7 +6,7 @@ from pathlib import Path
 
 import launcher
 
-from fsi_launch import study
+from fsi_launch.studies import study
 from fsi_launch.failure import UserMistake
 
 

@@ -6,9 +6,9 @@ import unittest
 
 from launcher import InScratch
 
-from fsi_launch import probes, summary, verdict
+from fsi_launch.results import probes, summary, verdict
 from fsi_launch.case import Case
-from fsi_launch.supervise import Ending, Outcome
+from fsi_launch.living.supervise import Ending, Outcome
 
 
 def piston():

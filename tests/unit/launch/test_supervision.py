@@ -10,8 +10,8 @@ from unittest import mock
 
 from launcher import InScratch
 
-from fsi_launch import processes, supervise
-from fsi_launch.verdict import root_cause
+from fsi_launch.living import processes, supervise
+from fsi_launch.results.verdict import root_cause
 
 FOR_EVER = 1e6      # [s]
 # Programs; those that only end by a signal say when they are ready for it.

@@ -16,9 +16,10 @@ import time
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
-from fsi_launch import paths, restart
+from fsi_launch import paths
+from fsi_launch.results import restart
 from fsi_launch.failure import DONE, EXPECTATION_MISSED, Failure, INTERNAL_ERROR
-from fsi_launch.processes import programs_of, until
+from fsi_launch.living.processes import programs_of, until
 
 PEER_TIMEOUT = 4.0      # [s] of the runs: a stopped program is lost after it
 STOP_FOR = 1.0          # [s] and goes on as if nothing had been

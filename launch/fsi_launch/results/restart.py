@@ -6,7 +6,7 @@ import zlib
 from dataclasses import dataclass
 from pathlib import Path
 
-from fsi_launch import processes, registry
+from fsi_launch.living import processes, registry
 from fsi_launch.failure import Failure, OUTPUT_FAILED, UserMistake
 
 CHUNK = 1 << 20

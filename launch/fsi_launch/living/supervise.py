@@ -15,7 +15,7 @@ import subprocess
 import time
 from dataclasses import dataclass, field
 
-from fsi_launch import interrupts, processes
+from fsi_launch.living import interrupts, processes
 
 GRACE = 4.0         # [s] from a program's failure to SIGTERM for the others: they should have ended by then
 NOT_BEGUN = 0.5     # [s] the same before everybody has joined

@@ -17,7 +17,7 @@ from pathlib import Path
 from fsi_launch import case as cases, paths
 from fsi_launch.failure import DONE, EXPECTATION_MISSED, UserMistake
 from fsi_launch.run import needed
-from fsi_launch.summary import aligned, value_at
+from fsi_launch.results.summary import aligned, value_at
 
 LOOK = 0.05             # [s] between two looks at the runs that are going on
 STATISTICS = {"last": lambda values: values[-1], "min": min, "max": max}

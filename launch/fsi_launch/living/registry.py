@@ -8,7 +8,7 @@ import socket
 import stat
 from pathlib import Path
 
-from fsi_launch import processes
+from fsi_launch.living import processes
 from fsi_launch.failure import Failure, OUTPUT_FAILED
 
 KEY_BYTES = 32

@@ -9,7 +9,8 @@ import sys
 import time
 from pathlib import Path
 
-from fsi_launch import case as cases, self_convergence
+from fsi_launch import case as cases
+from fsi_launch.studies import self_convergence
 from fsi_launch.failure import DONE, EXPECTATION_MISSED, Failure, UserMistake
 from fsi_launch.run import Request, run
 

@@ -1,0 +1,1 @@
+"""A run while it lives: its processes, how they end, who hears of it."""

@@ -1,0 +1,1 @@
+"""What a run leaves: summary, verdict, probes, checkpoints to go on from."""

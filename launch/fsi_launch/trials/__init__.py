@@ -1,0 +1,1 @@
+"""The software itself: its tests, its speed, its faults."""
