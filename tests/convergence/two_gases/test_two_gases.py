@@ -52,6 +52,10 @@ class TwoGases(unittest.TestCase):
             table = self.converge("piston_between_gases", f"parameters.density={density}")
             self.assert_second_order(table, {"rho": 2.5e-3, "v1": 2e-3})
 
+    def test_stiff_piston_takes_substeps_between_its_two_gases(self):
+        table = self.converge("piston_between_gases", "time.multirate=true", "parameters.c_p=8", "parameters.density=0.5")
+        self.assert_second_order(table, {"rho": 2e-3, "v1": 1.5e-3})
+
     def test_plate_is_second_order_for_any_mass_and_for_none(self):
         for mass in ("0", "1e-3", "0.1", "1", "1e3"):
             with self.subTest(mass=mass):
