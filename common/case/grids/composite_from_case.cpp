@@ -41,18 +41,19 @@ struct Trouble {
 std::optional<Trouble> trouble_behind(const BodyFittedSpec& spec, ConstFieldView x) {
   auto corner = grid::crowded_corner(x, spec.side);
   if (!corner) corner = grid::most_crowded_bend(x, spec.side, spec.curve.corners);
+  const grid::SlantedLine line = grid::most_slanted_line(x, spec.side);
+  const double upright = grid::largest_slant / std::max(line.slant, grid::largest_slant);
   if (corner && corner->part < 1) {
     return Trouble{
         fmt::format("its curve turns too sharply at ({:.4g}, {:.4g}) for the distance of its lines",
                     corner->x[0], corner->x[1]),
-        corner->part};
+        std::min(corner->part, upright)};
   }
-  const grid::SlantedLine line = grid::most_slanted_line(x, spec.side);
-  if (line.slant <= grid::largest_slant) return std::nullopt;
+  if (upright == 1) return std::nullopt;
   return Trouble{fmt::format("at ({:.4g}, {:.4g}) its curve is too flat on the wall for the distance of its "
                              "lines, {:.2g} times that of its points",
                              line.x[0], line.x[1], line.slant),
-                 grid::largest_slant / line.slant};
+                 upright};
 }
 
 bool holds(const BodyFittedSpec& spec) {
@@ -63,16 +64,20 @@ bool holds(const BodyFittedSpec& spec) {
   }
 }
 
-/// The first distance of lines from an estimate on, with lines to the same depth, that holds.
-double first_that_holds(const BodyFittedSpec& spec, double estimate) {
+/// The same grid with the first distance of lines from an estimate on that holds, as deep as it was if that
+/// does, less deep if not.
+BodyFittedSpec first_that_holds(const BodyFittedSpec& spec, double estimate) {
   BodyFittedSpec tried = spec;
   tried.spacing = rounded_down(estimate);
   constexpr int most_trials = 12;
   for (int k = 0; k < most_trials; ++k, tried.spacing = rounded_down(0.93 * tried.spacing)) {
-    tried.lines = lines_to(depth_of(spec), tried.spacing, spec.growth);
-    if (holds(tried)) return tried.spacing;
+    for (const double share : {1.0, 0.7, 0.5}) {
+      tried.lines = lines_to(share * depth_of(spec), tried.spacing, spec.growth);
+      if (holds(tried)) return tried;
+    }
   }
-  return rounded_down(estimate);
+  tried.spacing = rounded_down(estimate);
+  return tried;
 }
 
 constexpr double margin = 0.95;  // of an estimate: shares are not quite in proportion to distances
@@ -80,10 +85,10 @@ constexpr double margin = 0.95;  // of an estimate: shares are not quite in prop
 void check_behind(const BodyFittedSpec& spec, ConstFieldView x) {
   const auto trouble = trouble_behind(spec, x);
   if (!trouble) return;
-  const double spacing = first_that_holds(spec, margin * trouble->part * spec.spacing);
+  const BodyFittedSpec sound = first_that_holds(spec, margin * trouble->part * spec.spacing);
   throw UserMistake(
       fmt::format("grid \"{}\": {}; write `spacing: {:.2g}` for it, with `lines: {}`, or leave both out",
-                  spec.name, trouble->what, spacing, lines_to(depth_of(spec), spacing, spec.growth)));
+                  spec.name, trouble->what, sound.spacing, sound.lines));
 }
 
 /// An end of a grid lies on a wall, as far as the grid is deep.
@@ -137,19 +142,24 @@ int lines_to(double depth, double spacing, double growth) {
   return lines;
 }
 
-double sound_spacing(const BodyFittedSpec& spec) {
+BodyFittedSpec with_sound_lines(const BodyFittedSpec& spec) {
   constexpr double any = std::numeric_limits<double>::infinity();
-  if (spec.map) return any;
-  constexpr double close = 0.05;  // of the points' distance: such lines do not meet
+  if (spec.map) return spec;
+  constexpr double close = 0.05;  // of the points' distance: such lines hardly ever meet
   BodyFittedSpec thin = spec;
   thin.spacing = close * spec.curve.spacing;
   thin.lines = 5;
-  const grid::MovingGrid grid(grid_of(thin), 0);
-  const auto bend = grid::most_crowded_bend(grid.x(), spec.side, spec.curve.corners);
-  const double slant = grid::most_slanted_line(grid.x(), spec.side).slant;
-  const double part = std::min(bend ? bend->part : any, slant > 0 ? grid::largest_slant / slant : any);
+  double part = any;
+  try {
+    const grid::MovingGrid grid(grid_of(thin), 0);
+    const auto bend = grid::most_crowded_bend(grid.x(), spec.side, spec.curve.corners);
+    const double slant = grid::most_slanted_line(grid.x(), spec.side).slant;
+    part = std::min(bend ? bend->part : any, slant > 0 ? grid::largest_slant / slant : any);
+  } catch (const Failure&) {  // another check says why no grid can be marched from this curve
+    return spec;
+  }
   const double estimate = margin * part * thin.spacing;
-  return estimate < spec.spacing ? first_that_holds(spec, estimate) : estimate;
+  return estimate < spec.spacing ? first_that_holds(spec, estimate) : spec;
 }
 
 grid::CartesianGrid background_of(const GridSpec& spec) {

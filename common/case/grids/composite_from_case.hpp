@@ -24,10 +24,10 @@ double depth_of(int lines, double growth);
 double depth_of(const BodyFittedSpec& spec);
 /// Lines, at least five, that are so deep.
 int lines_to(double depth, double spacing, double growth);
-/// A distance of lines that the bends of a curve hold (grid::most_crowded_bend), and its flat ends on walls
-/// (grid::most_slanted_line), with lines to the depth of `spec`: nearly the largest one, and tried where it is
-/// less than that of `spec`; infinite where there is nothing like that.
-double sound_spacing(const BodyFittedSpec& spec);
+/// A grid with lines so close, and as many more as keep its depth where they do not fold, that the bends of its
+/// curve hold them (grid::most_crowded_bend), and its flat ends on walls (grid::most_slanted_line): tried. The
+/// same grid where it holds already, or nothing is known of it.
+BodyFittedSpec with_sound_lines(const BodyFittedSpec& spec);
 
 /// The grids of all curves at t = 0, with the room they leave each other.
 /// @throws NumbersBroke for folds

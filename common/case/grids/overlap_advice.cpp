@@ -233,6 +233,19 @@ Advice advice_for_solid(const OverlapCheck& check, const Node& shape) {
   return advice;
 }
 
+/// Lines that are too far apart for a bend, so that they fold before anything else is seen of them.
+std::optional<Advice> closer_lines(const OverlapCheck& check, const Node& list) {
+  for (std::size_t k = 0; k < check.body_fitted.size(); ++k) {
+    const BodyFittedSpec& spec = check.body_fitted[k];
+    const BodyFittedSpec sound = with_sound_lines(spec);
+    if (sound.spacing >= spec.spacing) continue;
+    return Advice{list.items[k], fmt::format("{}.body_fitted[{}]", check.path, k),
+                  fmt::format("write `spacing: {:.2g}` for grid `{}`, with `lines: {}`, or leave both out",
+                              sound.spacing, spec.name, sound.lines)};
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 Advice advice_for(const OverlapCheck& check) {
@@ -240,6 +253,7 @@ Advice advice_for(const OverlapCheck& check) {
   const Node& list = *check.owner.find("body_fitted");
   const std::string path = check.path + ".body_fitted";
   if (const auto touching = almost_touching(check, list)) return *touching;
+  if (const auto closer = closer_lines(check, list)) return *closer;
   const auto to_other = too_near(check, list), to_side = too_near_to_side(check, list);
   if (to_side && (!to_other || to_side->missing > to_other->missing)) return *to_side;
   if (to_other) return *to_other;
