@@ -92,7 +92,34 @@ void HyperbolicMarch::march(std::span<const double> curve, FieldView x, double t
     for (int k = 0; k < steps; ++k) step(x, row_of(line + (k > 0 ? 1 : 0)), row_of(line + 1), d / steps);
   }
   fill_ghosts(x);
-  check_cells(x, grid_.name, t);
+  try {
+    check_cells(x, grid_.name, t);
+  } catch (const NumbersBroke& folded) {
+    throw NumbersBroke(folded.what() + flat_on_wall(x));
+  }
+}
+
+/// Where the curve has come down to a wall on which it ends, so that lines between them have no room; "" where
+/// it has not.
+std::string HyperbolicMarch::flat_on_wall(ConstFieldView x) const {
+  for (std::size_t end = 0; end < 2; ++end) {
+    if (closed() || !grid_.walls[end]) continue;
+    const auto at = [&](int k) { return point(x, end == 0 ? k : grid_.points - 1 - k, row_of(0)); };
+    const Vec2 across((*grid_.walls[end])[1], -(*grid_.walls[end])[0]);
+    double lowest = 0.1;  // height over way
+    Vec2 there = at(0);
+    for (int k = 1; k < grid_.points / 2; ++k) {
+      const Vec2 way = at(k) - at(0);
+      const double height = std::abs(across.dot(way)) / way.norm();
+      if (height < lowest) lowest = height, there = at(k);
+    }
+    if (there == at(0)) continue;
+    return fmt::format(
+        ": at ({:.4g}, {:.4g}) the curve has come down to the wall it stands on; let the body be stiffer, or "
+        "the run end before",
+        there[0], there[1]);
+  }
+  return "";
 }
 
 /// Mean distance of the points along row j.
