@@ -20,7 +20,7 @@ namespace fsi::coupler {
 
 struct CouplerOptions {
   TimeSchedule::Options time;
-  double start = 0;        ///< time of the first exchange
+  double start = 0;        ///< time of the first exchange [time]
   bool multirate = false;  ///< solids may take substeps inside the step of the gas
   int robin_order = 2;     ///< extrapolation of the Robin data in time: 1 linear, 2 quadratic
   Combination combination;

@@ -14,7 +14,7 @@ namespace fsi::coupler {
 /// Largest step one program can take.
 struct Bid {
   std::string from;          ///< participant's name
-  double dt = 0;             ///< safety factor included; infinite: no limit
+  double dt = 0;             ///< safety factor included; infinite: no limit [time]
   std::string reason;        ///< what limits it, for people
   bool may_substep = false;  ///< a solid under multirate: it can take substeps inside a larger step
 };

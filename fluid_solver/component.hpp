@@ -34,18 +34,18 @@ struct InterfaceValues {
 
 /// Largest of a rate over the grid, and where.
 struct FastestPoint {
-  double rate = 0;
+  double rate = 0;  ///< [1/time]
   int i = 0, j = 0;
 };
 
 /// Counted since the start.
 struct Counters {
-  double first_order = 0;                 ///< points advanced with first-order states
-  double first_order_outside_shocks = 0;  ///< of these, those without a shock near them
-  double positive_fluxes = 0;             ///< points advanced with positive first-order fluxes
-  double positive_values = 0;             ///< interpolated points that got their smallest donor's value
-  double floors = 0;                      ///< points whose pressure was lifted to the floor
-  double steps = 0;
+  double first_order = 0;                 ///< points advanced with first-order states [-]
+  double first_order_outside_shocks = 0;  ///< of these, those without a shock near them [-]
+  double positive_fluxes = 0;             ///< points advanced with positive first-order fluxes [-]
+  double positive_values = 0;             ///< interpolated points that got their smallest donor's value [-]
+  double floors = 0;                      ///< points whose pressure was lifted to the floor [-]
+  double steps = 0;                       ///< [-]
 };
 
 class Component {

@@ -10,10 +10,10 @@ namespace fsi::fluid {
 
 /// Primitive state of the gas at a point.
 struct State {
-  double rho = 0;  ///< density
-  double v1 = 0;   ///< velocity along x
-  double v2 = 0;   ///< velocity along y
-  double p = 0;    ///< pressure
+  double rho = 0;  ///< density [mass/volume]
+  double v1 = 0;   ///< velocity along x [velocity]
+  double v2 = 0;   ///< velocity along y [velocity]
+  double p = 0;    ///< pressure [pressure]
 };
 
 /// State as a function of position and time: initial data, inflow, exact solutions.

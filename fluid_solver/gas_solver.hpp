@@ -24,7 +24,7 @@ namespace fsi::fluid {
 
 /// Largest stable step, safety factor included, and what limits it.
 struct TimeStep {
-  double dt = 0;
+  double dt = 0;       ///< [time]
   std::string reason;  ///< for people: which grid, point and position
 };
 
@@ -40,13 +40,14 @@ struct GasInterface {
 
 /// Totals over the body of gas: sums over the control volumes, those of boundary points cut at the boundary.
 struct Totals {
+  /// [mass/depth], [momentum/depth] twice, [energy/depth], [momentum*length/depth]
   double mass = 0, momentum1 = 0, momentum2 = 0, energy = 0, angular_momentum = 0;
 };
 
 /// How well the numbers are.
 struct Health {
-  double min_rho = 0, min_p = 0;
-  double min_cell_quality = 1;                   ///< of the grids that move, grid::cell_quality
+  double min_rho = 0, min_p = 0;                 ///< [mass/volume], [pressure]
+  double min_cell_quality = 1;                   ///< of the grids that move, grid::cell_quality [-]
   std::uint64_t first_order_fallbacks = 0;       ///< points advanced with first-order states, since the start
   std::uint64_t first_order_outside_shocks = 0;  ///< of these, those without a shock near them
   std::uint64_t positive_fluxes = 0;  ///< points advanced with positive first-order fluxes, since the start
@@ -56,7 +57,7 @@ struct Health {
 
 /// Largest errors over all grid points; T = p / rho.
 struct GasErrors {
-  double rho = 0, v1 = 0, v2 = 0, T = 0;
+  double rho = 0, v1 = 0, v2 = 0, T = 0;  ///< [mass/volume], [velocity], [velocity], [pressure*volume/mass]
 };
 
 /// One component grid and what holds on its sides, in the order left, right, bottom, top.

@@ -16,7 +16,7 @@ namespace fsi::monitor {
 class Series {
  public:
   struct Point {
-    double at = 0, value = 0;
+    double at = 0, value = 0;  ///< [s], [unit of the quantity]
   };
   static constexpr std::size_t capacity = 600;
 

@@ -20,13 +20,13 @@ enum class Process { unknown, lives, stopped, gone };
 
 /// What a program does now, over the last seconds.
 struct Rates {
-  double steps_per_s = 0, messages_per_s = 0, bytes_per_s = 0;
+  double steps_per_s = 0, messages_per_s = 0, bytes_per_s = 0;  ///< [1/s], [1/s], [byte/s]
   std::optional<double> computing;  ///< share of the time it computes instead of waiting
 };
 
 /// What comes in at one interface now.
 struct TrafficRates {
-  double messages_per_s = 0, bytes_per_s = 0;
+  double messages_per_s = 0, bytes_per_s = 0;  ///< [1/s], [byte/s]
 };
 
 /// Latest state of a run. Times are seconds of the monitor's own clock.
@@ -78,7 +78,7 @@ class RunState {
 
  private:
   struct Moment {
-    double now = 0, t = 0, compute_s = 0, wait_s = 0;
+    double now = 0, t = 0, compute_s = 0, wait_s = 0;  ///< [s], [time], [s], [s]
     std::uint64_t step = 0, messages = 0, bytes = 0;
     struct Count {
       std::uint64_t messages = 0, bytes = 0;

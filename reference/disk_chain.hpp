@@ -22,12 +22,12 @@ namespace fsi::reference {
 /// What the rotating disk is. The disk has radius 1. Smooth flow: the gas keeps its entropy.
 struct DiskProblem {
   std::string law = "saint_venant_kirchhoff";
-  double rho_bar = 1, lambda = 1, mu = 1;    ///< of the solid
+  double rho_bar = 1, lambda = 1, mu = 1;    ///< of the solid [mass/volume], [pressure], [pressure]
   std::map<std::string, double> own;         ///< numbers of the law besides lambda and mu
-  double gamma = 1.4, rho_0 = 1.4, p_0 = 1;  ///< of the gas at rest, t = 0
-  double p_e = 1;                            ///< pressure that leaves the solid without stress
+  double gamma = 1.4, rho_0 = 1.4, p_0 = 1;  ///< of the gas at rest, t = 0 [-], [mass/volume], [pressure]
+  double p_e = 1;                            ///< pressure that leaves the solid without stress [pressure]
   bool load_on_reference = false;            ///< the gas presses on the rim at rest: its area and its normal
-  double b = 0;                              ///< radius of a rigid wall; 0: gas without end
+  double b = 0;                              ///< radius of a rigid wall; 0: gas without end [length]
   std::function<double(double r_bar)> v_r, v_theta;  ///< initial velocity of the solid
   std::vector<double> times;                         ///< of the outputs, increasing
 };
@@ -39,14 +39,14 @@ double angular_velocity(double omega_0, double r_bar);
 /// Conserved in sum, of the whole disk and gas per unit thickness. The energy of the gas counts from its rest
 /// and holds the work of p_e. Loads on the reference configuration keep neither.
 struct DiskTotals {
-  double kinetic_solid = 0, kinetic_gas = 0, strain = 0, gas = 0;
-  double angular_momentum = 0;  ///< constant for an objective law
+  double kinetic_solid = 0, kinetic_gas = 0, strain = 0, gas = 0;  ///< [energy/depth]
+  double angular_momentum = 0;  ///< constant for an objective law [momentum*length/depth]
   double energy() const { return kinetic_solid + kinetic_gas + strain + gas; }
 };
 
 /// The solution at one output time, at the masses of the chain.
 struct DiskOutput {
-  double t = 0;
+  double t = 0;                            ///< [time]
   std::vector<double> r_bar;               ///< reference radius of the solid rings
   std::vector<double> u1, u2, v1, v2;      ///< displacement and velocity, along and across the reference ray
   std::vector<double> P11, P12, P21, P22;  ///< nominal stress in the same axes, Rbar P Rbar^T

@@ -43,7 +43,7 @@ using Limiter = SolidLimiter;
 
 /// Scheme of the solid. All dissipation is off unless asked for.
 struct SolidOptions {
-  double rho = 1;                   ///< density of the reference configuration
+  double rho = 1;                   ///< density of the reference configuration [mass/volume]
   Limiter limiter = Limiter::none;  ///< of the slopes of v and P, and of the ghost extrapolation
   Beta tangential_stress = {};      ///< beta^P of paper eq. (39)
   Beta displacement = {};           ///< beta^u of paper eq. (40)

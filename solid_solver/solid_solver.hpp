@@ -32,15 +32,17 @@ namespace fsi::solid {
 
 /// Largest time step the solid can take, and why.
 struct TimeStep {
-  double dt = 0;       ///< safety factor included
+  double dt = 0;       ///< safety factor included [time]
   std::string reason;  ///< what limits it, for people
 };
 
 /// How well the numbers are, over all points at the last step.
 struct Health {
-  double min_det_F = 1;
-  double min_phi_s = 0;  ///< smallest s-wave eigenvalue of the acoustic matrices, times |grad r|^2
-  double settled = 0;    ///< ghost points of all steps that took the acoustic matrix of the body beside them
+  double min_det_F = 1;  ///< [-]
+  /// Smallest s-wave eigenvalue of the acoustic matrices, times |grad r|^2 [pressure/length^2]
+  double min_phi_s = 0;
+  /// Ghost points of all steps that took the acoustic matrix of the body beside them [-]
+  double settled = 0;
 };
 
 template <Law L>

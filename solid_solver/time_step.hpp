@@ -23,8 +23,9 @@ double largest_time_step(const TimeSteppingEigenvalue& lambda);
 
 /// Rates at which upwinding acts [1/time].
 struct UpwindRates {
-  double velocity = 0;  ///< sum over directions of c_p |grad r|
-  double stress = 0;  ///< largest eigenvalue of sum over directions of K Z^-1 n^T |grad r|, or a bound of it
+  double velocity = 0;  ///< sum over directions of c_p |grad r| [1/time]
+  /// Largest eigenvalue of sum over directions of K Z^-1 n^T |grad r|, or a bound of it [1/time]
+  double stress = 0;
 };
 
 /// The dt at which a sawtooth in both directions reaches the amplification -1. There all first differences

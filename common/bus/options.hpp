@@ -28,7 +28,7 @@ struct BusOptions {
   /// A living program may compute this long for one step, or twenty times as long as for its longest one so
   /// far if that is more; then it counts as stuck [s]. What counts is the processor time of its first thread,
   /// so a busy machine changes nothing; time on the clock must be ten times as long.
-  double step_timeout_s = 120;
+  double step_timeout_s = 120;  ///< [s]
   /// Called at least every 100 ms while waiting; ends the wait by throwing (`fsi::throw_if_interrupted`
   /// fits). May be empty.
   std::function<void()> throw_if_interrupted = {};

@@ -19,7 +19,7 @@ namespace fsi::exact {
 
 struct ElasticPistonData {
   double density_ratio = 1;  ///< rho_bar / rho_0 [-]
-  double c_p = 1.3;          ///< p-wave speed of the solid, in units of the gas's sound speed at rest
+  double c_p = 1.3;          ///< p-wave speed of the solid, in units of the gas's sound speed at rest [-]
   double amplitude = 0.25;   ///< A of F(t) = -A t^4 / 4 [length/time^4]; positive pulls away from the gas
   double rotation = 0;       ///< of the whole set-up about the origin [rad]
   double gamma = 1.4;        ///< ratio of specific heats [-]

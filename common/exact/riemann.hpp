@@ -15,7 +15,7 @@ namespace fsi::exact {
 
 /// One-dimensional state beside the initial jump.
 struct TubeState {
-  double rho = 1, v = 0, p = 1;
+  double rho = 1, v = 0, p = 1;  ///< [mass/volume], [velocity], [pressure]
 };
 
 class Riemann {

@@ -9,8 +9,8 @@ namespace fsi::exact {
 struct GasState {
   double rho = 0;  ///< density [mass/volume]
   double v1 = 0;   ///< velocity [length/time]
-  double v2 = 0;
-  double p = 0;  ///< pressure [force/area]
+  double v2 = 0;   ///< [velocity]
+  double p = 0;    ///< pressure [force/area]
 };
 
 /// State of the solid at a reference point.

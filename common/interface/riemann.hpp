@@ -30,9 +30,9 @@ using Matrix = Eigen::Matrix<double, D, D>;
 template <int D>
 struct GasPoint {
   Vector<D> v;     ///< velocity
-  double p = 0;    ///< pressure
-  double p_e = 0;  ///< pressure at which the interface carries no load
-  double z_f = 0;  ///< impedance rho a
+  double p = 0;    ///< pressure [pressure]
+  double p_e = 0;  ///< pressure at which the interface carries no load [pressure]
+  double z_f = 0;  ///< impedance rho a [pressure/velocity]
 };
 
 /// Predicted state of the solid at an interface point.
@@ -41,20 +41,20 @@ struct SolidPoint {
   Vector<D> v;     ///< velocity
   Vector<D> w;     ///< traction eta n0^T P per unit current area
   Matrix<D> Z;     ///< impedance matrix, symmetric and positive definite
-  double z_p = 0;  ///< impedance rho_bar c_p of the solid at rest
+  double z_p = 0;  ///< impedance rho_bar c_p of the solid at rest [pressure/velocity]
 };
 
 /// One side as the other one sees it along the normal: an impedance and a state on its characteristic.
 struct NormalSide {
-  double z = 0;
-  double v_n = 0;
-  double w_n = 0;
+  double z = 0;    ///< [pressure/velocity]
+  double v_n = 0;  ///< [velocity]
+  double w_n = 0;  ///< [pressure]
 };
 
 /// Common normal velocity and normal traction of both sides.
 struct NormalState {
-  double v_n = 0;
-  double w_n = 0;
+  double v_n = 0;  ///< [velocity]
+  double w_n = 0;  ///< [pressure]
 };
 
 /// The gas: paper eq. (19), w_n + z_f v_n is constant along C- with w_n = p_e - p.

@@ -22,19 +22,20 @@ namespace fsi {
 /// Curve through a state at rest: change of pressure [pressure] against the velocity u [velocity] at which a
 /// wall moves into the gas.
 struct WaveCurve {
-  double z = 0;      ///< impedance rho a
-  double rho = 0;    ///< density; 0: not known
+  double z = 0;      ///< impedance rho a [pressure/velocity]
+  double rho = 0;    ///< density; 0: not known [mass/volume]
   double gamma = 0;  ///< exponent of its simple waves [-]; 0: none, the curve is its tangent
 
   /// A wall that leaves the gas so fast that the speed of sound at it would fall below this part of the
   /// gas's own has a vacuum beside it: the pressure falls no further.
-  static constexpr double least_sound = 0.1;
+  static constexpr double least_sound = 0.1;  ///< [-]
 
   double sound() const { return rho == 0 ? 0 : z / rho; }
 
   struct Point {
-    double dp = 0;     ///< change of pressure
-    double slope = 0;  ///< its derivative by u, positive: the impedance against further changes
+    double dp = 0;  ///< change of pressure [pressure]
+    /// Its derivative by u, positive: the impedance against further changes [pressure/velocity]
+    double slope = 0;
     bool vacuum = false;
   };
 

@@ -19,8 +19,8 @@ namespace fsi::io {
 /// Where a run stands between two steps.
 struct Standing {
   std::uint64_t step = 0;
-  double t = 0;   ///< time after that step
-  double dt = 0;  ///< its size
+  double t = 0;   ///< time after that step [time]
+  double dt = 0;  ///< its size [time]
 };
 
 /// What must be the same for a program that goes on with the state of another one.

@@ -21,31 +21,32 @@ inline constexpr std::array work_names{"advance",  "time_step", "boundary", "gri
 /// Largest jumps over an interface in a whole run, before
 /// the projection, and what they are to be compared with.
 struct InterfaceExtremes {
-  double max_velocity_jump = 0;
-  double max_traction_jump = 0;
-  double max_gap = 0;
-  double velocity_scale = 0;  ///< largest speed of sound, or of the gas along the normal, at an interface
-  double traction_scale = 0;  ///< largest pressure of the gas at an interface
+  double max_velocity_jump = 0;  ///< [velocity]
+  double max_traction_jump = 0;  ///< [pressure]
+  double max_gap = 0;            ///< [length]
+  /// Largest speed of sound, or of the gas along the normal, at an interface [velocity]
+  double velocity_scale = 0;
+  double traction_scale = 0;  ///< largest pressure of the gas at an interface [pressure]
 };
 
 /// A ripple of the grid's scale: a row of maxima and minima along a grid line (common/grid/ripple.hpp).
 struct Noise {
-  double size = 0;     ///< amplitude over the range of the field
+  double size = 0;     ///< amplitude over the range of the field [-]
   bool noisy = false;  ///< so large that somebody should know
   std::string field, grid;
   std::array<int, 2> point = {};
   std::array<double, 2> place = {};  ///< reference position in a solid
-  double t = 0;
+  double t = 0;                      ///< [time]
   std::string words;
 };
 
 /// How component grids exchanged values, the worst since the start (common/grid/overlap/composite_grid.hpp).
 struct Overlap {
-  double amplification = 1;  ///< of errors by points that interpolate from each other
+  double amplification = 1;  ///< of errors by points that interpolate from each other [-]
   std::string grid;          ///< where and when that was; "" where nothing was amplified
   std::array<int, 2> point = {};
   std::array<double, 2> place = {};  ///< reference position in a solid
-  double t = 0;
+  double t = 0;                      ///< [time]
   std::uint64_t implicit = 0;        ///< points that interpolate from each other, most at a time
   std::uint64_t narrowed = 0;        ///< of these with fewer donors, so that they do not amplify
   std::uint64_t lines_left_out = 0;  ///< of grids whose curves came near others
@@ -65,22 +66,22 @@ struct Part {
   std::string origin;  ///< of a failure: the participant that failed; another one, if we only heard of it
   std::optional<FailureRecord> failure;  ///< `reason` by its parts
   ExitCode exit_code = ExitCode::done;
-  double t = 0;
-  std::uint64_t steps = 0;  ///< macro steps
-  double dt_min = 0, dt_max = 0;
-  std::uint64_t points = 0;    ///< grid points, or interface points for the coupler
-  std::uint64_t substeps = 0;  ///< steps the program itself took
-  double compute_s = 0, wait_s = 0;
+  double t = 0;                                       ///< [time]
+  std::uint64_t steps = 0;                            ///< macro steps
+  double dt_min = 0, dt_max = 0;                      ///< [time]
+  std::uint64_t points = 0;                           ///< grid points, or interface points for the coupler
+  std::uint64_t substeps = 0;                         ///< steps the program itself took
+  double compute_s = 0, wait_s = 0;                   ///< [s]
   std::array<double, work_names.size()> time_s = {};  ///< the same by kinds of work
-  double point_updates_per_s = 0;
-  double peak_memory_mib = 0;
-  std::map<std::string, double> errors;        ///< maximum norms, where a reference exists
-  std::map<std::string, double> counters;      ///< first_order_fallbacks, floors, ...
-  std::map<std::string, double> health;        ///< min_rho, min_p, min_det_F
-  std::map<std::string, double> conservation;  ///< drifts of mass, energy, momentum, angular momentum
-  std::optional<InterfaceExtremes> interface;  ///< coupler only
-  std::optional<Overlap> overlap;              ///< of programs with overlapping grids
-  std::optional<Noise> noise;                  ///< the worst since the start, of programs with fields
+  double point_updates_per_s = 0;                     ///< [1/s]
+  double peak_memory_mib = 0;                         ///< [MiB]
+  std::map<std::string, double> errors;               ///< maximum norms, where a reference exists
+  std::map<std::string, double> counters;             ///< first_order_fallbacks, floors, ...
+  std::map<std::string, double> health;               ///< min_rho, min_p, min_det_F
+  std::map<std::string, double> conservation;         ///< drifts of mass, energy, momentum, angular momentum
+  std::optional<InterfaceExtremes> interface;         ///< coupler only
+  std::optional<Overlap> overlap;                     ///< of programs with overlapping grids
+  std::optional<Noise> noise;                         ///< the worst since the start, of programs with fields
 };
 
 /// The part as JSON text; a number that is not finite becomes null.

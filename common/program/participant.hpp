@@ -17,7 +17,7 @@ namespace fsi {
 
 /// Largest step the solver can take, safety factor included; infinite when it has no limit.
 struct TimeStepBid {
-  double dt = 0;
+  double dt = 0;  ///< [time]
   std::string reason;
 };
 

@@ -38,9 +38,9 @@ struct Hello {
 
 /// How well the numbers are.
 struct Health {
-  double min_rho = 0;
-  double min_p = 0;
-  double min_det_F = 0;
+  double min_rho = 0;    ///< [mass/volume]
+  double min_p = 0;      ///< [pressure]
+  double min_det_F = 0;  ///< [-]
   double min_cell_quality =
       1;  ///< of moving grids: 1 where cells are rectangles, 0 where one is about to fold
   std::uint64_t first_order_fallbacks = 0;
@@ -77,25 +77,26 @@ struct PredictedInterface {
   std::string from;        ///< participant's name
   std::string interface;   ///< solid's name
   std::uint64_t step = 0;  ///< 0: initial state
-  double t = 0;            ///< time of the state
-  double dt_bid =
-      0;  ///< largest step the solver can take next, safety factor included [time]; inf = no limit
-  std::string dt_reason;            ///< what limits it, for people
-  std::vector<double> x;            ///< solid: x_bar + u; gas: its grid's interface, n_d * n
-  std::vector<double> v;            ///< velocity, n_d * n
-  std::vector<double> w;            ///< solid: traction eta n0^T P per current area, n_d * n
-  std::vector<double> p;            ///< gas: pressure, n
-  std::vector<double> z_f;          ///< gas: impedance rho a, n
-  std::vector<double> rho;          ///< gas: density, n
-  std::vector<double> gamma;        ///< gas: exponent of its simple waves, n; 0: its answer is linear
-  std::vector<double> Z;            ///< solid: impedance matrix Z11, Z12, Z22, 3 * n
-  double z_p = 0;                   ///< solid: rest impedance rho_bar c_p of the simplified projection (29)
+  double t = 0;            ///< time of the state [time]
+  /// Largest step the solver can take next, safety factor included [time]; inf = no limit
+  double dt_bid = 0;
+  std::string dt_reason;      ///< what limits it, for people
+  std::vector<double> x;      ///< solid: x_bar + u; gas: its grid's interface, n_d * n
+  std::vector<double> v;      ///< velocity, n_d * n
+  std::vector<double> w;      ///< solid: traction eta n0^T P per current area, n_d * n
+  std::vector<double> p;      ///< gas: pressure, n
+  std::vector<double> z_f;    ///< gas: impedance rho a, n
+  std::vector<double> rho;    ///< gas: density, n
+  std::vector<double> gamma;  ///< gas: exponent of its simple waves, n; 0: its answer is linear
+  std::vector<double> Z;      ///< solid: impedance matrix Z11, Z12, Z22, 3 * n
+  /// Solid: rest impedance rho_bar c_p of the simplified projection (29) [pressure/velocity]
+  double z_p = 0;
   std::vector<std::uint8_t> fixed;  ///< solid: how free the points are, n values of `Freedom`
-  double p_e = 0;                   ///< gas: equilibrium pressure
+  double p_e = 0;                   ///< gas: equilibrium pressure [pressure]
   ModalResponse modal;
   Health health;
-  double compute_s = 0;  ///< since the run began
-  double wait_s = 0;
+  double compute_s = 0;  ///< since the run began [s]
+  double wait_s = 0;     ///< [s]
 };
 
 /// Coupler -> solver, one per step and interface: projected
@@ -104,8 +105,8 @@ struct ProjectedInterface {
   std::string run;
   std::string to;  ///< participant's name
   std::string interface;
-  std::uint64_t step = 0;  ///< the predicted state this answers
-  double t = 0;
+  std::uint64_t step = 0;     ///< the predicted state this answers
+  double t = 0;               ///< [time]
   std::vector<double> n;      ///< unit normal, solid -> gas, n_d * n
   std::vector<double> v_n;    ///< normal velocity v_n^I, n
   std::vector<double> w_n;    ///< normal traction w_n^I = p_e - p^I, n
@@ -117,8 +118,8 @@ struct ProjectedInterface {
   std::vector<double> robin_t;  ///< times t_k, 1 to 3 of them
   std::vector<double> robin_r;  ///< r_k = w_k + z_f v_k with the newest z_f for every k, levels * n
   // The next step.
-  double dt_next = 0;
-  double t_next = 0;  ///< time after it: exactly an output time where one is hit
+  double dt_next = 0;  ///< [time]
+  double t_next = 0;   ///< time after it: exactly an output time where one is hit [time]
   std::int32_t substeps_next = 1;
   std::vector<double> x_next;  ///< gas: commanded positions at t + dt_next, n_d * n
   bool write_output = false;   ///< write fields of the state at t
@@ -162,8 +163,9 @@ struct Traffic {
   std::uint64_t bytes = 0;    ///< of their arrays
   std::uint64_t missing = 0;  ///< times it had to ask for one that did not come
   std::uint64_t dropped = 0;  ///< came twice or too late, and were ignored
-  double latency_p50_us = 0;  ///< from writing to taking: the transport alone, no waiting for anybody's work
-  double latency_p99_us = 0;
+  /// From writing to taking: the transport alone, no waiting for anybody's work [us]
+  double latency_p50_us = 0;
+  double latency_p99_us = 0;  ///< [us]
 };
 
 /// What the monitor shows; best effort, never waited for.
@@ -175,26 +177,28 @@ struct Telemetry {
   std::string host;   ///< where it runs, for those who watch whether it does
   std::int32_t pid = 0;
   std::uint64_t step = 0;
-  double t = 0, t_end = 0, dt = 0;
+  double t = 0, t_end = 0, dt = 0;  ///< [time]
   std::string dt_reason;
-  double dt_bid = 0;       ///< the step it proposed last; inf: no limit. Coupler: the step agreed on
+  double dt_bid = 0;       ///< the step it proposed last; inf: no limit. Coupler: the step agreed on [time]
   std::string limited_by;  ///< coupler: the program or setting that limits the step; a lone solver: itself
-  double compute_s = 0, wait_s = 0;
-  double point_updates_per_s = 0;
+  double compute_s = 0, wait_s = 0;  ///< [s]
+  double point_updates_per_s = 0;    ///< [1/s]
   Health health;
   std::string noise;  ///< ripples of the grid's scale in its fields, in words; empty: none to speak of
   std::uint64_t messages = 0;  ///< received and sent
   std::uint64_t bytes = 0;
-  double round_trip_p50_us = 0, round_trip_p99_us = 0;
+  double round_trip_p50_us = 0, round_trip_p99_us = 0;  ///< [us]
   /// Per interface (the coupler's telemetry only).
   struct Interface {
     std::string name;
+    /// [velocity], [pressure], [length], [power/depth]
     double velocity_jump = 0, traction_jump = 0, gap = 0, power = 0;
-    double p_min = 0, p_max = 0, v_min = 0, v_max = 0;  ///< of the projected state, over all points
-    bool closed = false;                                ///< the last point is the first one again
-    std::vector<double> s;                              ///< arclength at the points shown (at most 256)
-    std::vector<double> x;                              ///< their positions, n_d * points
-    std::vector<double> p_predicted;                    ///< of the gas
+    /// Of the projected state, over all points [pressure], [velocity].
+    double p_min = 0, p_max = 0, v_min = 0, v_max = 0;
+    bool closed = false;                    ///< the last point is the first one again
+    std::vector<double> s;                  ///< arclength at the points shown (at most 256)
+    std::vector<double> x;                  ///< their positions, n_d * points
+    std::vector<double> p_predicted;        ///< of the gas
     std::vector<double> p_predicted_solid;  ///< p_e - n . w of the solid; empty for a solid without traction
     std::vector<double> p_projected;
     std::vector<double> v_predicted;  ///< normal velocity of the solid
@@ -222,8 +226,8 @@ struct Picture {
   std::string quantity;  ///< "pressure", "speed", "density", "schlieren" (|grad rho|), "stress"; "outline"
   std::string role;
   std::uint64_t step = 0;
-  double t = 0;
-  double low = 0, high = 0;  ///< what `lowest` and `highest` stand for
+  double t = 0;              ///< [time]
+  double low = 0, high = 0;  ///< what `lowest` and `highest` stand for [unit of the quantity]
   /// Samples of a component grid; with n2 = 1 of a curve.
   struct Grid {
     std::string name;

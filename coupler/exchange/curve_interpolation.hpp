@@ -47,7 +47,7 @@ class CurveInterpolation {
   };
   struct Place {
     Weights cubic, linear;
-    double distance = 0;
+    double distance = 0;  ///< [length]
   };
 
   Place locate(std::span<const double> from, const Vec2& x) const;

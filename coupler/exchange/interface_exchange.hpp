@@ -23,13 +23,13 @@ namespace fsi::coupler {
 /// What one step did to one interface: largest values over its points, before the projection.
 struct InterfaceReport {
   std::string name;
-  double velocity_jump = 0;   ///< |n.v_f - n.v_s|, clamped points left out
-  double traction_jump = 0;   ///< |w_s - (p_e - p) n|, zero for solids that have no traction
-  double gap = 0;             ///< |n.(x_gas - x_solid)|
-  double velocity_scale = 0;  ///< largest of the gas's speed of sound and its |n.v|
-  double traction_scale = 0;  ///< largest pressure of the gas
-  double power = 0;           ///< of the gas on the solid, the integral of w_n v_n, after the projection
-  std::size_t vacuum = 0;     ///< points the gas cannot follow
+  double velocity_jump = 0;   ///< |n.v_f - n.v_s|, clamped points left out [velocity]
+  double traction_jump = 0;   ///< |w_s - (p_e - p) n|, zero for solids that have no traction [pressure]
+  double gap = 0;             ///< |n.(x_gas - x_solid)| [length]
+  double velocity_scale = 0;  ///< largest of the gas's speed of sound and its |n.v| [velocity]
+  double traction_scale = 0;  ///< largest pressure of the gas [pressure]
+  double power = 0;  ///< of the gas on the solid, the integral of w_n v_n, after the projection [power/depth]
+  std::size_t vacuum = 0;  ///< points the gas cannot follow
 };
 
 /// How the predicted states of both sides are put together.
@@ -41,8 +41,8 @@ struct Combination {
 /// Where and when an exchange happens, for messages.
 struct Moment {
   std::uint64_t step = 0;
-  double t = 0;
-  double dt = 0;  ///< size of the step that led here, 0 at the first exchange
+  double t = 0;   ///< [time]
+  double dt = 0;  ///< size of the step that led here, 0 at the first exchange [time]
 };
 
 class InterfaceExchange {
@@ -84,8 +84,8 @@ class InterfaceExchange {
   wire::Telemetry::Interface profile(std::size_t most) const;
 
  private:
-  struct Level {  ///< projected state at one time
-    double t = 0;
+  struct Level {   ///< projected state at one time
+    double t = 0;  ///< [time]
     std::vector<double> v_n, w_n;
   };
 

@@ -19,7 +19,7 @@ namespace fsi::fluid {
 
 /// What the boundary conditions need to know besides the component.
 struct BoundaryTask {
-  double t = 0;
+  double t = 0;  ///< [time]
   const GasOptions& options;
   std::span<const InterfaceValues> interfaces;  ///< of this grid
 };

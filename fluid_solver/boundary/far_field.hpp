@@ -13,9 +13,9 @@ namespace fsi::fluid {
 
 /// A side as its waves see it.
 struct OpenSide {
-  Vec2 n;            ///< unit normal out of the gas
-  double speed = 0;  ///< of the side along n
-  double gamma = 1.4;
+  Vec2 n;              ///< unit normal out of the gas
+  double speed = 0;    ///< of the side along n [velocity]
+  double gamma = 1.4;  ///< [-]
 };
 
 /// The state on a side between that inside and a given one beyond it. Simple waves that leave, of any

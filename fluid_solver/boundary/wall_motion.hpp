@@ -23,7 +23,7 @@ struct WallMotion {
 /// Lengths of the last steps, the newest first; 0 where a level
 /// coincides with the next (a start with known motion).
 struct StepHistory {
-  double dt = 0, before = 0, earlier = 0;
+  double dt = 0, before = 0, earlier = 0;  ///< [time]
   int order = 1;  ///< differences that can be formed: 1 positions two levels, 2 three, 3 four
 };
 

@@ -12,7 +12,7 @@ namespace fsi::fluid {
 
 /// Metrics of a Cartesian grid at rest: two numbers.
 struct CartesianMetric {
-  double dt_dx, dt_dy;
+  double dt_dx, dt_dy;  ///< [time/length]
 
   double advect1(int /*i*/, double v1, double /*v2*/) const { return dt_dx * v1; }
   double advect2(int /*i*/, double /*v1*/, double v2) const { return dt_dy * v2; }
@@ -152,7 +152,7 @@ inline constexpr double thin_part = 1e-2;
 
 /// What the gas law and the floor contribute to an update.
 struct UpdateLaw {
-  double gamma, p_floor;
+  double gamma, p_floor;  ///< [-], [pressure]
 };
 
 /// V^{n+1} q^{n+1} = V^n q^n - dt * (sum of fluxes), the conservative form of (31). paper eq. (31)

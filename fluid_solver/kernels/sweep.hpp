@@ -23,7 +23,7 @@ namespace fsi::fluid {
 
 /// Equal spacings of a Cartesian grid at rest.
 struct Spacing {
-  double dx, dy;
+  double dx, dy;  ///< [length]
 };
 
 /// A grid during one step: vertices before and after, or just two spacings.
@@ -34,8 +34,8 @@ struct StepGrid {
 
 /// What the kernels need to know of the gas and the scheme.
 struct Scheme {
-  double gamma = 1.4;
-  double p_floor = 0;
+  double gamma = 1.4;  ///< [-]
+  double p_floor = 0;  ///< [pressure]
   AnyRiemann riemann;
   AnyLimiter limiter;
   Viscosity viscosity;
@@ -74,7 +74,7 @@ struct SweepTask {
   FieldView q_new;
   const StepGrid& grid;
   const SweepRuns& runs;
-  double dt;
+  double dt;                                 ///< [time]
   std::span<const PointIndex> guarded = {};  ///< sorted: points with first-order positive fluxes on all faces
 };
 

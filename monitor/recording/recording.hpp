@@ -14,7 +14,7 @@ namespace fsi::monitor {
 
 /// Something heard, `at` seconds after the recording began.
 struct Heard {
-  double at = 0;
+  double at = 0;  ///< [s]
   std::optional<wire::Telemetry> telemetry = {};
   std::optional<wire::Abort> abort = {};
 };

@@ -43,7 +43,7 @@ Eigen::SparseMatrix<double> free_motions(const Line& line, const std::array<End,
 /// Where a degree of freedom appears among the free motions.
 struct FreeMotion {
   int column = -1;  ///< -1: it is held
-  double part = 0;  ///< of the motion's unit vector
+  double part = 0;  ///< of the motion's unit vector [-]
 };
 
 /// S and g of S q' = g + dt f.

@@ -27,7 +27,7 @@ struct Attached {
   std::array<int, 4> node{};       ///< around the section
   std::array<double, 4> weight{};  ///< of their values at the section
   Vec2 r = Vec2::Zero();           ///< from the centre line, at rest
-  double s = 0;                    ///< place on the line, in elements
+  double s = 0;                    ///< place on the line, in elements [-]
 };
 
 /// The section nearest to a point. @param line four nodes or more
@@ -35,7 +35,7 @@ Attached attach(const Line& line, const Vec2& x);
 
 struct PointState {
   Vec2 x, v;
-  double theta = 0;
+  double theta = 0;  ///< [rad]
 };
 
 /// Where an attached point is, and how fast.

@@ -36,8 +36,8 @@ struct SideMetrics {
   Vec2 t0;         ///< unit tangent, n0 turned by +90 degrees
   Vec2 across;     ///< grad of the index that counts across the side
   Vec2 along;      ///< grad of the index along the side
-  double sign;     ///< +1 when the index across the side grows outward
-  double spacing;  ///< |d x_bar| per index along the side
+  double sign;     ///< +1 when the index across the side grows outward [-]
+  double spacing;  ///< |d x_bar| per index along the side [length]
 };
 SideMetrics side_metrics(const ReferenceMetrics& metrics, const Layout& layout, Side side, int k);
 

@@ -29,7 +29,7 @@ struct BoundaryStrain {
   Tensor2 F;    ///< F without the derivative across the side: I + (du/dalong) (grad along)^T
   Vec2 across;  ///< gradient of the index across the side
   Vec2 n0;      ///< outward unit normal
-  double sign;  ///< across = sign |across| n0
+  double sign;  ///< across = sign |across| n0 [-]
 };
 
 /// What a derivative d of u across a side leaves of its traction T to be found.

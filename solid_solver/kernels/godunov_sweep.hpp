@@ -19,11 +19,11 @@ struct SweepResult {
   double rate_squared = 0;  ///< largest (sum over directions of c_p |grad r|)^2 [1/time^2]
   /// Largest (difference of the two directions' c_p |grad r|)^2 + 4 |X|^2 (shared_upwinding) [1/time^2]; 0
   /// where it is not measured.
-  double spread_squared = 0;
+  double spread_squared = 0;  ///< [1/time^2]
   double min_det_F = std::numeric_limits<double>::infinity();
   double min_phi_s = std::numeric_limits<double>::infinity();  ///< smallest phi_s |grad r|^2
-  double broken = 0;                                           ///< points with det F <= 0 or phi_s <= 0
-  double settled = 0;  ///< ghost points that took the acoustic matrix of the body beside them
+  double broken = 0;                                           ///< points with det F <= 0 or phi_s <= 0 [-]
+  double settled = 0;  ///< ghost points that took the acoustic matrix of the body beside them [-]
 
   void add(const SweepResult& other) {
     rate_squared = std::max(rate_squared, other.rate_squared);
@@ -47,12 +47,12 @@ inline constexpr int sweep_work_rows = 62;
 /// Fields and numbers of one sweep.
 struct SweepData {
   const SolidPoints* points = nullptr;
-  ConstFieldView q;      ///< unknowns at t, both ghost lines set
-  FieldView next;        ///< unknowns at t + dt; ghosts are not set
-  ConstFieldView force;  ///< body force at t + dt/2, two planes or none
-  FieldView work;        ///< work rows: layout (n1, sweep_work_rows), one plane, zero at birth
-  double rho = 1;
-  double dt = 0;
+  ConstFieldView q;             ///< unknowns at t, both ghost lines set
+  FieldView next;               ///< unknowns at t + dt; ghosts are not set
+  ConstFieldView force;         ///< body force at t + dt/2, two planes or none
+  FieldView work;               ///< work rows: layout (n1, sweep_work_rows), one plane, zero at birth
+  double rho = 1;               ///< [mass/volume]
+  double dt = 0;                ///< [time]
   bool measures_spread = true;  ///< SweepResult::spread_squared; only relaxation and (39) need it
 };
 

@@ -10,7 +10,7 @@ namespace fsi::solid {
 
 /// Symmetric 2 x 2 matrix as plain numbers.
 struct SymmetricTensor2 {
-  double a11 = 0, a12 = 0, a22 = 0;
+  double a11 = 0, a12 = 0, a22 = 0;  ///< [unit of the tensor]
 };
 
 /// The acoustic matrix B_jk = n_i K_ijkl n_l of waves that travel along the unit vector n of the reference

@@ -9,7 +9,7 @@ namespace fsi::solid {
 /// Geometry at one point.
 struct PointMetrics {
   Vec2 r1, r2;          ///< grad r1, grad r2
-  double jacobian = 0;  ///< J_g
+  double jacobian = 0;  ///< J_g [length^2]
 };
 
 /// Metrics of a mapped reference grid.

@@ -9,7 +9,7 @@ namespace fsi::solid {
 
 /// Velocity and force on a face (area vector times nominal stress).
 struct FaceState {
-  double v1 = 0, v2 = 0, f1 = 0, f2 = 0;
+  double v1 = 0, v2 = 0, f1 = 0, f2 = 0;  ///< [velocity], [velocity], [pressure], [pressure]
 };
 
 /// Solution at the face of the Riemann problem paper eq. (34), which splits along the p- and s-waves into

@@ -11,7 +11,7 @@ namespace fsi::solid {
 
 /// 2 x 2 tensor as plain numbers, so that loops over points vectorise. a12 is row 1, column 2.
 struct Tensor2 {
-  double a11 = 0, a12 = 0, a21 = 0, a22 = 0;
+  double a11 = 0, a12 = 0, a21 = 0, a22 = 0;  ///< [unit of the tensor]
 };
 
 /// paper eq. (5): K_ijkl = dP_ij/dF_kl, as the ten entries that K_ijkl = K_lkji leaves (misprinted after eq.
@@ -29,7 +29,7 @@ struct OwnNumber {
   std::string_view meaning;  ///< for the documentation of the case file, and where it is missing
   std::string_view unit;     ///< pressure, ..; "-" of a pure number
   double L::*member;
-  double typical;  ///< for the tests that run over all laws
+  double typical;  ///< for the tests that run over all laws [that of `unit`]
 };
 
 /// A constitutive law: strain energy psi per unit reference volume, nominal stress P_ij = dpsi/dF_ji,

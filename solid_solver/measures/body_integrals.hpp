@@ -15,25 +15,25 @@ namespace fsi::solid {
 
 /// Integrals over the body.
 struct Totals {
-  double mass = 0;
+  double mass = 0;  ///< [mass/depth]
   Vec2 momentum = Vec2::Zero();
-  double kinetic_energy = 0;
-  double strain_energy = 0;
-  double angular_momentum = 0;  ///< about the origin of physical space
+  double kinetic_energy = 0;    ///< [energy/depth]
+  double strain_energy = 0;     ///< [energy/depth]
+  double angular_momentum = 0;  ///< about the origin of physical space [momentum*length/depth]
 
   double energy() const { return kinetic_energy + strain_energy; }
 };
 
 /// Largest errors over all points and components.
 struct Errors {
-  double u = 0, v = 0, P = 0;
+  double u = 0, v = 0, P = 0;  ///< [length], [velocity], [pressure]
 };
 
 /// Integrals over one side: what the outside does to the body there.
 struct SideLoad {
   Vec2 force = Vec2::Zero();
-  double moment = 0;  ///< about the origin
-  double power = 0;
+  double moment = 0;  ///< about the origin [force*length/depth]
+  double power = 0;   ///< [power/depth]
 };
 
 inline double cross(const Vec2& a, const Vec2& b) {
@@ -140,7 +140,7 @@ SideLoad load_on_side(const SolidComponent<L>& component, Side side) {
 
 /// Density and time of a state.
 struct InterfaceMoment {
-  double rho, t;
+  double rho, t;  ///< [mass/volume], [time]
 };
 
 /// A side and a wall whose normals have a smaller cosine than this meet at right angles.

@@ -28,7 +28,7 @@ using Vec3 = Eigen::Vector3d;  ///< along x, along y, rotation
 struct Outline {
   std::vector<double> x;  ///< reference positions, 2 n component-major
   grid::Curve ends = grid::Curve::closed;
-  double orientation = 1;  ///< of the normals (grid::normals)
+  double orientation = 1;  ///< of the normals (grid::normals) [-]
 };
 
 struct Pose {
@@ -38,8 +38,8 @@ struct Pose {
 
 /// Mass and freedom of a body.
 struct Dynamics {
-  double mass = 0;
-  double moment_of_inertia = 0;                         ///< about the centre of mass
+  double mass = 0;                                      ///< [mass/depth]
+  double moment_of_inertia = 0;                         ///< about the centre of mass [mass*length^2/depth]
   Eigen::MatrixXd modes = Eigen::Matrix3d::Identity();  ///< B, one column per mode
 };
 

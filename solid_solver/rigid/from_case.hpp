@@ -9,7 +9,7 @@ namespace fsi::rigid {
 /// A body, with an outline for each side along which a gas is; meets none where it is alone.
 struct BodyFromCase {
   RigidBody body;
-  double area = 0;
+  double area = 0;  ///< [length^2]
   bool meets_gas = false;
 };
 

@@ -8,7 +8,7 @@
 namespace fsi::rigid {
 
 struct Inertia {
-  double area = 0;
+  double area = 0;  ///< [length^2]
   Vec2 centre = Vec2::Zero();
   double second_moment = 0;  ///< polar, about the centre [length^4]
 };

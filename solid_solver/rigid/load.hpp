@@ -11,8 +11,8 @@ namespace fsi::rigid {
 
 struct GasLoad {
   Vec2 force = Vec2::Zero();
-  double moment = 0;  ///< about the origin
-  double power = 0;
+  double moment = 0;  ///< about the origin [force*length/depth]
+  double power = 0;   ///< [power/depth]
 
   void archive(Archive& archive);
 };

@@ -5,7 +5,7 @@ namespace fsi {
 
 /// Weights of  dt q'(t^{n+1}) = leading q^{n+1} - now q^n + before q^{n-1}.
 struct BackwardDifference {
-  double leading = 1, now = 1, before = 0;
+  double leading = 1, now = 1, before = 0;  ///< [-]
 
   /// now q^n - before q^{n-1}: what the past contributes, numbers or vectors.
   template <class Value>

@@ -14,8 +14,8 @@ namespace fsi {
 std::vector<double> distinct_times(std::vector<double> times, double end);
 
 struct PlannedStep {
-  double dt = 0;
-  double t_next = 0;    ///< exactly an output time when the step reaches one
+  double dt = 0;        ///< [time]
+  double t_next = 0;    ///< exactly an output time when the step reaches one [time]
   bool output = false;  ///< fields are wanted at t_next
   bool end = false;     ///< t_next is the end of the run
 };
@@ -23,10 +23,10 @@ struct PlannedStep {
 class TimeSchedule {
  public:
   struct Options {
-    double end = 1;
+    double end = 1;                    ///< [time]
     std::vector<double> output_times;  ///< any order; times beyond the end are ignored; see distinct_times
-    double growth = 1.2;               ///< largest ratio of successive steps
-    double dt_max = 0;                 ///< 0: no limit besides stability
+    double growth = 1.2;               ///< largest ratio of successive steps [-]
+    double dt_max = 0;                 ///< 0: no limit besides stability [time]
   };
 
   explicit TimeSchedule(Options options);

@@ -29,7 +29,7 @@ void watch_noise(io::Part& part, Participant& solver, const io::Standing& at, bo
 
 /// The last time at which a solver's boundary conditions held.
 struct LastState {
-  double t = 0;
+  double t = 0;  ///< [time]
   std::uint64_t step = 0;
 };
 

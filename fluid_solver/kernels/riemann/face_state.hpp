@@ -4,13 +4,13 @@
 namespace fsi::fluid {
 
 struct FaceState {
-  double rho, u, v, p;
+  double rho, u, v, p;  ///< [mass/volume], [velocity], [velocity], [pressure]
 };
 
 /// Flux through a unit of face that moves with normal speed
 /// g_n: mass, normal and tangential momentum, energy.
 struct FaceFlux {
-  double mass, normal, tangential, energy;
+  double mass, normal, tangential, energy;  ///< [mass/area/time], [pressure], [pressure], [power/area]
 };
 
 /// What a Riemann solver may need to know; each takes what it does by `S::with(numbers)`.

@@ -18,7 +18,7 @@
 namespace fsi::fluid {
 
 struct RiemannSplit {
-  double gamma;
+  double gamma;  ///< [-]
 
   /// Flux of paper eq. (1) minus what the moving face sweeps over, the second and third terms of (31).
   [[gnu::always_inline]] FaceFlux operator()(const FaceState& L, const FaceState& R, double g_n) const {
