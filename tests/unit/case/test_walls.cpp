@@ -166,19 +166,21 @@ std::string number_after(const std::string& message, const std::string& words) {
 
 TEST(LinesAtBends, AreChosenCloseAndGivenOnesThatAreTooWideAreRefusedWithOnesThatHold) {
   const std::string law = "rigid\n    motion: fixed";
+  const std::string wedge =
+      "{kind: polygon, corners: [[-0.5, 0], [0.5, 0.2], [0.5, 0]], walls: [bottom, bottom]";
   struct Body {
-    std::string shape, says;
+    std::string shape, lines, says;
   };
-  for (const auto& [shape, says] :
+  for (const auto& [shape, wide, says] :
        {Body{"{kind: polygon, corners: [[-0.3, 0.6], [0.3, 0.6], [0.3, 1.2], [-0.3, 1.2]], radius: 0.03}",
-             "turns too sharply at ("},
-        Body{"{kind: polygon, corners: [[-0.5, 0], [0.5, 0.2], [0.5, 0]], walls: [bottom, bottom]}",
-             "too flat on the wall"}}) {
-    const auto with = [&](const std::string& lines) {
+             "lines: 8, spacing: 0.05", "folded"},
+        Body{wedge + "}", "lines: 8, spacing: 0.05", "turns too sharply at ("},
+        Body{wedge + ", radius: 0.1, points: 240}", "lines: 12, spacing: 0.02", "too flat on the wall"}}) {
+    const auto with = [&, shape = shape](const std::string& lines) {
       return body_case(law, shape, "  body_fitted: [{name: ring, solid: body, " + lines + "}]\n");
     };
     EXPECT_EQ(mistake_in(body_case(law, shape, "")), "");
-    const std::string message = mistake_in(with("lines: 8, spacing: 0.05"));
+    const std::string message = mistake_in(with(wide));
     EXPECT_NE(message.find(says), std::string::npos) << message;
     const std::string spacing = number_after(message, "`spacing: "),
                       lines = number_after(message, "`lines: ");
