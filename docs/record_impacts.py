@@ -77,10 +77,14 @@ def at_the_end(directory):
     return float(last["tip.v1"]), P_0 - float(last["tip.P11"])
 
 
+COMMANDS = []  # as typed, of the runs made
+
+
 def _cell(tools, law, rho_bar, mach, factor):
     settings = [f"parameters.rho_bar={rho_bar}", f"parameters.mach={mach}", f"grid.factor={factor}", "time.peer_timeout=60"]
-    directory, _, _ = tools.run_once(f"impact-{law}-{rho_bar}-{mach}-{factor}", "shock_on_solid", settings,
-                                     [f"solid={law}"])
+    directory, _, command = tools.run_once(f"impact-{law}-{rho_bar}-{mach}-{factor}", "shock_on_solid", settings,
+                                           [f"solid={law}"])
+    COMMANDS.append(command)
     found = tools.summary_of(directory)
     exact = impact(law, rho_bar, mach)
     if found.get("status") != "completed":
@@ -101,7 +105,9 @@ def impacts(tools):
                 rows.append([weight, law, f"{mach}", *(f"{value:.4f}" for value in exact or ()), *([] if exact else ["none", "none"]),
                              *(_cell(tools, law, rho_bar, mach, factor) for factor in FACTORS)])
     heading = ["solid", "law", "Mach", "v exact", "p exact", *(f"h = 1/{10 * factor}" for factor in FACTORS)]
-    return "\n".join(["| " + " | ".join(heading) + " |", "|" + "---|" * len(heading),
+    return "\n".join([f"last: `{COMMANDS[-1]}`", "",
+                      "Errors of v and p at the interface 0.2 after the impact; where a run broke, when and why.", "",
+                      "| " + " | ".join(heading) + " |", "|" + "---|" * len(heading),
                       *("| " + " | ".join(row) + " |" for row in rows)]) + "\n"
 
 
