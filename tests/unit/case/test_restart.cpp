@@ -25,14 +25,16 @@ std::string refusal(const std::vector<std::string>& overrides) {
 TEST(RestartOfACase, MayRunLongerAndWriteOtherOutput) {
   EXPECT_EQ(refusal({}), "");
   EXPECT_EQ(refusal({"time.end=2", "output.times=[1, 2]", "output.checkpoint_every=10", "expect={}"}), "");
-  EXPECT_EQ(load_case(shipped_piston).restart_digest, load_case(shipped_piston, {"time.end=2"}).restart_digest);
+  EXPECT_EQ(load_case(shipped_piston).restart_digest,
+            load_case(shipped_piston, {"time.end=2"}).restart_digest);
 }
 
 TEST(RestartOfACase, NamesWhatElseDiffers) {
   EXPECT_NE(refusal({"time.cfl=0.5"}).find("time.cfl: 0.5, was 0.9"), std::string::npos);
   EXPECT_NE(refusal({"output.probes=[{name: a, in: fluid, x: 1, y: 0.5}]"}).find("output: "),
             std::string::npos);
-  EXPECT_NE(load_case(shipped_piston).restart_digest, load_case(shipped_piston, {"time.cfl=0.5"}).restart_digest);
+  EXPECT_NE(load_case(shipped_piston).restart_digest,
+            load_case(shipped_piston, {"time.cfl=0.5"}).restart_digest);
 }
 
 /// A restart reads the resolved case that the run left.
