@@ -178,9 +178,12 @@ struct TimeSpec {
   double step_timeout = 120;  ///< [s]
 };
 
-struct InterfaceSpec {
+struct ProjectionSpec {
   Projection projection = Projection::simplified;
   GasResponse riemann = GasResponse::exact;
+};
+
+struct InterfaceSpec : ProjectionSpec {
   std::optional<VectorExpressions> motion;  ///< position at t of the point that is at (x, y) at t = 0
 };
 

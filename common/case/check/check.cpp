@@ -12,6 +12,7 @@
 #include "common/case/check/check_overlap.hpp"
 #include "common/case/check/check_places.hpp"
 #include "common/case/document/fluid_sections.hpp"
+#include "common/case/document/node_at.hpp"
 #include "common/case/grids/grid_points.hpp"
 #include "common/case/schema/laws.hpp"
 #include "common/core/input/suggest.hpp"
@@ -23,17 +24,6 @@ namespace {
 
 using config::fail;
 using config::Node;
-
-/// Node of a dotted key; the deepest one that exists.
-const Node& at(const Node& root, std::initializer_list<std::string_view> keys) {
-  const Node* node = &root;
-  for (const std::string_view key : keys) {
-    const Node* next = node->find(key);
-    if (next == nullptr) break;
-    node = next;
-  }
-  return *node;
-}
 
 /// The cells of a sample have positive area: a map that folds costs one look, not a run.
 void check_grid(const GridSpec& grid, const Node& node, const std::string& path) {
@@ -92,16 +82,18 @@ void check_state(const GasExpressions& state, const std::vector<Vec2>& points, c
 void check_fluid(const Case& problem, const FluidSpec& fluid, const Node& root) {
   const Node& node = fluid_section_of(root, fluid.name);
   const std::string& path = fluid.path;
-  check_grid(fluid.grid, at(node, {"grid"}), path + ".grid");
+  check_grid(fluid.grid, node_at(node, {"grid"}), path + ".grid");
   check_overlap({.background = fluid.grid, .body_fitted = fluid.body_fitted, .owner = node, .path = path});
   const std::vector<Vec2> everywhere = sample_points(fluid.grid);
-  if (fluid.initial) check_state(*fluid.initial, everywhere, at(node, {"initial"}), path + ".initial");
+  if (fluid.initial) check_state(*fluid.initial, everywhere, node_at(node, {"initial"}), path + ".initial");
   if (problem.reference.fluid)
-    check_state(*problem.reference.fluid, everywhere, at(root, {"reference", "fluid"}), "reference.fluid");
+    check_state(*problem.reference.fluid, everywhere, node_at(root, {"reference", "fluid"}),
+                "reference.fluid");
   for (const Side side : all_sides) {
     const BoundarySpec& spec = fluid.boundary[static_cast<std::size_t>(side)];
     if (!spec.state) continue;
-    check_state(*spec.state, sample_points(fluid.grid, side), at(node, {"boundary", name_of(side), "state"}),
+    check_state(*spec.state, sample_points(fluid.grid, side),
+                node_at(node, {"boundary", name_of(side), "state"}),
                 fmt::format("{}.boundary.{}.state", path, name_of(side)));
   }
 }
@@ -128,17 +120,17 @@ void check_start(const ReferenceSpec& reference, bool gas, const std::string& ow
 
 void check_reference(const Case& problem, const Node& root) {
   if (problem.reference.kind == "riemann" && !problem.solids.empty())
-    fail(at(root, {"reference", "kind"}).place, "reference",
+    fail(node_at(root, {"reference", "kind"}).place, "reference",
          "`riemann` is a solution for a gas alone; leave it out");
   const bool computed = problem.reference.kind == "piston_1d" || problem.reference.kind == "rotating_disk";
   if (computed && problem.fluids.size() > 1)
-    fail(at(root, {"reference", "kind"}).place, "reference",
+    fail(node_at(root, {"reference", "kind"}).place, "reference",
          fmt::format("`{}` is computed with one gas and one solid; leave it out", problem.reference.kind));
   if (!problem.reference.u) {
     for (const auto& [key, is_there] :
          {std::pair{"v", problem.reference.v.has_value()}, std::pair{"P", problem.reference.P.has_value()}}) {
       if (is_there)
-        fail(at(root, {"reference", key}).place, fmt::format("reference.{}", key),
+        fail(node_at(root, {"reference", key}).place, fmt::format("reference.{}", key),
              "goes with `u`, which is missing");
     }
   }
@@ -157,22 +149,23 @@ void check_reference(const Case& problem, const Node& root) {
   };
   for (const FluidSpec& fluid : problem.fluids) {
     if (fluid.initial_from_reference)
-      check_start(problem.reference, true, fluid.path, at(fluid_section_of(root, fluid.name), {"initial"}));
+      check_start(problem.reference, true, fluid.path,
+                  node_at(fluid_section_of(root, fluid.name), {"initial"}));
   }
   for (const SolidSpec& solid : problem.solids) {
     if (solid.initial_from_reference)
       check_start(problem.reference, false, "solids." + solid.name,
-                  at(root, {"solids", solid.name, "initial"}));
+                  node_at(root, {"solids", solid.name, "initial"}));
   }
   for (const Side side : all_sides) {
     const auto index = static_cast<std::size_t>(side);
     for (const FluidSpec& fluid : problem.fluids) {
       need(fluid.boundary[index], true, fluid.path, side,
-           at(fluid_section_of(root, fluid.name), {"boundary", name_of(side)}));
+           node_at(fluid_section_of(root, fluid.name), {"boundary", name_of(side)}));
     }
     for (const SolidSpec& solid : problem.solids) {
       need(solid.boundary[index], false, "solids." + solid.name, side,
-           at(root, {"solids", solid.name, "boundary", name_of(side)}));
+           node_at(root, {"solids", solid.name, "boundary", name_of(side)}));
     }
   }
 }
@@ -199,11 +192,11 @@ void check_motion(const Case& problem, const Node& root) {
   const bool chosen = reference.kind == "manufactured" && !problem.fluids.empty() && !problem.solids.empty();
   if (!problem.interface.motion) {
     if (!chosen) return;
-    fail(at(root, {"reference"}).place, "reference",
+    fail(node_at(root, {"reference"}).place, "reference",
          "kind manufactured for gas and solid needs the path of the interface; write interface: {motion: "
          "[.., ..]}");
   }
-  const Node& node = at(root, {"interface", "motion"});
+  const Node& node = node_at(root, {"interface", "motion"});
   if (!chosen || !reference.fluid || !reference.u) {
     fail(node.place, "interface.motion",
          "goes with `reference: {kind: manufactured, fluid: .., u: ..}` only; leave it out: the solid moves "
@@ -227,14 +220,14 @@ void check_projection(const Case& problem, const Node& root) {
   if (problem.interface.projection != Projection::traditional || problem.fluids.empty()) return;
   for (const SolidSpec& solid : problem.solids) {
     if (is_continuum(solid.law) || solid.law == external_law) continue;
-    fail(at(root, {"interface", "projection"}).place, "interface.projection",
+    fail(node_at(root, {"interface", "projection"}).place, "interface.projection",
          fmt::format("traditional is not there for the {} `{}`, which is moved together with the gas's "
                      "answer to it; write simplified or full, which are the same for it",
                      solid.law == beam_law ? "beam" : "rigid solid", solid.name));
   }
   if (!problem.time.multirate || problem.solids.empty()) return;
   fail(
-      at(root, {"time", "multirate"}).place, "time.multirate",
+      node_at(root, {"time", "multirate"}).place, "time.multirate",
       "does not go with `interface.projection: traditional`, whose substeps would be closed with the solid's "
       "impedance; write false");
 }
@@ -244,7 +237,7 @@ void check_probes(const Case& problem, const Node& root) {
   for (const FluidSpec& fluid : problem.fluids) places.push_back(fluid.name);
   for (std::size_t k = 0; k < problem.output.probes.size(); ++k) {
     const ProbeSpec& probe = problem.output.probes[k];
-    const Node& node = at(root, {"output", "probes"}).items[k];
+    const Node& node = node_at(root, {"output", "probes"}).items[k];
     if (std::find(places.begin(), places.end(), probe.in) == places.end()) {
       fail(node.find("in")->place, fmt::format("output.probes[{}].in", k),
            fmt::format("{} is neither {} nor a solid{}", in_ticks(probe.in),
@@ -266,7 +259,7 @@ void check_solid_grid(const SolidSpec& solid, const Node& node) {
       fail(own->place, fmt::format("{}.{}", path, key), "the grid of a solid lies still; leave it out");
   }
   if (solid.grid.moving)
-    fail(at(node, {"map"}).place, path + ".map",
+    fail(node_at(node, {"map"}).place, path + ".map",
          "must not depend on t: the grid of a solid is its reference configuration");
   check_grid(solid.grid, node, path);
 }
@@ -276,10 +269,10 @@ void check_names(const Case& problem, const Node& root) {
   for (std::size_t k = 0; k < problem.solids.size(); ++k) {
     const std::string& name = problem.solids[k].name;
     if (name != "fluid" && name != "coupler" && fluid_named(problem, name) == nullptr) continue;
-    fail(at(root, {"solids"}).entries[k].place, "solids",
+    fail(node_at(root, {"solids"}).entries[k].place, "solids",
          fmt::format("`{}` is the name of another program; choose another", name));
   }
-  const Node& fluids = at(root, {"fluids"});
+  const Node& fluids = node_at(root, {"fluids"});
   if (&fluids == &root) return;
   if (root.find("fluid") != nullptr)
     fail(fluids.place, "fluids", "goes in the place of `fluid`; write all gases here");
@@ -297,7 +290,7 @@ void check_case(const Case& problem, const Node& root) {
     fail(root.place, "", "the case has neither `fluid` nor `solids`; write at least one");
   }
   if (problem.fluids.empty() && problem.solids.size() > 1) {
-    fail(at(root, {"solids"}).place, "solids",
+    fail(node_at(root, {"solids"}).place, "solids",
          "several solids without a gas have nothing in common; write one case for each");
   }
   check_names(problem, root);
@@ -305,11 +298,11 @@ void check_case(const Case& problem, const Node& root) {
   check_laws(problem, root);
   for (const FluidSpec& fluid : problem.fluids) check_fluid(problem, fluid, root);
   for (const SolidSpec& solid : problem.solids) {
-    check_solid_grid(solid, at(root, {"solids", solid.name, "grid"}));
+    check_solid_grid(solid, node_at(root, {"solids", solid.name, "grid"}));
     if (!is_continuum(solid.law)) continue;  // need their outline only
     check_overlap({.background = solid.grid,
                    .body_fitted = solid.body_fitted,
-                   .owner = at(root, {"solids", solid.name}),
+                   .owner = node_at(root, {"solids", solid.name}),
                    .path = "solids." + solid.name});
   }
   check_reference(problem, root);

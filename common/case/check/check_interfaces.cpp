@@ -10,6 +10,7 @@
 
 #include "common/case/check/check_meeting.hpp"
 #include "common/case/document/fluid_sections.hpp"
+#include "common/case/document/node_at.hpp"
 #include "common/core/input/suggest.hpp"
 #include "common/core/types.hpp"
 
@@ -20,19 +21,8 @@ namespace {
 using config::fail;
 using config::Node;
 
-/// The node under `keys`, as deep as there is one.
-const Node& under(const Node& root, std::initializer_list<std::string_view> keys) {
-  const Node* node = &root;
-  for (const std::string_view key : keys) {
-    const Node* next = node->find(key);
-    if (next == nullptr) break;
-    node = next;
-  }
-  return *node;
-}
-
 const Node& side_of(const Node& root, const FluidSpec& fluid, Side side) {
-  return under(fluid_section_of(root, fluid.name), {"boundary", name_of(side)});
+  return node_at(fluid_section_of(root, fluid.name), {"boundary", name_of(side)});
 }
 
 /// The sides of the gas that are interfaces to a solid.
@@ -62,7 +52,7 @@ void check_sides(const Case& problem, const FluidSpec& fluid, const Node& root) 
     if (spec.kind != BoundaryKind::interface ||
         std::find(names.begin(), names.end(), spec.solid) != names.end())
       continue;
-    fail(under(side_of(root, fluid, side), {"solid"}).place,
+    fail(node_at(side_of(root, fluid, side), {"solid"}).place,
          fmt::format("{}.boundary.{}", fluid.path, name_of(side)),
          fmt::format("there is no solid {}{}", in_ticks(spec.solid), did_you_mean(spec.solid, names)));
   }
@@ -76,7 +66,7 @@ void check_sides(const Case& problem, const FluidSpec& fluid, const Node& root) 
 /// A solid with a shape of its own meets the gas along its outline.
 void check_outline(const Case& problem, const SolidSpec& solid, const Node& root) {
   const BodyFittedSpec& outline = solid.body_fitted.front();
-  const Node& node = under(root, {"solids", solid.name, "body_fitted", "boundary"});
+  const Node& node = node_at(root, {"solids", solid.name, "body_fitted", "boundary"});
   const std::string path = fmt::format("solids.{}.body_fitted.boundary", solid.name);
   const BoundarySpec& own = outline.boundary[static_cast<std::size_t>(outline.side)];
   const bool is_interface = own.kind == BoundaryKind::interface;
@@ -91,7 +81,7 @@ void check_outline(const Case& problem, const SolidSpec& solid, const Node& root
     const auto grids = grids_at(fluid, solid.name);
     gases += grids > 0 ? 1 : 0;
     if (grids > 1)
-      fail(under(fluid_section_of(root, fluid.name), {"body_fitted"}).place, fluid.path + ".body_fitted",
+      fail(node_at(fluid_section_of(root, fluid.name), {"body_fitted"}).place, fluid.path + ".body_fitted",
            fmt::format("{} grids meet solid `{}`; keep one", grids, solid.name));
   }
   if (gases == 1 || problem.fluids.size() == 1) return;
@@ -105,16 +95,16 @@ void check_outline(const Case& problem, const SolidSpec& solid, const Node& root
 
 /// One interface of a solid that meets gases along sides of its grid.
 void check_side(const FluidSpec& fluid, const SolidSpec& solid, Side own, bool displaced, const Node& root) {
-  const Node& place = under(root, {"solids", solid.name, "boundary"});
+  const Node& place = node_at(root, {"solids", solid.name, "boundary"});
   const std::vector<Side> gas = sides_to(fluid, solid.name);
   const auto fitted = grids_at(fluid, solid.name);
   if (fitted + std::ssize(gas) > 1 && fitted > 0) {
-    fail(under(fluid_section_of(root, fluid.name), {"body_fitted"}).place, fluid.path + ".body_fitted",
+    fail(node_at(fluid_section_of(root, fluid.name), {"body_fitted"}).place, fluid.path + ".body_fitted",
          fmt::format("solid `{}` is met more than once; keep one", solid.name));
   }
   if (fitted == 1) return;
   if (gas.empty()) {
-    fail(under(place, {name_of(own)}).place, fmt::format("solids.{}.boundary.{}", solid.name, name_of(own)),
+    fail(node_at(place, {name_of(own)}).place, fmt::format("solids.{}.boundary.{}", solid.name, name_of(own)),
          fmt::format("the interface has no partner; write {{kind: interface, solid: {}}} on a side of "
                      "{}.boundary",
                      solid.name, fluid.path));
@@ -151,7 +141,7 @@ void check_named(const Case& problem, const SolidSpec& solid, const std::string&
 
 void check_grid_sides(const Case& problem, const SolidSpec& solid, const Node& root) {
   const std::string path = fmt::format("solids.{}.boundary", solid.name);
-  const Node& place = under(root, {"solids", solid.name, "boundary"});
+  const Node& place = node_at(root, {"solids", solid.name, "boundary"});
   const bool displaced = solid.initial_from_reference && problem.reference.kind != "elastic_piston" &&
                          problem.reference.kind != "wall_between_gases";
   std::vector<Side> sides;
@@ -178,7 +168,7 @@ void check_grid_sides(const Case& problem, const SolidSpec& solid, const Node& r
       check_side(*fluid, solid, side, displaced, root);
       continue;
     }
-    fail(under(place, {name_of(side), "fluid"}).place, fmt::format("{}.{}", path, name_of(side)),
+    fail(node_at(place, {name_of(side), "fluid"}).place, fmt::format("{}.{}", path, name_of(side)),
          names.empty() ? "an interface, but the case has no gas; write free, for example"
                        : fmt::format("there is no gas {}{}", in_ticks(name), did_you_mean(name, names)));
   }

@@ -74,14 +74,14 @@ constexpr array interface_keys{
         .meaning =
             "AMP projection (28), its simplified form (29), or none; rigid bodies have one of their own, "
             "and so have substeps; `traditional` goes with neither",
-        .fallback = name_of(InterfaceSpec{}.projection),
+        .fallback = name_of(ProjectionSpec{}.projection),
         .words = words_of<Projection>},
     Key{.name = "riemann",
         .type = Type::word,
         .meaning =
             "the gas's side of the projection: its whole wave curve (shock or rarefaction of any "
             "strength), or the tangent of that curve as in (28); they differ by the square of the jump",
-        .fallback = name_of(InterfaceSpec{}.riemann),
+        .fallback = name_of(ProjectionSpec{}.riemann),
         .words = words_of<GasResponse>},
     Key{.name = "motion",
         .type = Type::vector,

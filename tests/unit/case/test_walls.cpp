@@ -1,5 +1,6 @@
 // Bodies that stand on walls that are outlines themselves.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <string>
@@ -177,7 +178,7 @@ TEST(LinesAtBends, AreChosenCloseAndGivenOnesThatAreTooWideAreRefusedWithOnesTha
         Body{wedge + "}", "lines: 8, spacing: 0.05", "turns too sharply at ("},
         Body{wedge + ", radius: 0.1, points: 240}", "lines: 12, spacing: 0.02", "too flat on the wall"}}) {
     const auto with = [&, shape = shape](const std::string& lines) {
-      return body_case(law, shape, "  body_fitted: [{name: ring, solid: body, " + lines + "}]\n");
+      return body_case(law, shape, fmt::format("  body_fitted: [{{name: ring, solid: body, {}}}]\n", lines));
     };
     EXPECT_EQ(mistake_in(body_case(law, shape, "")), "");
     const std::string message = mistake_in(with(wide));
@@ -185,7 +186,7 @@ TEST(LinesAtBends, AreChosenCloseAndGivenOnesThatAreTooWideAreRefusedWithOnesTha
     const std::string spacing = number_after(message, "`spacing: "),
                       lines = number_after(message, "`lines: ");
     ASSERT_FALSE(spacing.empty() || lines.empty()) << message;
-    EXPECT_EQ(mistake_in(with("lines: " + lines + ", spacing: " + spacing)), "");
+    EXPECT_EQ(mistake_in(with(fmt::format("lines: {}, spacing: {}", lines, spacing))), "");
   }
 }
 
