@@ -118,7 +118,7 @@ function(fsi_test name)
   if(ARG_TOGETHER)
     fsi_together(${name})
     # A local name may be that of something in another test.
-    target_compile_options(${name} PRIVATE $<$<BOOL:${FSI_PRECOMPILED}>:-Wno-shadow>)
+    set_target_properties(${name} PROPERTIES UNITY_BUILD_CODE_BEFORE_INCLUDE "#pragma GCC diagnostic ignored \"-Wshadow\"")
   endif()
   add_dependencies(tests_${ARG_LABEL} ${name})
   gtest_discover_tests(${name} PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT} DISCOVERY_TIMEOUT 60)

@@ -17,7 +17,7 @@ using tests::load_text;
 using tests::mistake_in;
 
 /// A piston between two gases.
-const std::string good = R"(time: {end: 1, cfl: 0.9}
+const std::string good_pair = R"(time: {end: 1, cfl: 0.9}
 fluids:
   left:
     p_e: 1
@@ -55,14 +55,14 @@ expect: {conservation.left.mass: {max: 1}}
 )";
 
 std::string with(const std::string& from, const std::string& to) {
-  std::string text = good;
+  std::string text = good_pair;
   const std::size_t place = text.find(from);
   EXPECT_NE(place, std::string::npos) << from;
   return text.replace(place, from.size(), to);
 }
 
 TEST(Fluids, EachHasItsOwnStateAndAProgramOfItsOwn) {
-  const Case problem = load_text(good);
+  const Case problem = load_text(good_pair);
   ASSERT_EQ(problem.fluids.size(), 2U);
   EXPECT_EQ(problem.fluids[0].name, "left");
   EXPECT_EQ(problem.fluids[1].name, "right");
@@ -79,7 +79,7 @@ TEST(Fluids, EachHasItsOwnStateAndAProgramOfItsOwn) {
 }
 
 TEST(Fluids, ASolidBetweenTwoOfThemHasAnInterfaceWithEach) {
-  const SolidSpec piston = load_text(good).solids.front();
+  const SolidSpec piston = load_text(good_pair).solids.front();
   EXPECT_EQ(gases_at(piston), (std::vector<std::string>{"left", "right"}));
   EXPECT_EQ(interface_name(piston, "left"), "piston.left");
   EXPECT_EQ(side_to(piston, "left"), Side::left);
@@ -100,14 +100,14 @@ TEST(Fluids, TheOneGasOfACaseHasTheNamesItAlwaysHad) {
 }
 
 TEST(Fluids, WithSubstepsTheFasterGasSetsTheStep) {
-  const RunCost cost = cost_of(load_text(good, {"time.multirate=true"}));
+  const RunCost cost = cost_of(load_text(good_pair, {"time.multirate=true"}));
   ASSERT_EQ(cost.programs.size(), 3U);
   EXPECT_LT(cost.programs[0].dt, cost.programs[1].dt);  // a = 1.18 and 0.73
   EXPECT_EQ(cost.dt, cost.programs[0].dt);
 }
 
 TEST(Fluids, MistakesSayWhereAndWhatToWrite) {
-  EXPECT_EQ(mistake_in(good), "");
+  EXPECT_EQ(mistake_in(good_pair), "");
   EXPECT_EQ(mistake_in(with("left: {kind: interface, fluid: left}", "left: interface")),
             "case.yaml:24:5: solids.piston: the gases left and right meet it; write {kind: interface, fluid: "
             "NAME} at "

@@ -107,7 +107,7 @@ TEST(CaseLimits, StepsThatWouldNeverReachTheEndAreRefused) {
 }
 
 /// The mistake that a path is.
-std::string mistake_of(const std::string& path) {
+std::string mistake_of_path(const std::string& path) {
   try {
     load_case(path);
     return "";
@@ -118,14 +118,14 @@ std::string mistake_of(const std::string& path) {
 
 TEST(CaseLimits, WhatIsNoFileIsCalledWhatItIs) {
   const tests::TemporaryFolder folder;
-  EXPECT_EQ(mistake_of(tests::make_pipe(folder, "pipe.yaml")),
+  EXPECT_EQ(mistake_of_path(tests::make_pipe(folder, "pipe.yaml")),
             tests::path_in(folder, "pipe.yaml") + ": is a pipe, not a case file");
-  EXPECT_EQ(mistake_of(tests::make_loop(folder, "loop.yaml")),
+  EXPECT_EQ(mistake_of_path(tests::make_loop(folder, "loop.yaml")),
             tests::path_in(folder, "loop.yaml") + ": is a link that leads nowhere, not a case file");
-  EXPECT_EQ(mistake_of(tests::path_in(folder, "")),
+  EXPECT_EQ(mistake_of_path(tests::path_in(folder, "")),
             tests::path_in(folder, "") + ": is a folder, not a case file");
-  EXPECT_EQ(mistake_of("/dev/zero"), "/dev/zero: is a device, not a case file");
-  EXPECT_NE(mistake_of(tests::path_in(folder, "nothing.yaml")).find("no such case"), std::string::npos);
+  EXPECT_EQ(mistake_of_path("/dev/zero"), "/dev/zero: is a device, not a case file");
+  EXPECT_NE(mistake_of_path(tests::path_in(folder, "nothing.yaml")).find("no such case"), std::string::npos);
   EXPECT_EQ(read_text_file(tests::path_in(folder, "nothing.yaml"), 10).trouble,
             "cannot be read: No such file or directory");
 }
@@ -150,7 +150,7 @@ TEST(CaseLimits, FilesOfPointsThatAreNoneOrEndlessAreRefusedWhereTheyAreNamed) {
   tests::make_loop(folder, "loop.csv");
   const std::string place = "/case.yaml:4:58: shape.file: ";
   const auto expect = [&](const std::string& file, const std::string& what) {
-    const std::string mistake = mistake_of(folder.write("case.yaml", wall_of(file)));
+    const std::string mistake = mistake_of_path(folder.write("case.yaml", wall_of(file)));
     EXPECT_NE(mistake.find(place), std::string::npos) << mistake;
     EXPECT_NE(mistake.find(what), std::string::npos) << mistake;
   };
