@@ -218,7 +218,8 @@ void SolidComponent<L>::add_relaxation_offset(double t, double dt) {
     for (const auto& [begin, end] : points_.discretised(j)) {
       for (int i = begin; i < end; ++i) {
         const std::ptrdiff_t at = layout().at(i, j);
-        const SolidState offset = {.u = {}, .v = {}, .P = chosen_->offset(x(0, i, j), x(1, i, j), t)};
+        const SolidState offset = {
+            .u = Vec2::Zero(), .v = Vec2::Zero(), .P = chosen_->offset(x(0, i, j), x(1, i, j), t)};
         store(next_.view(), at, sum_of(load(next_.view(), at), beta, offset));
       }
     }
