@@ -36,7 +36,7 @@ WallBetweenGasesData of_mass(double mass) {
 }
 
 template <class Function>
-double slope(Function f, double at, double h = 1e-3) {
+double slope_at(Function f, double at, double h = 1e-3) {
   return (8 * (f(at + h) - f(at - h)) - (f(at + 2 * h) - f(at - 2 * h))) / (12 * h);
 }
 
@@ -52,10 +52,10 @@ TEST(WallBetweenGases, BothGasesObeyTheEquationsOfSound) {
          {std::array{-0.4, 1.4, 1.0}, std::array{-0.05, 1.4, 1.0}, std::array{0.6, 0.4, 5.0 / 3 / 0.4}}) {
       for (const double t : times) {
         const auto rate = [&](auto member) {
-          return slope([&](double s) { return member(wall.gas(x, 0, s)); }, t);
+          return slope_at([&](double s) { return member(wall.gas(x, 0, s)); }, t);
         };
         const auto along = [&](auto member) {
-          return slope([&](double s) { return member(wall.gas(s, 0, t)); }, x);
+          return slope_at([&](double s) { return member(wall.gas(s, 0, t)); }, x);
         };
         const auto p = [](const GasState& q) { return q.p; };
         const auto v = [](const GasState& q) { return q.v1; };
@@ -91,10 +91,10 @@ TEST(WallBetweenGases, TheElasticWallObeysHookesLawAndItsMomentumIsBalanced) {
       const auto v_of_t = [&](double s) { return wall.solid(x, 0, s).v[0]; };
       const auto P_of_x = [&](double s) { return wall.solid(s, 0, t).P(0, 0); };
       const SolidState solid = wall.solid(x, 0, t);
-      EXPECT_NEAR(slope(u_of_t, t), solid.v[0], of_differences);
-      EXPECT_NEAR(modulus * slope(u_of_x, x), solid.P(0, 0), of_differences);
-      EXPECT_NEAR(modulus / 3 * slope(u_of_x, x), solid.P(1, 1), of_differences);
-      EXPECT_NEAR(2 * slope(v_of_t, t), slope(P_of_x, x), of_differences);
+      EXPECT_NEAR(slope_at(u_of_t, t), solid.v[0], of_differences);
+      EXPECT_NEAR(modulus * slope_at(u_of_x, x), solid.P(0, 0), of_differences);
+      EXPECT_NEAR(modulus / 3 * slope_at(u_of_x, x), solid.P(1, 1), of_differences);
+      EXPECT_NEAR(2 * slope_at(v_of_t, t), slope_at(P_of_x, x), of_differences);
     }
   }
 }
@@ -105,10 +105,10 @@ TEST(WallBetweenGases, AWallOfMassAloneIsMovedByTheDifferenceOfThePressures) {
     for (const double t : times) {
       const auto v = [&](double s) { return wall.left_face(s); };
       const double push = wall.gas(-1e-13, 0, t).p - wall.gas(0.5 + 1e-13, 0, t).p;
-      EXPECT_NEAR(mass * slope(v, t), push, std::max(1.0, mass) * of_differences) << mass << " " << t;
+      EXPECT_NEAR(mass * slope_at(v, t), push, std::max(1.0, mass) * of_differences) << mass << " " << t;
       EXPECT_NEAR(wall.gas(-1e-13, 0, t).v1, v(t), 1e-10);
       EXPECT_NEAR(wall.gas(0.5 + 1e-13, 0, t).v1, v(t), 1e-10);
-      EXPECT_NEAR(slope([&](double s) { return wall.solid(0, 0, s).u[0]; }, t), v(t), of_differences);
+      EXPECT_NEAR(slope_at([&](double s) { return wall.solid(0, 0, s).u[0]; }, t), v(t), of_differences);
     }
   }
 }
