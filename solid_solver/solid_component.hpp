@@ -264,6 +264,7 @@ void SolidComponent<L>::dissipate(double dt) {
       if (bulk != 0) add_bulk_diffusion(q, next, bulk, run);
     }
   }
+  if (beta_u != 0) boundary_.correct_displacement_dissipation(q, next, beta_u);
 }
 
 template <Law L>

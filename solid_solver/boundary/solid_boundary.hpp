@@ -59,6 +59,10 @@ class SolidBoundary {
   /// From now on given values that are zero, and projected ones, are differences to this solution.
   void choose(const ChosenSolution* solution) { chosen_ = solution; }
 
+  /// Takes back what paper eq. (40) across loaded sides, with beta = beta^u, did to their own points on the way
+  /// from q to `next`: the ghost displacement there makes the traction right, it does not continue the field.
+  void correct_displacement_dissipation(ConstFieldView q, FieldView next, double beta) const;
+
   Kind kind(Side side) const { return kinds_[index(side)]; }
   /// Displacement and velocity of point k of a side where it also lies on a side whose motion is given.
   struct Motion {
@@ -112,10 +116,17 @@ class SolidBoundary {
   double stretch_along(ConstFieldView q, Side side, int k) const;
   void find_projected_traction(ConstFieldView q, double t, const InterfaceValues& values);
   void set_normal_stress(FieldView q, Side side, double t) const;
-  Mat2 impedance(ConstFieldView q, Side side, int k) const;
+  Stiffness stiffness(ConstFieldView q, Side side, int k) const;
+  Mat2 impedance(const Stiffness& K, Side side, int k) const;
   void follow_characteristics(FieldView q, Side side, double t) const;
   void slide_along_interface(FieldView q, const InterfaceValues& values) const;
-  void set_corner_stress(FieldView q, double t) const;
+  void set_corner_stress(FieldView q) const;
+  struct SidePoint {
+    Side side;
+    int k;
+  };
+  void share_change_at_corner(ConstFieldView q, SolidState& s, const SidePoint& one,
+                              const SidePoint& other) const;
   void extend_stress_to_corners(FieldView q, Side side, double t) const;
   void match_side(FieldView q, Side side, double t) const;
   void match_point(FieldView q, Side side, int k, double t) const;

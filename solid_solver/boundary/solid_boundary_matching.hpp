@@ -3,6 +3,7 @@
 /// points that make stress and displacement fit together.
 
 #include "solid_solver/boundary/solid_boundary.hpp"
+#include "solid_solver/kernels/dissipation.hpp"
 
 namespace fsi::solid {
 
@@ -25,6 +26,25 @@ void SolidBoundary<L>::apply(FieldView q, double t, std::span<const InterfaceVal
   fill_line(q, t, {.first_plane = plane::P11, .last_plane = plane::P22, .m = -1});
   fill_line(q, t, {.m = -2});
   fill_frame(q, t);
+}
+
+/// A ghost point of paper eq. (43) contains differences along the side, times the cell's depth over its length:
+/// what (40) makes of them on the side itself is no dissipation, and grows on deep cells. So the side's own
+/// points take none across the side.
+template <Law L>
+void SolidBoundary<L>::correct_displacement_dissipation(ConstFieldView q, FieldView next, double beta) const {
+  const double factor = 0.5 * beta;
+  for (const Side side : all_sides) {
+    if (!loaded(side)) continue;
+    const SideIndex line(layout(), side);
+    for (const int k : points(side)) {
+      for (int p = plane::u1; p <= plane::u2; ++p) {
+        const double* values = q.plane(p);
+        const auto u = [&](int m) { return values[line.at(k, m)]; };
+        next.plane(p)[line.at(k, 0)] += factor * fourth_difference(u(-2), u(-1), u(0), u(1), u(2));
+      }
+    }
+  }
 }
 
 /// Derivatives of u or v (first = plane::u1, plane::v1) at a boundary point from its four neighbours.

@@ -25,7 +25,7 @@ void SolidBoundary<L>::set_tractions(FieldView q, double t, std::span<const Inte
     if (loaded(side) || kind(side) == Kind::slip || kind(side) == Kind::symmetry)
       set_normal_stress(q, side, t);
   }
-  set_corner_stress(q, t);
+  set_corner_stress(q);
   for (const Side side : all_sides) {
     if (kind(side) == Kind::dirichlet) set_exact(q, side, t, 0);
   }
@@ -91,10 +91,14 @@ void SolidBoundary<L>::find_projected_traction(ConstFieldView q, double t, const
   }
 }
 
+template <Law L>
+Stiffness SolidBoundary<L>::stiffness(ConstFieldView q, Side side, int k) const {
+  return law_.K(plus(identity, gradient(q, side, k, plane::u1)));
+}
+
 /// Z of waves along the reference normal of a side, per unit reference area.
 template <Law L>
-Mat2 SolidBoundary<L>::impedance(ConstFieldView q, Side side, int k) const {
-  const Stiffness K = law_.K(plus(identity, gradient(q, side, k, plane::u1)));
+Mat2 SolidBoundary<L>::impedance(const Stiffness& K, Side side, int k) const {
   return matrix(impedance_matrix(K, normal(side, k), rho_, 1.0));
 }
 
@@ -102,7 +106,8 @@ Mat2 SolidBoundary<L>::impedance(ConstFieldView q, Side side, int k) const {
 /// w - Z v = w0 - Z v0, the vector form of paper eq. (18): given v changes w, given w changes v.
 /// Differs from the paper, which overwrites the given half only: the other half then keeps a mode that
 /// nothing damps, and corners of sides with given displacement are
-/// unstable. The change is of the size of the truncation error.
+/// unstable. The change is of the size of the truncation error. With the traction changes all of P that the
+/// waves carry: a traction that changes alone leaves tangential stress of its own behind, which grows.
 template <Law L>
 void SolidBoundary<L>::follow_characteristics(FieldView q, Side side, double t) const {
   const SideIndex line(layout(), side);
@@ -111,7 +116,8 @@ void SolidBoundary<L>::follow_characteristics(FieldView q, Side side, double t) 
     const std::ptrdiff_t a = line.at(k, 0);
     const SideMetrics m = at(side, k);
     SolidState s = load(q, a);
-    const Mat2 Z = impedance(q, side, k);
+    const Stiffness K = stiffness(q, side, k);
+    const Mat2 Z = impedance(K, side, k);
     if (!Z.allFinite()) continue;
     const Vec2 w = traction_of(s.P, m.n0), dv = v_change_[index(side)][static_cast<std::size_t>(k)];
     if (kind(side) == Kind::traction) {
@@ -122,12 +128,12 @@ void SolidBoundary<L>::follow_characteristics(FieldView q, Side side, double t) 
       }
       s.v += change;
     } else if (kind(side) == Kind::displacement) {
-      s.P = plus_dyad(s.P, m.n0, Z * dv);
+      s.P = behind_waves(s.P, K, m.n0, Z * dv);
     } else {
       const Vec2 shear = w - traction_of(chosen(a, t).P, m.n0);
       const Vec2 slide = -m.t0 * (m.t0.dot(shear + Z * dv) / m.t0.dot(Z * m.t0));
       s.v += slide;
-      s.P = plus_dyad(s.P, m.n0, Z * (dv + slide));
+      s.P = behind_waves(s.P, K, m.n0, Z * (dv + slide));
     }
     store(q, a, s);
   }
@@ -147,7 +153,7 @@ void SolidBoundary<L>::slide_along_interface(FieldView q, const InterfaceValues&
     const auto k = static_cast<std::size_t>(point);
     const std::ptrdiff_t a = line.at(point, 0);
     SolidState s = load(q, a);
-    const Mat2 Z = impedance(q, side, point);
+    const Mat2 Z = impedance(stiffness(q, side, point), side, point);
     if (!Z.allFinite()) continue;
     const Vec2 t(-values.n[n + k], values.n[k]);
     const Vec2 missing =
@@ -186,9 +192,10 @@ void SolidBoundary<L>::set_normal_stress(FieldView q, Side side, double t) const
   }
 }
 
-/// Two loaded sides: both tractions hold. Two sides with given displacement: P(F).
+/// Two loaded sides: both tractions hold. Two sides with given displacement: the change of the velocity goes
+/// out along the characteristics of both.
 template <Law L>
-void SolidBoundary<L>::set_corner_stress(FieldView q, double t) const {
+void SolidBoundary<L>::set_corner_stress(FieldView q) const {
   for (const Side side : {Side::left, Side::right}) {
     const SideIndex line(layout(), side);
     for (const int k : {0, line.n - 1}) {
@@ -201,10 +208,29 @@ void SolidBoundary<L>::set_corner_stress(FieldView q, double t) const {
         s.P = stress_of_tractions(at(side, k).n0, T_[index(side)][static_cast<std::size_t>(k)],
                                   at(other, k_other).n0, T_[index(other)][static_cast<std::size_t>(k_other)]);
       } else if (kind(side) == Kind::displacement && kind(other) == Kind::displacement) {
-        s.P = plus(law_.P(plus(identity, gradient(q, side, k, plane::u1))), chosen_offset(a, t));
+        share_change_at_corner(q, s, {side, k}, {other, k_other});
       }
       store(q, a, s);
     }
+  }
+}
+
+/// The given velocity of a corner of two sides changes its stress as on either of them, each with a share of the
+/// change: the force that made the predicted velocity acts across the shorter way the more, in proportion to
+/// |grad r|. P(F) here, whose one-sided differences of u answer to P again, makes waves grow beside the corner,
+/// and equal shares do on long cells.
+template <Law L>
+void SolidBoundary<L>::share_change_at_corner(ConstFieldView q, SolidState& s, const SidePoint& one,
+                                              const SidePoint& other) const {
+  const Stiffness K = stiffness(q, one.side, one.k);
+  const auto change = [&](const SidePoint& p) {
+    return v_change_[index(p.side)][static_cast<std::size_t>(p.k)];
+  };
+  const auto rate = [&](const SidePoint& p) { return at(p.side, p.k).across.norm(); };
+  const Vec2 dv = (change(one) + change(other)) / (rate(one) + rate(other));
+  for (const SidePoint& p : {one, other}) {
+    const Mat2 Z = impedance(K, p.side, p.k);
+    if (Z.allFinite()) s.P = behind_waves(s.P, K, normal(p.side, p.k), rate(p) * (Z * dv));
   }
 }
 

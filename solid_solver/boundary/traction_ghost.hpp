@@ -24,6 +24,15 @@ inline Mat2 matrix(const SymmetricTensor2& A) {
   return (Mat2() << A.a11, A.a12, A.a12, A.a22).finished();
 }
 
+/// P behind waves along n that change its traction by `change`: P + K_ijkl g_k n_l with B g = change, where B is
+/// the acoustic matrix of n. What no wave along n carries, the tangential stress that strain across n does not
+/// account for, stays as it is.
+inline Tensor2 behind_waves(const Tensor2& P, const Stiffness& K, const Vec2& n, const Vec2& change) {
+  const Vec2 g = matrix(acoustic_matrix(K, n)).inverse() * change;
+  const Tensor2 dP = contract(K, plus_dyad({}, g, n));
+  return {P.a11 + dP.a11, P.a12 + dP.a12, P.a21 + dP.a21, P.a22 + dP.a22};
+}
+
 /// What the Newton iterations know of the point.
 struct BoundaryStrain {
   Tensor2 F;    ///< F without the derivative across the side: I + (du/dalong) (grad along)^T
