@@ -106,8 +106,9 @@ Mat2 SolidBoundary<L>::impedance(const Stiffness& K, Side side, int k) const {
 /// w - Z v = w0 - Z v0, the vector form of paper eq. (18): given v changes w, given w changes v.
 /// Differs from the paper, which overwrites the given half only: the other half then keeps a mode that
 /// nothing damps, and corners of sides with given displacement are
-/// unstable. The change is of the size of the truncation error. With the traction changes all of P that the
-/// waves carry: a traction that changes alone leaves tangential stress of its own behind, which grows.
+/// unstable. The change is of the size of the truncation error. Beside given motion all of P changes that the
+/// waves carry: a traction that changes alone leaves tangential stress of its own behind, which grows. Slip sides
+/// change the traction alone: with the rest, ripples grow where they meet an interface behind a strong shock.
 template <Law L>
 void SolidBoundary<L>::follow_characteristics(FieldView q, Side side, double t) const {
   const SideIndex line(layout(), side);
@@ -133,7 +134,7 @@ void SolidBoundary<L>::follow_characteristics(FieldView q, Side side, double t) 
       const Vec2 shear = w - traction_of(chosen(a, t).P, m.n0);
       const Vec2 slide = -m.t0 * (m.t0.dot(shear + Z * dv) / m.t0.dot(Z * m.t0));
       s.v += slide;
-      s.P = behind_waves(s.P, K, m.n0, Z * (dv + slide));
+      s.P = plus_dyad(s.P, m.n0, Z * (dv + slide));
     }
     store(q, a, s);
   }
