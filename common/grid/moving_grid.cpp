@@ -95,10 +95,7 @@ GridDescription marched_from(const HyperbolicGrid& grid, std::vector<double> cur
 }
 
 MovingGrid::MovingGrid(GridDescription description, double t)
-    : description_(std::move(description)),
-      x_mapped_(Layout(description_.n1, description_.n2), 2),
-      x_(x_mapped_.layout(), 2),
-      x_old_(x_mapped_.layout(), 2) {
+    : description_(std::move(description)), x_(Layout(description_.n1, description_.n2), 2) {
   if (description_.n1 < 5 || description_.n2 < 5) {
     throw UserMistake(fmt::format("grid \"{}\": {} x {} points are too few; each direction needs at least 5",
                                   name(), description_.n1, description_.n2));
@@ -108,16 +105,20 @@ MovingGrid::MovingGrid(GridDescription description, double t)
   if (march_) {
     march(t, {});
   } else {
-    place(t);
-    std::ranges::copy(x_mapped_.values(), x_.values().begin());
+    place(t, x_.view());
   }
-  std::ranges::copy(x_.values(), x_old_.values().begin());
+  if (moves()) remember_places();
   check(t);
 }
 
-void MovingGrid::place(double t) {
+/// Where the grid is becomes where it was.
+void MovingGrid::remember_places() {
+  x_mapped_ = march_ ? Field(layout(), 2) : x_.clone();
+  x_old_ = x_.clone();
+}
+
+void MovingGrid::place(double t, FieldView x) const {
   const Layout& shape = layout();
-  FieldView x = x_mapped_.view();
   for (int j = -Layout::ghosts; j < shape.n2 + Layout::ghosts; ++j) {
     for (int i = -Layout::ghosts; i < shape.n1 + Layout::ghosts; ++i) {
       const Vec2 position = description_.mapping(static_cast<double>(i) / (shape.n1 - 1),
@@ -129,12 +130,13 @@ void MovingGrid::place(double t) {
 }
 
 void MovingGrid::move(double t, std::span<const SideCommand> commands) {
+  if (stayed()) remember_places();
   std::swap(x_, x_old_);
   if (march_) {
     march(t, commands);
     return;
   }
-  if (description_.moving) place(t);
+  if (description_.moving) place(t, x_mapped_.view());
   std::ranges::copy(x_mapped_.values(), x_.values().begin());
   const std::vector<std::vector<double>> told = with_common_corners(t, commands);
   for (std::size_t k = 0; k < told.size(); ++k) follow(commands[k].side, told[k]);

@@ -63,7 +63,7 @@ class MovingGrid {
   /// Vertices now (planes 0, 1: x1, x2), valid on -2 <= i < n1 + 2, -2 <= j < n2 + 2.
   ConstFieldView x() const { return x_.view(); }
   /// Vertices before the last move.
-  ConstFieldView x_old() const { return x_old_.view(); }
+  ConstFieldView x_old() const { return stayed() ? x_.view() : x_old_.view(); }
 
   /// Moves to time t: along the mapping, then sides with a command go where they are told and the
   /// displacement fades linearly to the opposite side, continued to the ghost lines. x() becomes x_old().
@@ -88,13 +88,15 @@ class MovingGrid {
 
  private:
   GridDescription description_;
-  Field x_mapped_, x_, x_old_;
+  Field x_mapped_, x_, x_old_;  ///< a grid that has never moved has x_ alone
   std::optional<HyperbolicMarch> march_;
   std::array<Vec2, 2> feet_;  ///< where the ends of the curve of a marched grid were at first
   std::uint64_t move_count_ = 0;
 
   void keep_on_wall(std::size_t end, double t);
-  void place(double t);
+  bool stayed() const { return x_old_.planes() == 0; }
+  void remember_places();
+  void place(double t, FieldView x) const;
   /// The commanded points of each side, adjacent sides with the same corner.
   std::vector<std::vector<double>> with_common_corners(double t, std::span<const SideCommand> commands) const;
   Vec2 common_corner(double t, const SideCommand& a, const SideCommand& b) const;
