@@ -88,6 +88,23 @@ void Component::use_points(const grid::RowSets& discretised, const grid::RowSets
   discretised_ = discretised;
   valid_ = valid;
   gather_runs();
+  if (live_sides_) find_live_points();
+}
+
+/// A ghost needs the side's points beside its own, for directions.
+void Component::find_live_points() {
+  constexpr int reach = 2;
+  for (const Side side : all_sides) {
+    const SidePoints points(grid_.layout(), side);
+    std::vector<std::uint8_t>& live = live_[static_cast<std::size_t>(side)];
+    live.assign(static_cast<std::size_t>(points.n()), 0);
+    for (int k = 0; k < points.n(); ++k) {
+      const auto [i, j] = points.at(k, 0);
+      if (!valid_.contains(i, j)) continue;
+      for (int b = std::max(k - reach, 0); b <= std::min(k + reach, points.n() - 1); ++b)
+        live[static_cast<std::size_t>(b)] = 1;
+    }
+  }
 }
 
 void Component::gather_runs() {
@@ -137,9 +154,12 @@ double Component::fill_row(int j, const StateField& initial, double t) {
 }
 
 void Component::start(double t) {
-  const Layout& shape = grid_.layout();
-  for (int j = 1; j < shape.n2 - 1; ++j) measure_row(j);
+  measure_rows();
   if (grid_.moves()) measure_initial_motion(t, 0.1 / fastest_point().rate);
+}
+
+void Component::measure_rows() {
+  for (int j = 1; j < grid_.layout().n2 - 1; ++j) measure_row(j);
 }
 
 /// Largest wave rate of a row's inner points.
@@ -209,9 +229,15 @@ void Component::advance(double t, double dt) {
     forcing_->add(source_.view(), 0.5 * dt, state_.view());
   }
   for (std::vector<double>& edge : edges_) std::ranges::fill(edge, 0.0);
-  const SweepTask task{
-      .q = state_.view(), .q_new = next_.view(), .grid = step_grid(), .runs = runs_, .dt = dt};
-  const SweepOutput output{workspace_, row_rates_, fallbacks_, {edges_[0], edges_[1], edges_[2], edges_[3]}};
+  const SweepTask task{.q = state_.view(),
+                       .q_new = next_.view(),
+                       .grid = step_grid(),
+                       .runs = runs_,
+                       .dt = dt,
+                       .guarded = {},
+                       .imposed = &imposed_};
+  const SweepOutput output{
+      workspace_, row_rates_, fallbacks_, {edges_[0], edges_[1], edges_[2], edges_[3]}, &noted_};
   const bool thin = sweep(task, scheme_, output) > 0;
   count_fallbacks();
   std::vector<int> changed_rows;

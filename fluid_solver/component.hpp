@@ -59,6 +59,11 @@ class Component {
   const Forcing* forcing() const { return forcing_ ? &*forcing_ : nullptr; }
   /// From now on only these points are advanced, and only these have a value.
   void use_points(const grid::RowSets& discretised, const grid::RowSets& valid);
+  /// From now on conditions on the sides are kept up near valid points only. The background of body-fitted
+  /// grids alone does without, as it always did.
+  void use_live_sides() { live_sides_ = true; }
+  /// Which points of a side are near valid ones; empty: all count.
+  std::span<const std::uint8_t> live(Side side) const { return live_[static_cast<std::size_t>(side)]; }
   const grid::RowSets& discretised() const { return discretised_; }
   const grid::RowSets& valid() const { return valid_; }
 
@@ -75,6 +80,9 @@ class Component {
   void note_edges();
   /// Of the last step through the faces inside a side; see EdgeFluxes. Empty where they are not noted.
   std::span<const double> edge(Side side) const { return edges_[static_cast<std::size_t>(side)]; }
+  /// Faces whose fluxes each step keeps, and those whose fluxes are given to it; see GasLevels.
+  FaceFluxes& noted() { return noted_; }
+  FaceFluxes& imposed() { return imposed_; }
   /// Area of a cell of a Cartesian grid.
   double cell_area() const { return spacing_->dx * spacing_->dy; }
   /// True on a rectangular grid at rest with equal spacings along the axes.
@@ -85,6 +93,8 @@ class Component {
   void fill(const StateField& initial, double t);
   /// Measures wave rates and the motion of the sides from the initial state.
   void start(double t);
+  /// The wave rates of a state that was not reached by a step.
+  void measure_rows();
   /// From the next move on; see MovingGrid::leave_part.
   void leave_part(std::span<const double> part) { grid_.leave_part(part); }
   void move(double t_new, double dt, std::span<const grid::SideCommand> commands);
@@ -107,6 +117,8 @@ class Component {
   Scheme scheme_;
   Field state_, next_;
   grid::RowSets discretised_, valid_;
+  bool live_sides_ = false;
+  std::array<std::vector<std::uint8_t>, 4> live_;
   SweepRuns runs_;
   std::vector<std::vector<Range>> row_runs_;  ///< work memory
   mutable Workspace workspace_;               ///< scratch, no part of the state
@@ -118,6 +130,7 @@ class Component {
   bool moved_ = false, advanced_ = false;  ///< in the step going on
   Counters counters_;
   std::array<std::vector<double>, 4> edges_;
+  FaceFluxes noted_, imposed_;
   std::vector<PointIndex> fallbacks_;  ///< work memory: points of one sweep
   std::optional<Forcing> forcing_;
   Field source_;             ///< of the forcing, at the time and on the grid of the state
@@ -125,6 +138,7 @@ class Component {
 
   StepGrid step_grid() const { return {grid_.x_old(), grid_.x(), spacing_}; }
   void gather_runs();
+  void find_live_points();
   double fill_row(int j, const StateField& initial, double t);
   void measure_initial_motion(double t, double delta);
   /// 1 / dt of (45) at the points of a row, in the workspace.

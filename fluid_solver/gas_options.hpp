@@ -22,6 +22,15 @@ using StateField = std::function<State(double x, double y, double t)>;
 using Riemann = RiemannSolver;
 using Limiter = GasLimiter;
 
+/// A background that is finest where the gas or a body needs it.
+struct Refinement {
+  int levels = 1;  ///< each three times as coarse as the next finer one; 1: the same spacing everywhere
+  RefinedQuantity quantity = RefinedQuantity::rho;
+  double threshold = 3e-3;  ///< refine where undivided second differences exceed this part of the range [-]
+  int buffer = 2;           ///< points of the coarser level around what is to be refined
+  int every = 6;            ///< steps between two adaptations
+};
+
 struct GasOptions {
   double gamma = 1.4;  ///< ratio of specific heats [-]
   double p_e = 0;      ///< pressure at which an interface carries no load [pressure]
@@ -31,7 +40,8 @@ struct GasOptions {
   double shock_viscosity = 0;         ///< coefficient of max(0, -div v) on undivided differences [-]
   double linear_diffusion = 0;        ///< of undivided second differences of the conserved variables [1/time]
   bool wave_curve = true;  ///< density at an interface along the wave curve; false: at constant entropy
-  double cfl = 0.9;        ///< safety factor C_CFL of the time step [-]
+  Refinement refine = {};
+  double cfl = 0.9;  ///< safety factor C_CFL of the time step [-]
 };
 
 /// Meets a solid: normal velocity and pressure are the projected ones.

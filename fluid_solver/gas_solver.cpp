@@ -72,27 +72,45 @@ GasSolver::GasSolver(std::vector<GasPart> parts, std::vector<grid::BodyFittedGri
     for (std::size_t k = 1; k < parts.size(); ++k) curved.push_back(&parts[k].grid);
     near_ = leave_room(curved, bodies, t0);
   }
-  components_.reserve(parts.size());
+  components_.reserve(parts.size() + static_cast<std::size_t>(options_.refine.levels));
+  const std::array<Boundary, 4> outer = parts.front().boundaries;
   for (GasPart& part : parts) {
     check_periods(part.grid, part.boundaries);
     components_.emplace_back(std::move(part.grid), options_, std::move(part.boundaries));
   }
-  if (bodies.empty()) return;
+  if (!bodies.empty()) connect_first(std::move(bodies));
+  add_levels(outer);
+}
+
+void GasSolver::connect_first(std::vector<grid::BodyFittedGrid> bodies) {
   require(components_.front().cartesian(),
           fmt::format("grid \"{}\": the background of body-fitted grids must "
                       "be a rectangle at rest",
                       components_.front().grid().name()));
   composite_.emplace(grid::background_of(components_.front().grid()), std::move(bodies));
-  std::vector<ConstFieldView> x;
-  for (int k = 1; k < grids(); ++k) x.push_back(grid(k).x());
-  composite_->connect(x, t0);
+  composite_->connect(fitted_positions(), t_);
   use_points();
 }
 
+/// Behind the other grids, so that these keep their numbers.
+void GasSolver::add_levels(const std::array<Boundary, 4>& boundaries) {
+  if (options_.refine.levels < 2) return;
+  levels_.emplace(components_.front(), options_.refine, components_.size(), options_.gamma);
+  for (grid::MovingGrid& grid : levels_->coarse_grids(components_.front()))
+    components_.emplace_back(std::move(grid), options_, boundaries);
+}
+
+/// Of the body-fitted grids.
+std::vector<ConstFieldView> GasSolver::fitted_positions() const {
+  std::vector<ConstFieldView> x;
+  for (int k = 1; k < composite_->grids(); ++k) x.push_back(grid(k).x());
+  return x;
+}
+
 void GasSolver::use_points() {
-  for (std::size_t k = 0; k < components_.size(); ++k) {
-    const int grid = static_cast<int>(k);
-    components_[k].use_points(composite_->discretised(grid), composite_->valid(grid));
+  for (int grid = 0; grid < composite_->grids(); ++grid) {
+    components_[static_cast<std::size_t>(grid)].use_points(composite_->discretised(grid),
+                                                           composite_->valid(grid));
   }
 }
 
@@ -110,8 +128,9 @@ void GasSolver::assign_initial_conditions(const StateField& initial) {
   for (Component& component : components_) {
     component.fill(initial, t_);
     mirror_ghosts(component, t_);
-    component.start(t_);
   }
+  if (levels_) levels_->start(components_, composite());
+  for (Component& component : components_) component.start(t_);
 }
 
 TimeStep GasSolver::compute_time_step() const {
@@ -159,15 +178,20 @@ void GasSolver::leave_room_between_curves(double t_new, std::span<const grid::Si
 
 void GasSolver::update_overlapping_grid(double t_new) {
   positions_.clear();
-  for (int k = 1; k < grids(); ++k) positions_.push_back({grid(k).x(), grid(k).x_old()});
+  for (int k = 1; k < composite_->grids(); ++k) positions_.push_back({grid(k).x(), grid(k).x_old()});
   composite_->update(positions_, t_new);
   use_points();
+  if (levels_) levels_->use_points(components_, composite());
   composite_->fill_exposed(gather_fields());
   keep_interpolated_positive(composite_->exposed());
 }
 
 void GasSolver::advance_fluid(double t, double dt) {
-  for (Component& component : components_) component.advance(t, dt);
+  for (std::size_t k = 0; k < components_.size(); ++k) {
+    // Finer levels first: what crosses their rims is theirs to say.
+    if (levels_ && k >= levels_->component(1)) levels_->match(components_, levels_->level_of(k));
+    components_[k].advance(t, dt);
+  }
   t_ = t;
 }
 
@@ -208,12 +232,23 @@ void GasSolver::apply_fluid_bcs(double t, std::span<const InterfaceValues> inter
     }
   };
   each([](Component& component, const BoundaryTask& task) { set_boundary_points(component, task); });
+  const BoundaryTask background{.t = t, .options = options_, .interfaces = {}};
+  if (levels_) {
+    levels_->average(components_);
+    for (int l = levels_->levels() - 1; l >= 0; --l) {
+      levels_->surround(components_, l);
+      if (l > 0) set_ghosts(components_[levels_->component(l)], background);
+    }
+  }
   if (composite_) {
     composite_->interpolate(gather_fields());
     keep_interpolated_positive(composite_->interpolation());
   }
-  each([](Component& component, const BoundaryTask& task) { set_ghosts(component, task); });
+  each([&](Component& component, const BoundaryTask& task) {
+    if (!levels_ || !levels_->is_coarse(component, components_)) set_ghosts(component, task);
+  });
   for (Component& component : components_) component.complete();
+  if (levels_) levels_->adapt(components_, composite(), background);
 }
 
 std::size_t GasSolver::points() const {
@@ -228,11 +263,13 @@ void GasSolver::archive(Archive& archive) {
   }
   archive.number("t", t_);
   if (composite_) archive.inside("overlap", [&] { composite_->archive(archive); });
-  if (!archive.loading() || !composite_) return;
-  std::vector<ConstFieldView> x;
-  for (int k = 1; k < grids(); ++k) x.push_back(grid(k).x());
-  composite_->connect(x, t_);
-  use_points();
+  if (levels_) archive.inside("levels", [&] { levels_->archive(archive); });
+  if (!archive.loading()) return;
+  if (composite_) {
+    composite_->connect(fitted_positions(), t_);
+    use_points();
+  }
+  if (levels_) levels_->restore(components_, composite());
 }
 
 }  // namespace fsi::fluid

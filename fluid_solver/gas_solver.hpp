@@ -19,6 +19,7 @@
 #include "common/grid/overlap/composite_grid.hpp"
 #include "fluid_solver/component.hpp"
 #include "fluid_solver/gas_options.hpp"
+#include "fluid_solver/levels/gas_levels.hpp"
 
 namespace fsi::fluid {
 
@@ -126,9 +127,16 @@ class GasSolver {
   /// Positions and state when the last step was complete, also after one that broke.
   ConstFieldView last_x(int grid = 0) const { return component(grid).last_x(); }
   ConstFieldView last_state(int grid = 0) const { return component(grid).last_state(); }
+  /// Background, body-fitted grids, and the coarser levels of the background.
   int grids() const { return static_cast<int>(components_.size()); }
+  /// The levels of the background; null where there is one only.
+  const GasLevels* levels() const { return levels_ ? &*levels_ : nullptr; }
   /// Points of a grid that have a value.
   const grid::RowSets& valid(int grid = 0) const { return component(grid).valid(); }
+  /// Points of a grid that are advanced.
+  const grid::RowSets& discretised(int grid = 0) const { return component(grid).discretised(); }
+  /// What the points of a grid are, row by row: 0 unused, 1 advanced, 2 interpolated.
+  std::vector<std::uint8_t> kinds(int grid) const;
   /// How the grids overlap; null where there is one only.
   const grid::CompositeGrid* composite() const { return composite_ ? &*composite_ : nullptr; }
   const GasOptions& options() const { return options_; }
@@ -145,6 +153,7 @@ class GasSolver {
   std::vector<Component> components_;
   std::optional<grid::NearCurves> near_;  ///< where there are several curves
   std::optional<grid::CompositeGrid> composite_;
+  std::optional<GasLevels> levels_;             ///< of the background, where there are several
   std::vector<FieldView> fields_;               ///< work memory: the state of each grid
   std::vector<InterfaceValues> interfaces_;     ///< work memory: those of one grid
   std::vector<grid::SideCommand> commands_;     ///< work memory: those of one grid
@@ -153,6 +162,10 @@ class GasSolver {
 
   const Component& component(int grid) const { return components_[static_cast<std::size_t>(grid)]; }
   std::span<const FieldView> gather_fields();
+  void connect_first(std::vector<grid::BodyFittedGrid> bodies);
+  void add_levels(const std::array<Boundary, 4>& boundaries);
+  std::vector<ConstFieldView> fitted_positions() const;
+  std::vector<int> from_finest() const;
   void use_points();
   void leave_room_between_curves(double t_new, std::span<const grid::SideCommand> commands);
   void update_overlapping_grid(double t_new);

@@ -29,8 +29,9 @@ class Thinness {
                             .grid = task_.grid,
                             .runs = runs,
                             .dt = task_.dt,
-                            .guarded = guarded_};
-      sweep(again, scheme_, {output_.work, {}, unused_, output_.edges});
+                            .guarded = guarded_,
+                            .imposed = task_.imposed};
+      sweep(again, scheme_, {output_.work, {}, unused_, output_.edges, output_.noted});
     }
     lift();
     for (int j = 0; j < runs.rows(); ++j) {

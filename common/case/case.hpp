@@ -112,6 +112,16 @@ struct GasScheme {
   double linear_diffusion = 0;  ///< of undivided second differences [1/time]
 };
 
+/// A background of the gas that is finest where the gas or a body needs it.
+struct RefineSpec {
+  int levels = 1;  ///< each three times as coarse as the next finer one; 1: the same spacing everywhere
+  RefinedQuantity variable = RefinedQuantity::rho;
+  double threshold = 3e-3;  ///< refine where undivided second differences exceed this part of the range [-]
+  int buffer = 2;           ///< points of the coarser level around what is to be refined
+  int every = 6;            ///< steps between two adaptations
+  std::array<int, 2> asked{};  ///< points of the background before some were added for the levels
+};
+
 /// A gas, with a program of its own.
 struct FluidSpec {
   std::string name = "fluid";  ///< of the participant: "fluid", or that under `fluids`
@@ -119,6 +129,7 @@ struct FluidSpec {
   double gamma = 1.4;
   double p_e = 0;
   GridSpec grid;
+  RefineSpec refine;
   std::array<BoundarySpec, 4> boundary;  ///< left, right, bottom, top
   std::vector<BodyFittedSpec> body_fitted;
   GasScheme scheme;

@@ -14,6 +14,8 @@ namespace fsi {
 
 /// Limiter of the slopes in the gas; none: centred slopes.
 enum class GasLimiter { none, minmod, mc, van_leer };
+/// The quantity whose bends are followed by a refined background.
+enum class RefinedQuantity { rho, p };
 /// Limiter of the slopes in a solid.
 enum class SolidLimiter { none, minmod };
 
@@ -62,6 +64,11 @@ inline constexpr std::array names_of<GasLimiter>{
     Named<GasLimiter>{GasLimiter::minmod, "minmod"},
     Named<GasLimiter>{GasLimiter::mc, "mc"},
     Named<GasLimiter>{GasLimiter::van_leer, "van_leer"},
+};
+template <>
+inline constexpr std::array names_of<RefinedQuantity>{
+    Named<RefinedQuantity>{RefinedQuantity::rho, "rho"},
+    Named<RefinedQuantity>{RefinedQuantity::p, "p"},
 };
 template <>
 inline constexpr std::array names_of<SolidLimiter>{

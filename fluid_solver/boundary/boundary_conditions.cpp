@@ -45,7 +45,7 @@ class BoundaryConditions {
 
   void set_ghosts() {
     mirror(0);
-    for (const Side side : all_sides) ghosts(SidePoints(layout_, side));
+    for (const Side side : all_sides) ghosts(points_of(side));
     for (const Side side : {Side::left, Side::right}) {
       for (const Side other : {Side::bottom, Side::top}) corner(side, other);
     }
@@ -66,6 +66,7 @@ class BoundaryConditions {
   ConstFieldView x_;
   Layout layout_;
 
+  SidePoints points_of(Side side) const { return {layout_, side, component_.live(side)}; }
   bool limited() const { return task_.options.limiter != Limiter::none; }
 
   const Forcing* forcing() const { return component_.forcing(); }
@@ -96,7 +97,7 @@ class BoundaryConditions {
   template <class Kind, class Action>
   void each(const Action& action) const {
     for (const Side side : all_sides) {
-      if (is<Kind>(component_.boundary(side))) action(SidePoints(layout_, side));
+      if (is<Kind>(component_.boundary(side))) action(points_of(side));
     }
   }
 
@@ -167,6 +168,7 @@ class BoundaryConditions {
     const auto n = static_cast<std::size_t>(side.n());
     const double gamma = task_.options.gamma;
     for (std::size_t k = 0; k < n; ++k) {
+      if (!side.live(static_cast<int>(k))) continue;
       const auto at = side.at(static_cast<int>(k), 0);
       const Vec2 normal(wall.normal[k], wall.normal[n + k]);
       StateVector state = load(q_, at);
@@ -195,6 +197,7 @@ class BoundaryConditions {
   void set_inflow(const SidePoints& side) {
     const StateField& given = std::get<Inflow>(component_.boundary(side.side())).state;
     for (int k = 0; k < side.n(); ++k) {
+      if (!side.live(k)) continue;
       const Vec2 place = position(x_, side, k, 0);
       store(q_, side.at(k, 0), to_vector(given(place[0], place[1], task_.t)));
     }
@@ -206,6 +209,7 @@ class BoundaryConditions {
     const auto n = static_cast<std::size_t>(side.n());
     for (std::size_t k = 0; k < n; ++k) {
       const int point = static_cast<int>(k);
+      if (!side.live(point)) continue;
       const Vec2 place = position(x_, side, point, 0), outward = -inward_normal(x_, side, point);
       const StateVector beyond = to_vector(given(place[0], place[1], task_.t));
       const OpenSide open{.n = outward,

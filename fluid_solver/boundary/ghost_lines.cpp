@@ -67,6 +67,7 @@ void outflow_ghosts(FieldView q, ConstFieldView x, const SidePoints& side, std::
   const bool limited = options.limiter != Limiter::none;
   const auto n = static_cast<std::size_t>(side.n());
   for (int k = 0; k < side.n(); ++k) {
+    if (!side.live(k)) continue;
     const Vec2 outward = -inward_normal(x, side, k);
     const auto point = static_cast<std::size_t>(k);
     const double g_n = outward.dot(Vec2(v[point], v[n + point]));
@@ -82,6 +83,7 @@ void outflow_ghosts(FieldView q, ConstFieldView x, const SidePoints& side, std::
 
 void extrapolated_ghosts(FieldView q, const SidePoints& side, bool limited) {
   for (int k = 0; k < side.n(); ++k) {
+    if (!side.live(k)) continue;
     for (int m = 1; m <= Layout::ghosts; ++m) {
       store(q, side.at(k, -m),
             extrapolated(load(q, side.at(k, 1 - m)), load(q, side.at(k, 2 - m)), load(q, side.at(k, 3 - m)),
@@ -93,6 +95,7 @@ void extrapolated_ghosts(FieldView q, const SidePoints& side, bool limited) {
 void given_lines(FieldView q, ConstFieldView x, const SidePoints& side, const StateField& state, double t) {
   for (int m = 0; m <= Layout::ghosts; ++m) {
     for (int k = m == 0 ? 0 : -Layout::ghosts; k < side.n() + (m == 0 ? 0 : Layout::ghosts); ++k) {
+      if (!side.live(k)) continue;
       const Vec2 place = position(x, side, k, -m);
       store(q, side.at(k, -m), to_vector(state(place[0], place[1], t)));
     }

@@ -2,6 +2,9 @@
 /// Walking along a side of a grid and away from it.
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
 
 #include "common/core/field.hpp"
 #include "common/core/types.hpp"
@@ -18,6 +21,15 @@ class SidePoints {
  public:
   SidePoints(const Layout& layout, Side side)
       : layout_(layout), side_(side), n_(direction_of(side) == 0 ? layout.n2 : layout.n1) {}
+  /// `live` says of each point whether its values and ghosts are needed; empty: all are.
+  SidePoints(const Layout& layout, Side side, std::span<const std::uint8_t> live) : SidePoints(layout, side) {
+    live_ = live;
+  }
+
+  /// Of points beyond the ends that of the end.
+  bool live(int k) const {
+    return live_.empty() || live_[static_cast<std::size_t>(k < 0 ? 0 : k < n_ ? k : n_ - 1)] != 0;
+  }
 
   struct Index {
     int i, j;
@@ -48,6 +60,7 @@ class SidePoints {
   Layout layout_;
   Side side_;
   int n_;
+  std::span<const std::uint8_t> live_;
 };
 
 /// Position of point k, m lines into the grid.

@@ -49,6 +49,7 @@ class Sweep {
         row_rates_(output.row_rates),
         fallbacks_(output.fallbacks),
         edges_(output.edges),
+        noted_(output.noted),
         viscous_(scheme.viscosity.any()),
         columns_(columns) {}
 
@@ -77,6 +78,7 @@ class Sweep {
   std::span<double> row_rates_;
   std::vector<PointIndex>& fallbacks_;
   EdgeFluxes edges_;
+  FaceFluxes* noted_;
   bool viscous_;
   Range columns_;
   PredictedRows predicted_{rows_.state(), rows_.state(), rows_.state(), rows_.state(), rows_.next()};
@@ -142,6 +144,8 @@ class Sweep {
     }
     if (viscous_) add_viscous_flux_row({conserved_before_, conserved_, kappa_before_, kappa_}, upper_, run);
     if (!task_.guarded.empty()) guard_between(r, run);
+    if (task_.imposed != nullptr) impose(task_.imposed->between, r, run, upper_);
+    if (noted_ != nullptr) fluid::note(noted_->between, r, run, upper_);
     if (r == 1) note_between(edges_[2], run);
     if (r == task_.q.layout.n2 - 1) note_between(edges_[3], run);
   }
@@ -190,6 +194,8 @@ class Sweep {
     if (viscous_)
       add_viscous_flux_row({conserved_, conserved_.shifted(1), kappa_, kappa_ + 1}, along_, faces);
     if (!task_.guarded.empty()) guard_along(r, faces);
+    if (task_.imposed != nullptr) impose(task_.imposed->along, r, faces, along_);
+    if (noted_ != nullptr) fluid::note(noted_->along, r, faces, along_);
     note_along(r, faces);
   }
 

@@ -12,6 +12,7 @@
 #include <span>
 #include <vector>
 
+#include "fluid_solver/kernels/face_fluxes.hpp"
 #include "fluid_solver/kernels/limiter.hpp"
 #include "fluid_solver/kernels/riemann/every_riemann.hpp"
 #include "fluid_solver/kernels/rows.hpp"
@@ -65,6 +66,7 @@ struct SweepOutput {
                                 ///< step; without viscosity only; empty: not wanted
   std::vector<PointIndex>& fallbacks;  ///< points advanced with first-order states are added
   EdgeFluxes edges = {};               ///< written where a point beside the face is advanced
+  FaceFluxes* noted = nullptr;         ///< faces whose fluxes are kept; null: none
 };
 
 /// What is advanced: the points of the runs, boundary points included, from q (with the points around them
@@ -76,6 +78,7 @@ struct SweepTask {
   const SweepRuns& runs;
   double dt;                                 ///< [time]
   std::span<const PointIndex> guarded = {};  ///< sorted: points with first-order positive fluxes on all faces
+  const FaceFluxes* imposed = nullptr;       ///< faces whose fluxes are given; null: none
 };
 
 /// @returns the number of thin points, see update_row

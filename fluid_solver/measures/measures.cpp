@@ -109,10 +109,34 @@ bool on_any(const std::array<bool, 4>& sides, const Layout& shape, SidePoints::I
          (sides[3] && at.j == shape.n2 - 1);
 }
 
+/// Control volumes of the points of a level that no finer one covers.
+void add_level(const GasSolver& solver, int level, const std::array<bool, 4>& without, Totals& totals) {
+  const int k = static_cast<int>(solver.levels()->component(level));
+  const grid::MovingGrid& grid = solver.grid(k);
+  const grid::RowSets& owned = solver.levels()->owned(level);
+  const Layout& shape = grid.layout();
+  for (int j = 0; j < shape.n2 - (grid.periodic(1) ? 1 : 0); ++j) {
+    for (const grid::Interval& run : owned.row(j)) {
+      for (int i = run.begin; i < std::min(run.end, shape.n1 - (grid.periodic(0) ? 1 : 0)); ++i)
+        if (!on_any(without, shape, {i, j})) add_point(solver, k, {i, j}, clipped_volume(grid, i, j), totals);
+    }
+  }
+}
+
+void add_coarse_levels(const GasSolver& solver, const std::array<bool, 4>& without, Totals& totals) {
+  for (int level = 1; level < solver.levels()->levels(); ++level) add_level(solver, level, without, totals);
+}
+
 /// Control volumes of a grid of its own: the same sums that the scheme conserves.
 Totals totals_of_one(const GasSolver& solver, const std::array<bool, 4>& without) {
   const grid::MovingGrid& grid = solver.grid();
+  const GasLevels* levels = solver.levels();
   Totals totals;
+  if (levels != nullptr) {
+    add_level(solver, 0, without, totals);
+    add_coarse_levels(solver, without, totals);
+    return totals;
+  }
   for (int j = 0; j < grid.layout().n2 - (grid.periodic(1) ? 1 : 0); ++j) {
     for (int i = 0; i < grid.layout().n1 - (grid.periodic(0) ? 1 : 0); ++i)
       if (!on_any(without, grid.layout(), {i, j}))
@@ -124,15 +148,18 @@ Totals totals_of_one(const GasSolver& solver, const std::array<bool, 4>& without
 /// A smooth partition of the areas of overlapping grids.
 Totals totals_of_all(const GasSolver& solver, const std::array<bool, 4>& without) {
   std::vector<ConstFieldView> x;
-  for (int k = 0; k < solver.grids(); ++k) x.push_back(solver.grid(k).x());
+  for (int k = 0; k < solver.composite()->grids(); ++k) x.push_back(solver.grid(k).x());
   const std::vector<Field> areas = grid::area_weights(*solver.composite(), x);
+  const GasLevels* levels = solver.levels();
   Totals totals;
-  for (int k = 0; k < solver.grids(); ++k) {
+  if (levels != nullptr) add_coarse_levels(solver, without, totals);
+  for (int k = 0; k < solver.composite()->grids(); ++k) {
     const ConstFieldView area = areas[static_cast<std::size_t>(k)].view();
     for (int j = 0; j < area.layout.n2; ++j) {
       for (const grid::Interval& run : solver.valid(k).row(j)) {
         for (int i = run.begin; i < run.end; ++i) {
           if (k == 0 && on_any(without, area.layout, {i, j})) continue;
+          if (k == 0 && levels != nullptr && !levels->owned(0).contains(i, j)) continue;
           add_point(solver, k, {i, j}, area(0, i, j), totals);
         }
       }
@@ -201,8 +228,32 @@ GasErrors GasSolver::errors(const StateField& exact, double t) const {
   return errors;
 }
 
+std::vector<std::uint8_t> GasSolver::kinds(int grid) const {
+  const Layout shape = state(grid).layout;
+  std::vector<std::uint8_t> kinds(shape.points(), 0);
+  for (int j = 0; j < shape.n2; ++j) {
+    const auto row = kinds.begin() + static_cast<std::ptrdiff_t>(j) * shape.n1;
+    for (const grid::Interval& run : valid(grid).row(j))
+      std::fill(row + run.begin, row + run.end, std::uint8_t{2});
+    for (const grid::Interval& run : discretised(grid).row(j))
+      std::fill(row + run.begin, row + run.end, std::uint8_t{1});
+  }
+  const auto k = static_cast<std::size_t>(grid);
+  if (levels_ && levels_->has(k)) levels_->show_once(levels_->level_of(k), kinds);
+  return kinds;
+}
+
+/// Body-fitted grids, the background, its coarser levels.
+std::vector<int> GasSolver::from_finest() const {
+  const int fitted = composite() == nullptr ? 1 : composite()->grids();
+  std::vector<int> order;
+  for (int k = fitted - 1; k >= 0; --k) order.push_back(k);
+  for (int k = fitted; k < grids(); ++k) order.push_back(k);
+  return order;
+}
+
 std::optional<State> GasSolver::probe(double x, double y) const {
-  for (int k = grids() - 1; k >= 0; --k) {  // body-fitted grids come first
+  for (const int k : from_finest()) {
     const std::optional<Place> place = find_cell(grid(k).x(), Vec2(x, y));
     if (!place) continue;
     const auto [i, j, r, s] = *place;

@@ -73,6 +73,7 @@ Boundary boundary_of(const BoundarySpec& spec, Side side,
 
 GasOptions options_of(const Case& problem, const FluidSpec& spec) {
   const GasScheme& scheme = spec.scheme;
+  const RefineSpec& refine = spec.refine;
   return {.gamma = spec.gamma,
           .p_e = spec.p_e,
           .riemann = scheme.riemann,
@@ -81,6 +82,7 @@ GasOptions options_of(const Case& problem, const FluidSpec& spec) {
           .shock_viscosity = scheme.shock_viscosity,
           .linear_diffusion = scheme.linear_diffusion,
           .wave_curve = problem.interface.riemann == GasResponse::exact,
+          .refine = {refine.levels, refine.variable, refine.threshold, refine.buffer, refine.every},
           .cfl = problem.time.cfl};
 }
 
@@ -255,11 +257,12 @@ std::vector<io::GridOutput> FluidParticipant::fields(bool last) const {
   std::vector<io::GridOutput> grids;
   for (int k = 0; k < solver_.grids(); ++k) {
     const ConstFieldView q = last ? solver_.last_state(k) : solver_.state(k);
-    grids.push_back({.grid = solver_.grid(k).name(),
-                     .x = last ? solver_.last_x(k) : solver_.grid(k).x(),
-                     .u = {},
-                     .fields = {{"rho", q, 0}, {"v1", q, 1}, {"v2", q, 2}, {"p", q, 3}},
-                     .kinds = kinds_of(solver_.composite(), k)});
+    grids.push_back(
+        {.grid = solver_.grid(k).name(),
+         .x = last ? solver_.last_x(k) : solver_.grid(k).x(),
+         .u = {},
+         .fields = {{"rho", q, 0}, {"v1", q, 1}, {"v2", q, 2}, {"p", q, 3}},
+         .kinds = solver_.levels() == nullptr ? kinds_of(solver_.composite(), k) : solver_.kinds(k)});
   }
   return grids;
 }
@@ -294,7 +297,7 @@ void FluidParticipant::open_budget() {
   const bool known = std::ranges::none_of(spec_.boundary, [](const BoundarySpec& side) {
     return side.kind == BoundaryKind::interface || side.kind == BoundaryKind::periodic;
   });
-  if (!bodies || !known || chosen_) return;
+  if (!bodies || !known || chosen_ || solver_.levels() != nullptr) return;
   budget_.emplace(solver_);
   budget_table_.emplace(
       setup_.run_dir + "/budget_" + spec_.name + ".csv",

@@ -12,6 +12,7 @@
 #include "common/case/document/reader.hpp"
 #include "common/case/read/build_beam.hpp"
 #include "common/case/read/build_domain.hpp"
+#include "common/case/read/build_levels.hpp"
 #include "common/case/read/build_material.hpp"
 #include "common/case/read/build_shape.hpp"
 #include "common/case/read/name_gases.hpp"
@@ -84,7 +85,9 @@ FluidSpec fluid_of(const Reader& reader, const FluidSection<const Node>& section
   Reader::assign(node, "gamma", result.gamma);
   Reader::assign(node, "p_e", result.p_e);
   result.grid = build_grid(reader, owner);
+  result.refine = build_levels(*node.find("grid"), section.path + ".grid", result.grid);
   result.boundary = build_boundaries(reader, owner, result.grid);
+  check_levels(*node.find("grid"), section.path + ".grid", result);
   result.body_fitted = build_fitted_grids(reader, owner, result.boundary, solids);
   if (const Node* scheme = node.find("scheme")) result.scheme = gas_scheme_of(*scheme);
   const Node& initial = *node.find("initial");

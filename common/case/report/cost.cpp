@@ -148,6 +148,7 @@ RunCost cost_of(const Case& problem) {
     if (speed == 0) return {};
     cost.programs.push_back(step_of(fluid.name, fluid, speed));
     cost.programs.back().is_gas = true;
+    cost.programs.back().levels = fluid.refine.levels;
   }
   for (const SolidSpec& solid : problem.solids) cost.programs.push_back(step_of(solid));
   for (StepCost& program : cost.programs) {
@@ -188,9 +189,11 @@ std::string cost_text(const RunCost& cost) {
           "`points` for that grid\n",
           program.program, program.usual_dt / program.dt);
   }
+  const bool levels =
+      std::ranges::any_of(cost.programs, [](const StepCost& program) { return program.levels > 1; });
   return text + warning +
-         fmt::format("  about {:.0f} steps of {:.2g}; about {} with a core for each program", cost.steps,
-                     cost.dt, time_text(cost.seconds));
+         fmt::format("  about {:.0f} steps of {:.2g}; about {} with a core for each program{}", cost.steps,
+                     cost.dt, time_text(cost.seconds), levels ? ", less by what the levels save" : "");
 }
 
 }  // namespace fsi

@@ -14,6 +14,7 @@ namespace fsi {
 struct StepCost {
   std::string program;  ///< "fluid", or the name of a gas or a solid
   bool is_gas = false;
+  int levels = 1;            ///< of the background; with more, `points` are those of the finest everywhere
   double points = 0;         ///< of all its grids
   double dt = 0;             ///< infinite for a program that takes any step
   std::string grid = {};     ///< whose cell sets it

@@ -79,6 +79,14 @@ std::string grids_of(const Owner& owner) {
   return text;
 }
 
+/// Points that were added so that levels fit.
+std::string added_points(const FluidSpec& fluid) {
+  const auto [n1, n2] = fluid.refine.asked;
+  if (n1 == fluid.grid.n1 && n2 == fluid.grid.n2) return "";
+  return fmt::format("\n  {}: {} x {} points in place of {} x {}, so that {} levels fit",
+                     fluid.path + ".grid", fluid.grid.n1, fluid.grid.n2, n1, n2, fluid.refine.levels);
+}
+
 }  // namespace
 
 bool is_coupled(const Case& problem) {
@@ -139,13 +147,16 @@ std::string summary_line(const Case& problem) {
   std::vector<std::string> parts;
   for (const FluidSpec& fluid : problem.fluids) {
     const std::string name = problem.fluids.size() > 1 ? fmt::format(" {}", fluid.name) : "";
-    parts.push_back(fmt::format("gas{} {}", name, grids_of(fluid)));
+    const std::string levels = fluid.refine.levels > 1 ? fmt::format(", {} levels", fluid.refine.levels) : "";
+    parts.push_back(fmt::format("gas{} {}{}", name, grids_of(fluid), levels));
   }
   for (const SolidSpec& solid : problem.solids) {
     parts.push_back(fmt::format("{} ({}) {}", solid.name, solid.law, grids_of(solid)));
   }
-  return fmt::format("{}: fine; {}, t = 0 to {}; memory about {}", problem.path, fmt::join(parts, ", "),
-                     problem.time.end, bytes_text(total_memory(problem)));
+  std::string line = fmt::format("{}: fine; {}, t = 0 to {}; memory about {}", problem.path,
+                                 fmt::join(parts, ", "), problem.time.end, bytes_text(total_memory(problem)));
+  for (const FluidSpec& fluid : problem.fluids) line += added_points(fluid);
+  return line;
 }
 
 std::vector<std::pair<std::string, std::string>> list_cases(const std::string& folder) {

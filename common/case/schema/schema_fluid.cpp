@@ -58,6 +58,58 @@ constexpr array grid_variants{
 };
 // ---- the gas
 
+constexpr array refine_keys{
+    Key{.name = "variable",
+        .type = Type::word,
+        .meaning = "quantity whose second differences are looked at",
+        .fallback = name_of(RefineSpec{}.variable),
+        .words = words_of<RefinedQuantity>},
+    Key{.name = "threshold",
+        .meaning = "a level is refined where an undivided second difference exceeds this part of the "
+                   "quantity's range",
+        .fallback = "3e-3",
+        .range = positive},
+    Key{.name = "buffer",
+        .type = Type::integer,
+        .meaning = "points of a level around what is refined in it; at least a third of `every`, so that no "
+                   "wave leaves the refined part",
+        .fallback = "2",
+        .range = {.low = 1, .high = 100}},
+    Key{.name = "every",
+        .type = Type::integer,
+        .meaning = "steps between two adaptations",
+        .fallback = "6",
+        .range = {.low = 1, .high = 300}},
+};
+constexpr Section refine_section{.title = "Where the background of the gas is refined", .keys = refine_keys};
+constexpr array level_keys{
+    Key{.name = "levels",
+        .type = Type::integer,
+        .meaning =
+            "of a rectangle: levels that follow the gas and the bodies, each three times as coarse as the "
+            "next finer one, `spacing` or `points` being those of the finest; points are added until they "
+            "fit (points - 1 of each direction a multiple of 3^(levels - 1), and at least four times it)",
+        .fallback = "1",
+        .range = {.low = 1, .high = 6}},
+    Key{.name = "refine",
+        .type = Type::section,
+        .meaning = "where, with more than one level",
+        .fallback = "all defaults",
+        .section = &refine_section},
+};
+
+/// The keys of any grid and those of levels.
+constexpr array gas_grid_keys = [] {
+  array<Key, shake_keys.size() + level_keys.size()> keys{};
+  for (std::size_t k = 0; k < keys.size(); ++k)
+    keys[k] = k < shake_keys.size() ? shake_keys[k] : level_keys[k - shake_keys.size()];
+  return keys;
+}();
+constexpr Section gas_grid_section{.title = "The grid of the gas",
+                                   .keys = gas_grid_keys,
+                                   .variants = grid_variants,
+                                   .default_kind = "rectangle"};
+
 constexpr array gas_state_keys{
     Key{.name = "rho",
         .type = Type::field,
@@ -182,7 +234,7 @@ constexpr array fluid_keys{
         .type = Type::section,
         .meaning = "where the gas is",
         .required = true,
-        .section = &grid_section},
+        .section = &gas_grid_section},
     Key{.name = "boundary",
         .type = Type::section,
         .meaning = "its four sides",

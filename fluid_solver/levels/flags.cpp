@@ -1,0 +1,61 @@
+#include "fluid_solver/levels/flags.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace fsi::fluid {
+
+void widen(ValueRange& range, ConstFieldView q, int plane, const grid::RowSets& points) {
+  for (int j = 0; j < points.rows(); ++j) {
+    const double* row = q.row(plane, j);
+    for (const grid::Interval& run : points.row(j)) {
+      double low = range.low, high = range.high;
+#pragma omp simd reduction(min : low) reduction(max : high)
+      for (int i = run.begin; i < run.end; ++i) {
+        low = std::min(low, row[i]);
+        high = std::max(high, row[i]);
+      }
+      range = {low, high};
+    }
+  }
+}
+
+void flag_bends(ConstFieldView q, int plane, double least, const CellMask& known, CellMask& flags) {
+  const Layout& shape = q.layout;
+  const auto bends = [least](double before, double here, double after) {
+    return std::fabs(before - 2 * here + after) > least;
+  };
+  for (int j = 0; j < shape.n2; ++j) {
+    const std::uint8_t* here = known.row(j);
+    const bool inner = j > 0 && j + 1 < shape.n2;
+    const std::uint8_t *below = inner ? known.row(j - 1) : here, *above = inner ? known.row(j + 1) : here;
+    const double *value = q.row(plane, j), *lower = q.row(plane, j - 1), *upper = q.row(plane, j + 1);
+    std::uint8_t* flag = flags.row(j);
+    for (int i = 0; i < shape.n1; ++i) {
+      if (here[i] == 0) continue;
+      const bool along = i > 0 && i + 1 < shape.n1 && here[i - 1] != 0 && here[i + 1] != 0 &&
+                         bends(value[i - 1], value[i], value[i + 1]);
+      const bool across = inner && below[i] != 0 && above[i] != 0 && bends(lower[i], value[i], upper[i]);
+      if (along || across) flag[i] = 1;
+    }
+  }
+}
+
+void flag_bodies(const grid::CompositeGrid& grids, std::span<const ConstFieldView> x, CellMask& flags) {
+  const grid::CartesianGrid& background = grids.background();
+  mark_coarse(gaps_of(grids.discretised(0), background.n1), flags);
+  const auto index = [](double place, double low, double spacing, int n) {
+    return coarse_index(std::clamp(static_cast<int>(std::lround((place - low) / spacing)), 0, n - 1));
+  };
+  for (int k = 1; k < grids.grids(); ++k) {
+    const ConstFieldView points = x[static_cast<std::size_t>(k) - 1];
+    for (int j = 0; j < points.layout.n2; ++j) {
+      for (int i = 0; i < points.layout.n1; ++i) {
+        flags.set(index(points(0, i, j), background.x_a, background.dx(), background.n1),
+                  index(points(1, i, j), background.y_a, background.dy(), background.n2));
+      }
+    }
+  }
+}
+
+}  // namespace fsi::fluid

@@ -1,0 +1,312 @@
+#include "fluid_solver/levels/gas_levels.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "common/core/failure.hpp"
+#include "fluid_solver/levels/flags.hpp"
+
+namespace fsi::fluid {
+
+namespace {
+
+/// Around a level, in points of the next coarser one: two for the averages the coarser one's stencil reads, one
+/// that surrounds the finer one.
+constexpr int nesting = 3;
+
+Ends ends_of(const Component& background) {
+  Ends ends{};
+  for (const Side side : all_sides) {
+    const Boundary& boundary = background.boundary(side);
+    ends[static_cast<std::size_t>(side)] = std::holds_alternative<Symmetry>(boundary)   ? Beyond::mirror
+                                           : std::holds_alternative<Periodic>(boundary) ? Beyond::period
+                                                                                        : Beyond::other;
+  }
+  return ends;
+}
+
+grid::RowSets in_both(const grid::RowSets& a, const grid::RowSets& b) {
+  grid::RowSets both;
+  std::vector<grid::Interval> parts;
+  for (int j = 0; j < a.rows(); ++j) {
+    parts.clear();
+    grid::intersect(a.row(j), b.row(j), parts);
+    both.append(parts);
+    both.end_row();
+  }
+  return both;
+}
+
+}  // namespace
+
+GasLevels::GasLevels(const Component& background, const Refinement& options, std::size_t first, double gamma)
+    : options_(options), first_(first), gamma_(gamma), ends_(ends_of(background)) {
+  const grid::MovingGrid& grid = background.grid();
+  if (!background.cartesian()) {
+    throw UserMistake(fmt::format(
+        "grid \"{}\": only a rectangle at rest can have levels; write fluid.grid.levels: 1", grid.name()));
+  }
+  LatticeShape shape{grid.layout().n1, grid.layout().n2, {grid.periodic(0), grid.periodic(1)}};
+  shapes_.push_back(shape);
+  for (int l = 1; l < options.levels; ++l) {
+    constexpr int fewest = 4;
+    for (int* n : {&shape.n1, &shape.n2}) {
+      if ((*n - 1) % refinement_ratio != 0 || (*n - 1) / refinement_ratio < fewest) {
+        throw UserMistake(
+            fmt::format("grid \"{}\": {} x {} points do not make {} levels; the points of each side less one "
+                        "must be at least {} "
+                        "times and a multiple of 3^(levels - 1)",
+                        grid.name(), grid.layout().n1, grid.layout().n2, options.levels, fewest));
+      }
+      *n = (*n - 1) / refinement_ratio + 1;
+    }
+    shapes_.push_back(shape);
+    coarse_.push_back(
+        {.covered = CellMask(shape), .restricted = {}, .prolonged = {}, .valid = {}, .faces = {}});
+  }
+  owned_.resize(shapes_.size());
+}
+
+std::vector<grid::MovingGrid> GasLevels::coarse_grids(const Component& background) const {
+  const grid::CartesianGrid whole = grid::background_of(background.grid());
+  std::vector<grid::MovingGrid> grids;
+  for (int l = 1; l < levels(); ++l) {
+    grids.emplace_back(grid::GridDescription{.name = fmt::format("{}_{}", background.grid().name(), l),
+                                             .n1 = shape(l).n1,
+                                             .n2 = shape(l).n2,
+                                             .mapping =
+                                                 [whole](double r, double s, double) {
+                                                   return Vec2(whole.x_a + r * (whole.x_b - whole.x_a),
+                                                               whole.y_a + s * (whole.y_b - whole.y_a));
+                                                 },
+                                             .periodic1 = shape(l).periodic[0],
+                                             .periodic2 = shape(l).periodic[1]},
+                       0);
+  }
+  return grids;
+}
+
+/// The points of level l > 0 that are not outside the next coarser level's covered part.
+CellMask GasLevels::region(int l, const std::vector<CellMask>& covered) const {
+  CellMask region(shape(l));
+  if (l + 1 == levels()) {
+    region.set_all(true);
+  } else {
+    region.add(refined(covered[static_cast<std::size_t>(l)].rows(), shape(l).n1, shape(l).n2));
+  }
+  return region;
+}
+
+/// covered[l - 1] belongs to level l.
+void GasLevels::install(std::span<Component> components, std::vector<CellMask> covered) {
+  CellMask outer;  // of the level above, what surrounds this one
+  for (int l = levels() - 1; l > 0; --l) {
+    const CellMask& here = covered[static_cast<std::size_t>(l) - 1];
+    CellMask advanced = region(l, covered), valid = advanced;
+    advanced.remove(here);
+    CellMask restricted = advanced, not_covered(shape(l)), prolonged = here;
+    restricted.grow(2);
+    not_covered.set_all(true);
+    not_covered.remove(here);
+    restricted.remove(not_covered);
+    prolonged.grow(1);
+    prolonged.remove(here);
+    if (l + 1 < levels()) valid.add(refined(at(l + 1).prolonged, shape(l).n1, shape(l).n2));
+    valid.remove(here);
+    valid.add(restricted);
+    owned_[static_cast<std::size_t>(l)] = advanced.rows();
+    Component &fine = components[component(l - 1)], &coarse = components[component(l)];
+    at(l) = {.covered = here,
+             .restricted = restricted.rows(),
+             .prolonged = prolonged.rows(),
+             .valid = valid.rows(),
+             .faces = LevelFaces(here, shape(l - 1), ends_, fine.noted(), coarse.imposed())};
+  }
+  CellMask reach = at(1).covered;
+  owned_[0] = refined(reach.rows(), shape(0).n1, shape(0).n2);
+  reach.add(at(1).prolonged);
+  reach_ = refined(reach.rows(), shape(0).n1, shape(0).n2);
+}
+
+void GasLevels::use_points(std::span<Component> components, const grid::CompositeGrid* composite) const {
+  for (int l = 0; l < levels(); ++l) components[component(l)].use_live_sides();
+  if (composite == nullptr) {
+    components[0].use_points(owned_[0], reach_);
+  } else {
+    components[0].use_points(in_both(composite->discretised(0), owned_[0]),
+                             in_both(composite->valid(0), reach_));
+  }
+  for (int l = 1; l < levels(); ++l) components[component(l)].use_points(owned(l), at(l).valid);
+}
+
+void GasLevels::match(std::span<Component> components, int l) const {
+  at(l).faces.match(components[component(l - 1)].noted(), components[component(l)].imposed());
+}
+
+void GasLevels::average(std::span<Component> components) const {
+  for (int l = 1; l < levels(); ++l) {
+    restrict_to(at(l).restricted, components[component(l)].state(), components[component(l - 1)].state(),
+                ends_, gamma_);
+  }
+}
+
+void GasLevels::surround(std::span<Component> components, int l) const {
+  if (l + 1 == levels()) return;
+  prolong_from(at(l + 1).prolonged, components[component(l + 1)].state(), components[component(l)].state(),
+               gamma_);
+}
+
+/// Averages at all wanted points whose control volumes the finer level knows.
+/// @returns the points of each level that are known then: advanced or averaged
+std::vector<CellMask> GasLevels::average_all(std::span<Component> components,
+                                             const std::vector<CellMask>& wanted) const {
+  std::vector<CellMask> known;
+  grid::RowSets finer = components[0].valid();
+  for (int l = 1; l < levels(); ++l) {
+    CellMask missing(shape(l)), points = wanted[static_cast<std::size_t>(l) - 1];
+    mark_coarse(gaps_of(finer, shape(l - 1).n1), missing);
+    points.remove(missing);
+    restrict_to(points.rows(), components[component(l)].state(), components[component(l - 1)].state(), ends_,
+                gamma_);
+    points.add(owned(l));
+    finer = points.rows();
+    known.push_back(std::move(points));
+  }
+  return known;
+}
+
+std::vector<CellMask> GasLevels::choose(std::span<const Component> components,
+                                        const grid::CompositeGrid* composite,
+                                        const std::vector<CellMask>& known) const {
+  const int plane = options_.quantity == RefinedQuantity::p ? 3 : 0;
+  constexpr double endless = std::numeric_limits<double>::infinity();
+  ValueRange range{endless, -endless};
+  for (int l = 0; l < levels(); ++l) {
+    const Component& level = components[component(l)];
+    widen(range, level.state(), plane, level.discretised());
+  }
+  constexpr double noise = 1e-6;  // of the value itself
+  const double least = options_.threshold * std::max(range.high - range.low, noise * range.high);
+  std::vector<CellMask> covered;
+  for (int l = 1; l < levels(); ++l) {
+    CellMask mask(shape(l));
+    flag_bends(components[component(l)].state(), plane, least, known[static_cast<std::size_t>(l) - 1], mask);
+    mask.grow(options_.buffer);
+    CellMask near(shape(l));
+    if (l == 1 && composite != nullptr) {
+      std::vector<ConstFieldView> x;
+      for (int k = 1; k < composite->grids(); ++k)
+        x.push_back(components[static_cast<std::size_t>(k)].grid().x());
+      flag_bodies(*composite, x, near);
+      near.grow(nesting + options_.buffer);
+    } else if (l > 1) {
+      CellMask finer = covered.back();
+      finer.grow(nesting);
+      mark_coarse(finer.rows(), near);
+    }
+    mask.add(near);
+    mask.close_ends();
+    covered.push_back(std::move(mask));
+  }
+  return covered;
+}
+
+void GasLevels::start(std::span<Component> components, const grid::CompositeGrid* composite) {
+  std::vector<CellMask> all;
+  for (int l = 1; l < levels(); ++l) {
+    all.emplace_back(shape(l)).set_all(true);
+    owned_[static_cast<std::size_t>(l)] = CellMask(shape(l)).rows();
+  }
+  const std::vector<CellMask> known = average_all(components, all);
+  install(components, choose(components, composite, known));
+  use_points(components, composite);
+}
+
+/// Points that become covered hand their state down, level by level.
+void GasLevels::fill_new(std::span<Component> components, const std::vector<CellMask>& covered,
+                         const BoundaryTask& task) const {
+  for (int l = levels() - 1; l > 0; --l) {
+    CellMask fresh = covered[static_cast<std::size_t>(l) - 1];
+    fresh.remove(at(l).covered);
+    Component &coarse = components[component(l)], &fine = components[component(l - 1)];
+    prolong_from(fresh.rows(), std::as_const(coarse).state(), fine.state(), gamma_);
+    set_ghosts(fine, task);
+  }
+}
+
+bool GasLevels::adapt(std::span<Component> components, const grid::CompositeGrid* composite,
+                      const BoundaryTask& task) {
+  if (++since_ < options_.every) return false;
+  since_ = 0;
+  std::vector<CellMask> before;
+  for (const Level& level : coarse_) before.push_back(level.covered);
+  const std::vector<CellMask> known = average_all(components, before);
+  std::vector<CellMask> covered = choose(components, composite, known);
+  if (covered == before) return false;
+  fill_new(components, covered, task);
+  install(components, std::move(covered));
+  use_points(components, composite);
+  average(components);
+  for (int l = levels() - 1; l >= 0; --l) {
+    surround(components, l);
+    set_ghosts(components[component(l)], task);
+    components[component(l)].measure_rows();
+  }
+  return true;
+}
+
+/// Whether a point of level l lies in a cell of the next coarser one that has a covered corner.
+bool GasLevels::closes_a_cell(int l, int i, int j) const {
+  const CellMask& covered = at(l + 1).covered;
+  const int low_i = (i + 2) / refinement_ratio - 1, low_j = (j + 2) / refinement_ratio - 1;
+  for (int b = low_j; b <= j / refinement_ratio + 1; ++b) {
+    for (int a = low_i; a <= i / refinement_ratio + 1; ++a)
+      if (covered.contains(a, b)) return true;
+  }
+  return false;
+}
+
+void GasLevels::show_once(int l, std::span<std::uint8_t> kinds) const {
+  const auto [n1, n2, periodic] = shape(l);
+  std::size_t k = 0;
+  for (int j = 0; j < n2; ++j) {
+    for (int i = 0; i < n1; ++i, ++k) {
+      if (kinds[k] != 2) continue;
+      const bool finer = l > 0 && at(l).covered.contains(i, j);
+      if (finer || (l + 1 < levels() && !closes_a_cell(l, i, j))) kinds[k] = 0;
+    }
+  }
+}
+
+void GasLevels::archive(Archive& archive) {
+  archive.number("since", since_);
+  for (int l = 1; l < levels(); ++l) {
+    std::vector<double> runs;  // row, begin, end
+    const grid::RowSets rows = at(l).covered.rows();
+    for (int j = 0; j < rows.rows(); ++j) {
+      for (const grid::Interval& run : rows.row(j))
+        runs.insert(runs.end(),
+                    {static_cast<double>(j), static_cast<double>(run.begin), static_cast<double>(run.end)});
+    }
+    archive.list(fmt::format("covered{}", l), runs);
+    if (!archive.loading()) continue;
+    at(l).covered.set_all(false);
+    for (std::size_t k = 0; k + 2 < runs.size(); k += 3) {
+      for (int i = static_cast<int>(runs[k + 1]); i < static_cast<int>(runs[k + 2]); ++i)
+        at(l).covered.set(i, static_cast<int>(runs[k]));
+    }
+  }
+}
+
+void GasLevels::restore(std::span<Component> components, const grid::CompositeGrid* composite) {
+  std::vector<CellMask> covered;
+  for (const Level& level : coarse_) covered.push_back(level.covered);
+  install(components, std::move(covered));
+  use_points(components, composite);
+}
+
+}  // namespace fsi::fluid

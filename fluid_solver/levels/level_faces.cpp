@@ -1,0 +1,125 @@
+#include "fluid_solver/levels/level_faces.hpp"
+
+#include <algorithm>
+
+namespace fsi::fluid {
+
+namespace {
+
+/// The fine faces of a coarse face, in the order of its members.
+struct FineFaces {
+  std::array<PointIndex, 3> at;
+  Members members;
+};
+
+/// Fine face 3 i + 1 lies between the last point of control volume i and the first one of the next; of the
+/// faces between rows, that before row 3 j - 1.
+FineFaces fine_faces(int i, int j, int direction, const LatticeShape& fine, const Ends& ends) {
+  FineFaces faces{};
+  faces.members = direction == 0 ? members_of(j, fine.n2, {ends[2], ends[3]})
+                                 : members_of(i, fine.n1, {ends[0], ends[1]});
+  for (std::size_t k = 0; k < faces.at.size(); ++k) {
+    faces.at[k] = direction == 0 ? PointIndex{refinement_ratio * i + 1, faces.members.at[k]}
+                                 : PointIndex{faces.members.at[k], refinement_ratio * j - 1};
+  }
+  return faces;
+}
+
+/// Faces, sorted by rows, as a list.
+void assign(FaceList& list, int rows, std::vector<PointIndex>& faces) {
+  std::ranges::sort(faces);
+  const auto doubles = std::ranges::unique(faces);
+  faces.erase(doubles.begin(), doubles.end());
+  list.clear(rows);
+  std::vector<int> row;
+  auto next = faces.begin();
+  for (int j = 0; j < rows; ++j) {
+    row.clear();
+    for (; next != faces.end() && next->j == j; ++next) row.push_back(next->i);
+    list.append_row(j, row);
+  }
+}
+
+int wrapped(int k, int n, bool periodic) {
+  return periodic ? (k % (n - 1) + n - 1) % (n - 1) : k;
+}
+
+}  // namespace
+
+/// Faces along rows have i from -1 on, those between rows j from 0 to n2, as far as they bound points of the
+/// lattice; only a period has a rim beyond its ends.
+std::vector<LevelFaces::CoarseFace> LevelFaces::rim(const CellMask& covered, int direction) {
+  const auto [n1, n2, periodic] = covered.shape();
+  std::vector<CoarseFace> faces;
+  const bool along = direction == 0;
+  for (int j = 0; j < (along ? n2 : n2 + 1); ++j) {
+    for (int i = along ? -1 : 0; i < n1; ++i) {
+      const bool end = along ? i < 0 || i + 1 >= n1 : j < 1 || j >= n2;
+      if (end && !periodic[static_cast<std::size_t>(direction)]) continue;
+      const bool before = covered.contains(i, along ? j : j - 1),
+                 after = covered.contains(along ? i + 1 : i, j);
+      if (before == after) continue;
+      faces.push_back({.i = i,
+                       .j = j,
+                       .real_i = along ? wrapped(i, n1, end) : i,
+                       .real_j = along ? j : wrapped(j - 1, n2, end) + 1});
+    }
+  }
+  return faces;
+}
+
+std::vector<LevelFaces::Source> LevelFaces::link(const std::vector<CoarseFace>& faces, int direction,
+                                                 const LatticeShape& fine, const Ends& ends,
+                                                 FaceList& noted) {
+  std::vector<PointIndex> all;
+  for (const CoarseFace& face : faces) {
+    const FineFaces parts = fine_faces(face.real_i, face.real_j, direction, fine, ends);
+    all.insert(all.end(), parts.at.begin(), parts.at.begin() + parts.members.n);
+  }
+  assign(noted, fine.n2 + 1, all);
+  std::vector<Source> sources;
+  for (const CoarseFace& face : faces) {
+    const FineFaces parts = fine_faces(face.real_i, face.real_j, direction, fine, ends);
+    Source source{.n = parts.members.n, .weight = parts.members.weight, .mirrored = parts.members.mirrored};
+    for (int k = 0; k < source.n; ++k) {
+      const auto found = std::ranges::lower_bound(all, parts.at[static_cast<std::size_t>(k)]);
+      source.from[static_cast<std::size_t>(k)] = static_cast<std::size_t>(found - all.begin());
+    }
+    sources.push_back(source);
+  }
+  return sources;
+}
+
+LevelFaces::LevelFaces(const CellMask& covered, const LatticeShape& fine, const Ends& ends, FaceFluxes& noted,
+                       FaceFluxes& imposed) {
+  for (const int direction : {0, 1}) {
+    const std::vector<CoarseFace> faces = rim(covered, direction);
+    (direction == 0 ? along_ : between_) =
+        link(faces, direction, fine, ends, direction == 0 ? noted.along : noted.between);
+    std::vector<PointIndex> here;
+    for (const CoarseFace& face : faces) here.push_back({face.i, face.j});
+    assign(direction == 0 ? imposed.along : imposed.between, covered.shape().n2 + 1, here);
+  }
+}
+
+void LevelFaces::match(const FaceFluxes& noted, FaceFluxes& imposed) const {
+  const auto add = [](const std::vector<Source>& sources, const FaceList& from, FaceList& to,
+                      std::size_t momentum_along) {
+    // Fluxes are per volume of a cell: a coarse one is three times as wide as a fine one.
+    constexpr double width = 1.0 / refinement_ratio;
+    for (std::size_t face = 0; face < sources.size(); ++face) {
+      const Source& source = sources[face];
+      FaceValues sum{};
+      for (std::size_t k = 0; k < static_cast<std::size_t>(source.n); ++k) {
+        for (std::size_t c = 0; c < sum.size(); ++c)
+          sum[c] += width * source.weight[k] * from.flux(source.from[k])[c];
+      }
+      if (source.mirrored) sum[momentum_along] = 0;
+      to.flux(face) = sum;
+    }
+  };
+  add(along_, noted.along, imposed.along, 2);
+  add(between_, noted.between, imposed.between, 1);
+}
+
+}  // namespace fsi::fluid
