@@ -27,6 +27,7 @@ class Grid:
     kind: np.ndarray   # UNUSED, DISCRETISED or INTERPOLATED
     fields: dict
     closed: bool
+    level: int = 0     # of a background of several levels; 0 is the finest one
 
     def __getitem__(self, name):
         """A field by its name; "speed", and of a gas "T", are made of the others."""
@@ -105,8 +106,12 @@ def _read_grid(name, group):
 
 
 def _read_grids(group):
-    """Background grids first: pictures lay the body-fitted ones over them."""
-    return sorted((_read_grid(name, group[name]) for name in group), key=lambda grid: not grid.is_cartesian())
+    """Background grids first, of several levels the coarsest: pictures lay the finer and the body-fitted ones over them."""
+    grids = [_read_grid(name, group[name]) for name in group]
+    backgrounds = sorted((grid for grid in grids if grid.is_cartesian()), key=Grid.spacing)
+    for level, grid in enumerate(backgrounds):
+        grid.level = level
+    return backgrounds[::-1] + [grid for grid in grids if not grid.is_cartesian()]
 
 
 def _read_output(group):

@@ -89,7 +89,7 @@ def _places(series, index):
 
 
 def _spacing(series, index):
-    return max(grid.spacing() for one in series for grid in one.outputs[index].grids)
+    return max(grid.spacing() for one in series for grid in one.outputs[index].grids if grid.level == 0)
 
 
 def _frame(axes, centre, half, box):

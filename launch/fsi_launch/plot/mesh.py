@@ -67,6 +67,17 @@ def outer_lines(grid):
     return lines
 
 
+def level_outline(grid):
+    """Segments (count, 2, 2) where the cells of a level end within the rectangle: at a finer or a coarser level."""
+    shown = cells(grid.used())
+    x, y = grid.x1[0], grid.x2[:, 0]
+    j, i = np.nonzero(shown[:, 1:] != shown[:, :-1])
+    upright = np.stack([np.column_stack([x[i + 1], y[j]]), np.column_stack([x[i + 1], y[j + 1]])], axis=1)
+    j, i = np.nonzero(shown[1:] != shown[:-1])
+    level = np.stack([np.column_stack([x[i], y[j + 1]]), np.column_stack([x[i + 1], y[j + 1]])], axis=1)
+    return np.concatenate([upright, level])
+
+
 def uncovered(grid, others):
     """Cells between used points that do not lie wholly within one of the grids laid over this one."""
     shown = cells(grid.used())

@@ -16,6 +16,7 @@ MOST_TIMES = 6
 PANEL = 4.1        # width [inch]
 PANELS_IN_A_ROW = 3
 SPEED_MAP = "plasma"
+LEVEL_LINES = {"colors": "tab:blue", "linewidths": 0.35}
 
 
 def _slope(values, axis):
@@ -108,6 +109,9 @@ def draw(axes, gas, solids, size):
     """One output on one pair of axes; returns what a colour bar of the solids' speed needs."""
     for grid in gas.grids:
         _shade(axes, grid, np.exp(-STRENGTH * np.minimum(gradient(grid, "rho") / size.gradient, 1)))
+    for grid in gas.grids:
+        if grid.level > 0:
+            axes.add_collection(LineCollection(mesh.level_outline(grid), **LEVEL_LINES), autolim=False)
     drawn = _colour(axes, solids, size.speed)
     box = _box(gas)
     axes.set_xlim(*box[0])
