@@ -101,6 +101,9 @@ class Restart(Restarting):
     def test_ellipse_whose_grid_moves_over_the_background(self):
         self.assert_goes_on("shock_ellipse")
 
+    def test_background_of_levels_that_follow_shock_and_ellipse(self):
+        self.assert_goes_on("shock_ellipse", "--set", "fluid.grid.levels=3")
+
     def test_rigid_ellipse(self):
         self.assert_goes_on("shock_ellipse", "--solid", "ellipse=rigid")
 
@@ -180,6 +183,14 @@ class ProgramOfSomebodyElses(Interrupted):
 
     def test_sigterm_writes_a_checkpoint(self):
         self.terminate_and_restart()
+
+
+class Levels(Interrupted):
+    NAME = "shock_ellipse"
+    STEPS = ("--set", "grid.factor=2", "--set", "fluid.grid.levels=2", "--set", "time.dt=1e-3", "--set", "output.checkpoint_every=100")
+
+    def test_killed_program(self):
+        self.kill_and_restart("fluid_solver")
 
 
 class AfterAnEnd(Interrupted):
