@@ -29,6 +29,7 @@ import record_check
 import record_ellipse
 import record_faults
 import record_impacts
+import record_levels
 import record_outlines
 import record_paper
 import wall_studies
@@ -504,7 +505,7 @@ def all_studies():
     tools = sys.modules[__name__]
     return [*piston_studies(), *record_paper.manufactured(tools),
             ("Gas: manufactured solution on a moving grid", lambda: converge("chosen-gas", "gas_manufactured", "2,4,8,16")),
-            *other_studies(), *record_paper.disks(tools), *disk_studies(), *record_ellipse.studies(tools), *beam_studies.studies(tools), *wall_studies.studies(tools),
+            *other_studies(), *record_paper.disks(tools), *disk_studies(), *record_ellipse.studies(tools), *record_levels.studies(tools), *beam_studies.studies(tools), *wall_studies.studies(tools),
             *flutter_studies.studies(tools),
             *record_impacts.studies(tools), *record_outlines.studies(tools),
             ("What watching costs", lambda: watched("watched")),

@@ -88,7 +88,7 @@ void Component::use_points(const grid::RowSets& discretised, const grid::RowSets
   discretised_ = discretised;
   valid_ = valid;
   gather_runs();
-  if (live_sides_) find_live_points();
+  if (sparse_) find_live_points();
 }
 
 /// A ghost needs the side's points beside its own, for directions.
@@ -124,7 +124,7 @@ void Component::fill(const StateField& initial, double t) {
   for (int j = -Layout::ghosts; j < shape.n2 + Layout::ghosts; ++j)
     p_most = std::max(p_most, fill_row(j, initial, t));
   scheme_.p_floor = floor_part * p_most;
-  std::ranges::copy(state_.values(), next_.values().begin());
+  if (!sparse_) std::ranges::copy(state_.values(), next_.values().begin());
 }
 
 /// Fills a row with its ghosts; returns its largest pressure at valid points.
@@ -316,35 +316,6 @@ FastestPoint Component::fastest_point() const {
     compare(j, {n1 - 1, n1});
   }
   return fastest;
-}
-
-void Component::archive(Archive& archive) {
-  archive.inside("grid", [&] { grid_.archive(archive); });
-  archive.values("state", state_.values());
-  // Points that are not advanced keep what they had two steps ago: where iterations begin that interpolate.
-  archive.values("next", next_.values());
-  archive.values("rates", row_rates_);
-  archive.number("last_dt", last_dt_);
-  archive.number("dt_before", dt_before_);
-  archive.number("prescribed", prescribed_);
-  archive.number("p_floor", scheme_.p_floor);
-  archive.number("first_order", counters_.first_order);
-  archive.number("first_order_outside_shocks", counters_.first_order_outside_shocks);
-  archive.number("positive_fluxes", counters_.positive_fluxes);
-  archive.number("positive_values", counters_.positive_values);
-  archive.number("floors", counters_.floors);
-  archive.number("steps", counters_.steps);
-  for (const Side side : all_sides) {
-    WallMotion& wall = walls_[static_cast<std::size_t>(side)];
-    archive.inside(name_of(side), [&] {
-      wall.archive(archive);
-      // Of the step whose end the budget has yet to see.
-      archive.list("edge", edges_[static_cast<std::size_t>(side)]);
-    });
-  }
-  if (!forcing_) return;
-  archive.values("source", source_.values());
-  archive.number("has_source", has_source_);
 }
 
 }  // namespace fsi::fluid

@@ -59,9 +59,11 @@ class Component {
   const Forcing* forcing() const { return forcing_ ? &*forcing_ : nullptr; }
   /// From now on only these points are advanced, and only these have a value.
   void use_points(const grid::RowSets& discretised, const grid::RowSets& valid);
-  /// From now on conditions on the sides are kept up near valid points only. The background of body-fitted
-  /// grids alone does without, as it always did.
-  void use_live_sides() { live_sides_ = true; }
+  /// From now on conditions on the sides are kept up, and states kept, near valid points only. The background of
+  /// body-fitted grids alone does without, as it always did.
+  void become_sparse() { sparse_ = true; }
+  /// Forgets the states far from valid points, and gives their memory back.
+  void forget_unused_points();
   /// Which points of a side are near valid ones; empty: all count.
   std::span<const std::uint8_t> live(Side side) const { return live_[static_cast<std::size_t>(side)]; }
   const grid::RowSets& discretised() const { return discretised_; }
@@ -71,6 +73,8 @@ class Component {
   /// Primitive state: planes rho, v1, v2, p.
   ConstFieldView state() const { return state_.view(); }
   FieldView state() { return state_.view(); }
+  /// The state before, where the next one will be written.
+  FieldView spare_state() { return next_.view(); }
   const Boundary& boundary(Side side) const { return boundaries_[static_cast<std::size_t>(side)]; }
   const WallMotion& wall(Side side) const { return walls_[static_cast<std::size_t>(side)]; }
   const Counters& counters() const { return counters_; }
@@ -117,7 +121,7 @@ class Component {
   Scheme scheme_;
   Field state_, next_;
   grid::RowSets discretised_, valid_;
-  bool live_sides_ = false;
+  bool sparse_ = false;
   std::array<std::vector<std::uint8_t>, 4> live_;
   SweepRuns runs_;
   std::vector<std::vector<Range>> row_runs_;  ///< work memory
@@ -139,6 +143,7 @@ class Component {
   StepGrid step_grid() const { return {grid_.x_old(), grid_.x(), spacing_}; }
   void gather_runs();
   void find_live_points();
+  void archive_states(Archive& archive);
   double fill_row(int j, const StateField& initial, double t);
   void measure_initial_motion(double t, double delta);
   /// 1 / dt of (45) at the points of a row, in the workspace.

@@ -98,6 +98,7 @@ void GasSolver::add_levels(const std::array<Boundary, 4>& boundaries) {
   levels_.emplace(components_.front(), options_.refine, components_.size(), options_.gamma);
   for (grid::MovingGrid& grid : levels_->coarse_grids(components_.front()))
     components_.emplace_back(std::move(grid), options_, boundaries);
+  for (int l = 0; l < levels_->levels(); ++l) components_[levels_->component(l)].become_sparse();
 }
 
 /// Of the body-fitted grids.
@@ -107,8 +108,10 @@ std::vector<ConstFieldView> GasSolver::fitted_positions() const {
   return x;
 }
 
+/// Of the background only what its finest level has.
 void GasSolver::use_points() {
-  for (int grid = 0; grid < composite_->grids(); ++grid) {
+  if (levels_) levels_->use_finest_points(components_.front(), composite());
+  for (int grid = levels_ ? 1 : 0; grid < composite_->grids(); ++grid) {
     components_[static_cast<std::size_t>(grid)].use_points(composite_->discretised(grid),
                                                            composite_->valid(grid));
   }
@@ -181,7 +184,6 @@ void GasSolver::update_overlapping_grid(double t_new) {
   for (int k = 1; k < composite_->grids(); ++k) positions_.push_back({grid(k).x(), grid(k).x_old()});
   composite_->update(positions_, t_new);
   use_points();
-  if (levels_) levels_->use_points(components_, composite());
   composite_->fill_exposed(gather_fields());
   keep_interpolated_positive(composite_->exposed());
 }
@@ -265,11 +267,9 @@ void GasSolver::archive(Archive& archive) {
   if (composite_) archive.inside("overlap", [&] { composite_->archive(archive); });
   if (levels_) archive.inside("levels", [&] { levels_->archive(archive); });
   if (!archive.loading()) return;
-  if (composite_) {
-    composite_->connect(fitted_positions(), t_);
-    use_points();
-  }
+  if (composite_) composite_->connect(fitted_positions(), t_);
   if (levels_) levels_->restore(components_, composite());
+  if (composite_) use_points();
 }
 
 }  // namespace fsi::fluid

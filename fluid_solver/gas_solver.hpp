@@ -131,6 +131,8 @@ class GasSolver {
   int grids() const { return static_cast<int>(components_.size()); }
   /// The levels of the background; null where there is one only.
   const GasLevels* levels() const { return levels_ ? &*levels_ : nullptr; }
+  /// Whether a grid is one of several levels.
+  bool is_level(int grid) const { return levels_ && levels_->has(static_cast<std::size_t>(grid)); }
   /// Points of a grid that have a value.
   const grid::RowSets& valid(int grid = 0) const { return component(grid).valid(); }
   /// Points of a grid that are advanced.

@@ -25,22 +25,33 @@ std::vector<double> packed(const ConstFieldView& field, int plane) {
   return values;
 }
 
+Packing packing_of(const GridOutput& grid) {
+  return grid.sparse ? Packing::deflated : Packing::plain;
+}
+
+/// A component of where the points are.
+std::vector<double> moved(const GridOutput& grid, int component) {
+  std::vector<double> x = packed(grid.x, component);
+  if (grid.u.data == nullptr) return x;
+  const std::vector<double> u = packed(grid.u, component);
+  for (std::size_t k = 0; k < x.size(); ++k) x[k] += u[k];
+  return x;
+}
+
 /// x1 and x2, and both point by point as x: what every XDMF reader takes for a curvilinear grid.
 void write_positions(Hdf5& group, const GridOutput& grid, const std::array<std::uint64_t, 2>& shape) {
-  std::vector<double> both(2 * grid.x.layout.points());
-  for (std::size_t c = 0; c < 2; ++c) {
-    const int plane = static_cast<int>(c);
+  const Packing packing = packing_of(grid);
+  for (const int c : {0, 1}) {
     const std::string name = fmt::format("x{}", c + 1);
-    std::vector<double> x = packed(grid.x, plane);
-    if (grid.u.data != nullptr) {
-      group.write(name + "_bar", x, shape);
-      const std::vector<double> u = packed(grid.u, plane);
-      for (std::size_t k = 0; k < x.size(); ++k) x[k] += u[k];
-    }
-    group.write(name, x, shape);
-    for (std::size_t k = 0; k < x.size(); ++k) both[2 * k + c] = x[k];
+    if (grid.u.data != nullptr) group.write(name + "_bar", packed(grid.x, c), shape, packing);
+    group.write(name, moved(grid, c), shape, packing);
   }
-  group.write("x", both, std::array{shape[0], shape[1], std::uint64_t{2}});
+  std::vector<double> both(2 * grid.x.layout.points());
+  for (const int c : {0, 1}) {
+    const std::vector<double> x = moved(grid, c);
+    for (std::size_t k = 0; k < x.size(); ++k) both[2 * k + static_cast<std::size_t>(c)] = x[k];
+  }
+  group.write("x", both, std::array{shape[0], shape[1], std::uint64_t{2}}, packing);
 }
 
 void write_grid(Hdf5 group, const GridOutput& grid) {
@@ -52,11 +63,11 @@ void write_grid(Hdf5 group, const GridOutput& grid) {
     for (std::size_t k = 0; k < grid.kinds.size(); ++k) {
       if (grid.kinds[k] == 0) values[k] = std::numeric_limits<double>::quiet_NaN();
     }
-    group.write(field.name, values, shape);
+    group.write(field.name, values, shape, packing_of(grid));
   }
   if (grid.kinds.empty()) return;
   const std::vector<double> kinds(grid.kinds.begin(), grid.kinds.end());
-  group.write("kind", kinds, shape);
+  group.write("kind", kinds, shape, packing_of(grid));
 }
 
 /// @throws OutputFailed where an output of a series that goes on is not there or cannot be read

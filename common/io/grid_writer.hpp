@@ -33,6 +33,7 @@ struct GridOutput {
   /// What each point is, row by row: 0 unused, 1 discretised, 2 interpolated; empty where all are
   /// discretised. Written as `kind`; fields are not a number at unused points.
   std::vector<std::uint8_t> kinds = {};
+  bool sparse = false;  ///< most points are unused: compressed
 };
 
 class GridWriter {

@@ -66,6 +66,17 @@ std::vector<std::uint64_t> shape_of(const Handle& dataset) {
   return {extent.begin(), extent.end()};
 }
 
+/// Rows in pieces that are compressed, fast rather than well.
+void deflate(const Handle& properties, std::vector<hsize_t> extent) {
+  constexpr hsize_t rows = 32;
+  constexpr unsigned fast = 1;
+  if (H5Zfilter_avail(H5Z_FILTER_DEFLATE) <= 0) return;
+  extent.front() = std::min(extent.front(), rows);
+  H5Pset_chunk(properties.get(), static_cast<int>(extent.size()), extent.data());
+  H5Pset_shuffle(properties.get());
+  H5Pset_deflate(properties.get(), fast);
+}
+
 void write_scalar(hid_t id, const std::string& path, const std::string& name, hid_t type, const void* value) {
   const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
   const Handle attribute(H5Acreate2(id, name.c_str(), type, space.get(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
@@ -146,7 +157,7 @@ void Hdf5::link(const std::string& name, const std::string& file, const std::str
 }
 
 void Hdf5::write(const std::string& name, std::span<const double> values,
-                 std::span<const std::uint64_t> shape) {
+                 std::span<const std::uint64_t> shape, Packing packing) {
   const auto expected = std::accumulate(shape.begin(), shape.end(), std::uint64_t{1}, std::multiplies<>());
   if (expected != values.size()) {
     throw std::logic_error(fmt::format("dataset '{}': {} values do not fill its shape", name, values.size()));
@@ -155,6 +166,7 @@ void Hdf5::write(const std::string& name, std::span<const double> values,
   const Handle space(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), H5Sclose);
   const Handle timeless(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);  // same values, same file
   H5Pset_obj_track_times(timeless.get(), false);
+  if (packing == Packing::deflated) deflate(timeless, extent);
   const Handle dataset(
       H5Dcreate2(id_, name.c_str(), H5T_IEEE_F64LE, space.get(), H5P_DEFAULT, timeless.get(), H5P_DEFAULT),
       H5Dclose);

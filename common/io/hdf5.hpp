@@ -15,6 +15,9 @@ struct Array {
   std::vector<double> values;
 };
 
+/// How the values of a dataset lie in its file.
+enum class Packing { plain, deflated };
+
 /// An open file or group of a file. Paths inside are relative to it, "a/b/c". Every member throws
 /// OutputFailed with the file's path, what failed and what to look at; HDF5 itself prints nothing.
 class Hdf5 {
@@ -36,7 +39,8 @@ class Hdf5 {
   void link(const std::string& name, const std::string& file, const std::string& target);
 
   /// `shape` is the number of values along each index, the last one contiguous.
-  void write(const std::string& name, std::span<const double> values, std::span<const std::uint64_t> shape);
+  void write(const std::string& name, std::span<const double> values, std::span<const std::uint64_t> shape,
+             Packing packing = Packing::plain);
   void write(const std::string& name, std::span<const double> values);
   Array read(const std::string& name) const;
 

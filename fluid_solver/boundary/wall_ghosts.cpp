@@ -54,6 +54,7 @@ double pressure_slope(ConstFieldView q, ConstFieldView x, const SidePoints& side
 void wall_ghosts(FieldView q, ConstFieldView x, const SidePoints& side, const Wall& wall, bool limited) {
   const WallVectors normals(wall.n, wall.closed);
   for (int k = 0; k < side.n(); ++k) {
+    if (!side.live(k)) continue;
     const Vec2 n = normals(k);
     const double slope = pressure_slope(q, x, side, wall, k);
     const double v_n = n.dot(Vec2(load(q, side.at(k, 0)).segment<2>(1)));

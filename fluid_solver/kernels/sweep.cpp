@@ -56,6 +56,7 @@ class Sweep {
   double run() {
     const int n2 = task_.q.layout.n2;
     for (int r = -1; r <= n2; ++r) {
+      fetch(r + 2);
       each(task_.runs.predicted(r), 1, [&](Range run) { predict(r, run); });
       if (r > -1) each(task_.runs.between(r), 0, [&](Range run) { flux_between(r, run); });
       if (r > 0) each(task_.runs.advanced(r - 1), 0, [&](Range run) { update(r - 1, run); });
@@ -101,6 +102,24 @@ class Sweep {
                        std::min(run.last, columns_.last + reach)};
       if (part.first < part.last) action(part);
     }
+  }
+
+  /// Asks early for the states that short runs of a row will read: unlike those of long ones, no processor
+  /// foresees them.
+  void fetch(int r) const {
+    constexpr int long_run = 256, line = 8;  // points
+    if (r > task_.q.layout.n2) return;
+    each(task_.runs.predicted(r), 1, [&](Range run) {
+      if (run.last - run.first > long_run) return;
+      for (int plane = 0; plane < 4; ++plane) {
+        const double *read = task_.q.row(plane, std::min(r + 1, task_.q.layout.n2 + 1)),
+                     *written = task_.q_new.row(plane, r);
+        for (int i = run.first; i < run.last + line; i += line) {
+          __builtin_prefetch(read + i);
+          __builtin_prefetch(written + i, 1);
+        }
+      }
+    });
   }
 
   auto metric() const {

@@ -14,8 +14,8 @@ namespace fsi::fluid {
 
 namespace {
 
-/// Around a level, in points of the next coarser one: two for the averages the coarser one's stencil reads, one
-/// that surrounds the finer one.
+/// Around a level, in points of the next coarser one: one that surrounds the finer one, and what the polynomials made of
+/// it and the coarser one's own stencil read.
 constexpr int nesting = 3;
 
 Ends ends_of(const Component& background) {
@@ -29,8 +29,8 @@ Ends ends_of(const Component& background) {
   return ends;
 }
 
-grid::RowSets in_both(const grid::RowSets& a, const grid::RowSets& b) {
-  grid::RowSets both;
+void intersect(const grid::RowSets& a, const grid::RowSets& b, grid::RowSets& both) {
+  both.clear();
   std::vector<grid::Interval> parts;
   for (int j = 0; j < a.rows(); ++j) {
     parts.clear();
@@ -38,7 +38,6 @@ grid::RowSets in_both(const grid::RowSets& a, const grid::RowSets& b) {
     both.append(parts);
     both.end_row();
   }
-  return both;
 }
 
 }  // namespace
@@ -132,14 +131,18 @@ void GasLevels::install(std::span<Component> components, std::vector<CellMask> c
   reach_ = refined(reach.rows(), shape(0).n1, shape(0).n2);
 }
 
-void GasLevels::use_points(std::span<Component> components, const grid::CompositeGrid* composite) const {
-  for (int l = 0; l < levels(); ++l) components[component(l)].use_live_sides();
+void GasLevels::use_finest_points(Component& finest, const grid::CompositeGrid* composite) {
   if (composite == nullptr) {
-    components[0].use_points(owned_[0], reach_);
-  } else {
-    components[0].use_points(in_both(composite->discretised(0), owned_[0]),
-                             in_both(composite->valid(0), reach_));
+    finest.use_points(owned_[0], reach_);
+    return;
   }
+  intersect(composite->discretised(0), owned_[0], both_);
+  intersect(composite->valid(0), reach_, both_reach_);
+  finest.use_points(both_, both_reach_);
+}
+
+void GasLevels::use_points(std::span<Component> components, const grid::CompositeGrid* composite) {
+  use_finest_points(components[0], composite);
   for (int l = 1; l < levels(); ++l) components[component(l)].use_points(owned(l), at(l).valid);
 }
 
@@ -224,6 +227,7 @@ void GasLevels::start(std::span<Component> components, const grid::CompositeGrid
   const std::vector<CellMask> known = average_all(components, all);
   install(components, choose(components, composite, known));
   use_points(components, composite);
+  for (int l = 0; l < levels(); ++l) components[component(l)].forget_unused_points();
 }
 
 /// Points that become covered hand their state down, level by level.
@@ -234,6 +238,7 @@ void GasLevels::fill_new(std::span<Component> components, const std::vector<Cell
     fresh.remove(at(l).covered);
     Component &coarse = components[component(l)], &fine = components[component(l - 1)];
     prolong_from(fresh.rows(), std::as_const(coarse).state(), fine.state(), gamma_);
+    prolong_from(fresh.rows(), std::as_const(coarse).state(), fine.spare_state(), gamma_);
     set_ghosts(fine, task);
   }
 }
@@ -255,6 +260,10 @@ bool GasLevels::adapt(std::span<Component> components, const grid::CompositeGrid
     surround(components, l);
     set_ghosts(components[component(l)], task);
     components[component(l)].measure_rows();
+  }
+  constexpr int often_enough = 50;  // that features do not leave memory in use all along their way
+  if (++adaptations_ % often_enough == 0) {
+    for (int l = 0; l < levels(); ++l) components[component(l)].forget_unused_points();
   }
   return true;
 }

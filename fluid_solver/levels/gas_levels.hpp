@@ -38,8 +38,8 @@ class GasLevels {
   /// Level 0 has values everywhere; chooses the levels for them and for the bodies. @param composite null:
   /// there are none
   void start(std::span<Component> components, const grid::CompositeGrid* composite);
-  /// Tells the components their points; after every update of the overlap.
-  void use_points(std::span<Component> components, const grid::CompositeGrid* composite) const;
+  /// Tells the finest level its points; after every update of the overlap.
+  void use_finest_points(Component& finest, const grid::CompositeGrid* composite);
   /// The fluxes that the next finer level carried through its rim become those of level l.
   void match(std::span<Component> components, int l) const;
   /// Averages of finer levels, where coarser ones need them. Boundary points are known.
@@ -89,10 +89,13 @@ class GasLevels {
   std::vector<grid::RowSets> owned_;  ///< of all levels
   grid::RowSets reach_;               ///< of level 0: owned and surrounding points
   int since_ = 0;                     ///< steps since the last adaptation
+  int adaptations_ = 0;               ///< that changed something
+  grid::RowSets both_, both_reach_;   ///< work memory: of level 0, without what a body covers
 
   Level& at(int l) { return coarse_[static_cast<std::size_t>(l) - 1]; }
   const Level& at(int l) const { return coarse_[static_cast<std::size_t>(l) - 1]; }
   const LatticeShape& shape(int l) const { return shapes_[static_cast<std::size_t>(l)]; }
+  void use_points(std::span<Component> components, const grid::CompositeGrid* composite);
   CellMask region(int l, const std::vector<CellMask>& covered) const;
   bool closes_a_cell(int l, int i, int j) const;
   void install(std::span<Component> components, std::vector<CellMask> covered);

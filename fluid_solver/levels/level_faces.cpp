@@ -40,8 +40,9 @@ void assign(FaceList& list, int rows, std::vector<PointIndex>& faces) {
   }
 }
 
-int wrapped(int k, int n, bool periodic) {
-  return periodic ? (k % (n - 1) + n - 1) % (n - 1) : k;
+/// Of a point beyond an end of a period, the same one within it.
+int wrapped(int k, int n) {
+  return (k % (n - 1) + n - 1) % (n - 1);
 }
 
 }  // namespace
@@ -51,19 +52,25 @@ int wrapped(int k, int n, bool periodic) {
 std::vector<LevelFaces::CoarseFace> LevelFaces::rim(const CellMask& covered, int direction) {
   const auto [n1, n2, periodic] = covered.shape();
   std::vector<CoarseFace> faces;
-  const bool along = direction == 0;
+  const bool along = direction == 0, closed = periodic[static_cast<std::size_t>(direction)];
+  const auto beyond_an_end = [&](int i, int j) {
+    if (!closed || covered.contains(i, along ? j : j - 1) == covered.contains(along ? i + 1 : i, j)) return;
+    faces.push_back(
+        {.i = i, .j = j, .real_i = along ? wrapped(i, n1) : i, .real_j = along ? j : wrapped(j - 1, n2) + 1});
+  };
   for (int j = 0; j < (along ? n2 : n2 + 1); ++j) {
-    for (int i = along ? -1 : 0; i < n1; ++i) {
-      const bool end = along ? i < 0 || i + 1 >= n1 : j < 1 || j >= n2;
-      if (end && !periodic[static_cast<std::size_t>(direction)]) continue;
-      const bool before = covered.contains(i, along ? j : j - 1),
-                 after = covered.contains(along ? i + 1 : i, j);
-      if (before == after) continue;
-      faces.push_back({.i = i,
-                       .j = j,
-                       .real_i = along ? wrapped(i, n1, end) : i,
-                       .real_j = along ? j : wrapped(j - 1, n2, end) + 1});
+    if (along) beyond_an_end(-1, j);
+    const bool inside = along || (j > 0 && j < n2);
+    const std::uint8_t *before = inside ? covered.row(along ? j : j - 1) : nullptr,
+                       *after = along ? before + 1 : covered.row(inside ? j : 0);
+    for (int i = 0; i < (along ? n1 - 1 : n1); ++i) {
+      if (!inside) {
+        beyond_an_end(i, j);
+      } else if (before[i] != after[i]) {
+        faces.push_back({.i = i, .j = j, .real_i = i, .real_j = j});
+      }
     }
+    if (along) beyond_an_end(n1 - 1, j);
   }
   return faces;
 }

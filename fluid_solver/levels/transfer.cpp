@@ -1,6 +1,9 @@
 #include "fluid_solver/levels/transfer.hpp"
 
 #include <algorithm>
+#include <cstddef>
+
+#include "fluid_solver/kernels/rows.hpp"
 
 namespace fsi::fluid {
 
@@ -47,22 +50,26 @@ void each_point(const grid::RowSets& points, const Action& action) {
 class Parabolas {
  public:
   Parabolas(ConstFieldView coarse, int i, int j, double gamma) {
-    for (int b = 0; b < 3; ++b) {
-      for (int a = 0; a < 3; ++a) values_[b][a] = conserved(load(coarse, {i + a - 1, j + b - 1}), gamma);
+    for (int b = -1; b <= 1; ++b) {
+      for (int a = -1; a <= 1; ++a) values_[place(a, b)] = conserved(load(coarse, {i + a, j + b}), gamma);
     }
     for (int k = 0; k < 4; ++k) fit(k);
   }
-  /// Primitive state of the fine point a, b = 0, 1, 2 of the control volume.
-  StateVector at(int a, int b, double part, double gamma) const {
-    return primitive(values_[1][1] + part * deviation_[b][a], gamma);
+  /// Of the nine points or parts that of a, b = -1, 0, 1.
+  static std::size_t place(int a, int b) { return static_cast<std::size_t>(3 * (b + 1) + a + 1); }
+  /// Primitive state of the fine point a, b of the control volume.
+  StateVector at(int a, int b, double gamma) const {
+    return primitive(values_[place(0, 0)] + deviation_[place(a, b)], gamma);
   }
+  /// Primitive state of the whole control volume.
+  StateVector mean(double gamma) const { return primitive(values_[place(0, 0)], gamma); }
 
  private:
-  std::array<std::array<StateVector, 3>, 3> values_, deviation_;
+  std::array<StateVector, 9> values_, deviation_;
 
   /// q0 + s1 x + s2 y + m x y + c1/2 (x^2 - 1/12) + c2/2 (y^2 - 1/12), averaged over the parts.
   void fit(int k) {
-    const auto q = [&](int a, int b) { return values_[b + 1][a + 1][k]; };
+    const auto q = [&](int a, int b) { return values_[place(a, b)][k]; };
     const double s1 = (q(1, 0) - q(-1, 0)) / 6, s2 = (q(0, 1) - q(0, -1)) / 6;
     const double m = (q(1, 1) - q(-1, 1) - q(1, -1) + q(-1, -1)) / 36;
     const double c1 = (q(1, 0) - 2 * q(0, 0) + q(-1, 0)) / 54, c2 = (q(0, 1) - 2 * q(0, 0) + q(0, -1)) / 54;
@@ -70,46 +77,58 @@ class Parabolas {
     for (int b = -1; b <= 1; ++b) {
       for (int a = -1; a <= 1; ++a) {
         const double d = s1 * a + s2 * b + m * a * b + c1 * (3 * a * a - 2) + c2 * (3 * b * b - 2);
-        deviation_[b + 1][a + 1][k] = d;
+        deviation_[place(a, b)][k] = d;
         low = std::min(low, d), high = std::max(high, d);
         least = std::min(least, q(a, b)), most = std::max(most, q(a, b));
       }
     }
     const double up = high > most - q(0, 0) ? (most - q(0, 0)) / high : 1.0;
     const double down = low < least - q(0, 0) ? (least - q(0, 0)) / low : 1.0;
-    for (auto& row : deviation_) {
-      for (StateVector& d : row) d[k] *= std::min(up, down);
-    }
+    for (StateVector& d : deviation_) d[k] *= std::min(up, down);
   }
 };
 
-}  // namespace
+/// Coarse points of a run that are averaged together.
+constexpr int chunk = 64;
+constexpr auto columns_of_chunk = static_cast<std::size_t>(refinement_ratio * chunk);
 
-namespace {
+/// The conserved variables, mass, momentum (2) and energy, of some columns.
+using Columns = std::array<std::array<double, columns_of_chunk>, 4>;
 
-/// Sums of the conserved variables over three fine points of a row.
-struct Sums {
-  double mass = 0, momentum1 = 0, momentum2 = 0, kinetic = 0, p = 0;
-};
+/// Sums over rows j - 1, j, j + 1.
+void sum_rows(ConstFieldView fine, int j, grid::Interval columns, double gamma, Columns& sums) {
+  const double per_gamma = 1 / (gamma - 1);
+  const StateRow<const double> low = StateRow<const double>(fine, j - 1).shifted(columns.begin),
+                               middle = StateRow<const double>(fine, j).shifted(columns.begin),
+                               high = StateRow<const double>(fine, j + 1).shifted(columns.begin);
+  double *mass = sums[0].data(), *momentum1 = sums[1].data(), *momentum2 = sums[2].data(),
+         *energy = sums[3].data();
+#pragma omp simd
+  for (int a = 0; a < columns.end - columns.begin; ++a) {
+    const double low1 = low.rho[a] * low.v1[a], low2 = low.rho[a] * low.v2[a];
+    const double middle1 = middle.rho[a] * middle.v1[a], middle2 = middle.rho[a] * middle.v2[a];
+    const double high1 = high.rho[a] * high.v1[a], high2 = high.rho[a] * high.v2[a];
+    mass[a] = low.rho[a] + middle.rho[a] + high.rho[a];
+    momentum1[a] = low1 + middle1 + high1;
+    momentum2[a] = low2 + middle2 + high2;
+    energy[a] = per_gamma * (low.p[a] + middle.p[a] + high.p[a]) +
+                0.5 * (low1 * low.v1[a] + low2 * low.v2[a] + middle1 * middle.v1[a] + middle2 * middle.v2[a] +
+                       high1 * high.v1[a] + high2 * high.v2[a]);
+  }
+}
 
 /// Averages of a run of points away from the sides.
-void average_run(ConstFieldView fine, FieldView coarse, int j, const grid::Interval& run, double gamma) {
+void average_run(ConstFieldView fine, FieldView coarse, int j, grid::Interval run, double gamma) {
   constexpr double ninth = 1.0 / (refinement_ratio * refinement_ratio);
-  const std::array rows{refinement_ratio * j - 1, refinement_ratio * j, refinement_ratio * j + 1};
+  Columns sums;
+  sum_rows(fine, refinement_ratio * j, {refinement_ratio * run.begin - 1, refinement_ratio * run.end - 1},
+           gamma, sums);
   for (int i = run.begin; i < run.end; ++i) {
-    Sums sum;
-    for (const int row : rows) {
-      const double *rho = fine.row(0, row), *v1 = fine.row(1, row), *v2 = fine.row(2, row),
-                   *p = fine.row(3, row);
-      for (int a = refinement_ratio * i - 1; a <= refinement_ratio * i + 1; ++a) {
-        const double m1 = rho[a] * v1[a], m2 = rho[a] * v2[a];
-        sum.mass += rho[a], sum.momentum1 += m1, sum.momentum2 += m2;
-        sum.kinetic += m1 * v1[a] + m2 * v2[a], sum.p += p[a];
-      }
-    }
-    const double energy = sum.p / (gamma - 1) + 0.5 * sum.kinetic;
-    store(coarse, {i, j},
-          primitive(ninth * StateVector(sum.mass, sum.momentum1, sum.momentum2, energy), gamma));
+    const auto a = static_cast<std::size_t>(refinement_ratio * (i - run.begin));
+    StateVector mean;
+    for (std::size_t k = 0; k < 4; ++k)
+      mean[static_cast<int>(k)] = ninth * (sums[k][a] + sums[k][a + 1] + sums[k][a + 2]);
+    store(coarse, {i, j}, primitive(mean, gamma));
   }
 }
 
@@ -119,17 +138,21 @@ void restrict_to(const grid::RowSets& points, FieldView coarse, ConstFieldView f
                  double gamma) {
   const Layout& shape = coarse.layout;
   for (int j = 1; j + 1 < shape.n2; ++j) {
-    for (const grid::Interval& run : points.row(j))
-      average_run(fine, coarse, j, {std::max(run.begin, 1), std::min(run.end, shape.n1 - 1)}, gamma);
+    for (const grid::Interval& run : points.row(j)) {
+      const int end = std::min(run.end, shape.n1 - 1);
+      for (int i = std::max(run.begin, 1); i < end; i += chunk)
+        average_run(fine, coarse, j, {i, std::min(i + chunk, end)}, gamma);
+    }
   }
   each_point(points, [&](int i, int j) {
     if (i > 0 && i + 1 < shape.n1 && j > 0 && j + 1 < shape.n2) return;
     const Members m1 = members_of(i, fine.layout.n1, {ends[0], ends[1]});
     const Members m2 = members_of(j, fine.layout.n2, {ends[2], ends[3]});
     StateVector sum = StateVector::Zero();
-    for (int b = 0; b < m2.n; ++b) {
+    for (std::size_t b = 0; b < static_cast<std::size_t>(m2.n); ++b) {
       StateVector row = StateVector::Zero();
-      for (int a = 0; a < m1.n; ++a) row += m1.weight[a] * conserved(load(fine, {m1.at[a], m2.at[b]}), gamma);
+      for (std::size_t a = 0; a < static_cast<std::size_t>(m1.n); ++a)
+        row += m1.weight[a] * conserved(load(fine, {m1.at[a], m2.at[b]}), gamma);
       sum += m2.weight[b] * row;
     }
     if (m1.mirrored) sum[1] = 0;
@@ -140,22 +163,25 @@ void restrict_to(const grid::RowSets& points, FieldView coarse, ConstFieldView f
 
 void prolong_from(const grid::RowSets& points, ConstFieldView coarse, FieldView fine, double gamma) {
   const Layout& shape = fine.layout;
+  std::array<StateVector, 9> states;
   each_point(points, [&](int i, int j) {
     const Parabolas parts(coarse, i, j, gamma);
-    double part = 1;
-    for (int b = 0; b < 3; ++b) {
-      for (int a = 0; a < 3; ++a) {
-        const StateVector q = parts.at(a, b, 1, gamma);
-        if (!(q[0] > 0 && q[3] > 0)) part = 0;
+    const auto each = [&](const auto& action) {
+      for (int b = -1; b <= 1; ++b) {
+        for (int a = -1; a <= 1; ++a) action(a, b, states[Parabolas::place(a, b)]);
       }
-    }
-    for (int b = 0; b < 3; ++b) {
-      for (int a = 0; a < 3; ++a) {
-        const int i_fine = refinement_ratio * i + a - 1, j_fine = refinement_ratio * j + b - 1;
-        if (i_fine < 0 || i_fine >= shape.n1 || j_fine < 0 || j_fine >= shape.n2) continue;
-        store(fine, {i_fine, j_fine}, parts.at(a, b, part, gamma));
-      }
-    }
+    };
+    bool positive = true;
+    each([&](int a, int b, StateVector& state) {
+      state = parts.at(a, b, gamma);
+      positive = positive && state[0] > 0 && state[3] > 0;
+    });
+    if (!positive) states.fill(parts.mean(gamma));
+    each([&](int a, int b, const StateVector& state) {
+      const int i_fine = refinement_ratio * i + a, j_fine = refinement_ratio * j + b;
+      if (i_fine >= 0 && i_fine < shape.n1 && j_fine >= 0 && j_fine < shape.n2)
+        store(fine, {i_fine, j_fine}, state);
+    });
   });
 }
 

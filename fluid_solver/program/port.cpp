@@ -262,7 +262,8 @@ std::vector<io::GridOutput> FluidParticipant::fields(bool last) const {
          .x = last ? solver_.last_x(k) : solver_.grid(k).x(),
          .u = {},
          .fields = {{"rho", q, 0}, {"v1", q, 1}, {"v2", q, 2}, {"p", q, 3}},
-         .kinds = solver_.levels() == nullptr ? kinds_of(solver_.composite(), k) : solver_.kinds(k)});
+         .kinds = solver_.levels() == nullptr ? kinds_of(solver_.composite(), k) : solver_.kinds(k),
+         .sparse = solver_.is_level(k)});
   }
   return grids;
 }

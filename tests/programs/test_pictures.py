@@ -156,6 +156,30 @@ class Times(unittest.TestCase):
             data.at_times(self.series, [0.5, 0.7])
 
 
+class Levels(unittest.TestCase):
+    def level(self, points, kind):
+        x1, x2 = np.meshgrid(np.linspace(0, 1, points), np.linspace(0, 1, points))
+        return {"x1": x1, "x2": x2, "kind": kind(x1, x2), "rho": 1 + x1}
+
+    def grids(self):
+        """A right half of fine cells, a left half of coarse ones, and a ring: as in a file, by names."""
+        angle, r = np.meshgrid(np.linspace(0, 2 * np.pi, 21), np.linspace(0.1, 0.2, 5))
+        return data._read_grids({
+            "air": self.level(13, lambda x, y: np.where(x < 0.499, data.UNUSED, data.DISCRETISED)),
+            "air_1": self.level(5, lambda x, y: np.where(x > 0.501, data.UNUSED, data.DISCRETISED)),
+            "ring": {"x1": 0.8 + r * np.cos(angle), "x2": 0.5 + r * np.sin(angle), "rho": r}})
+
+    def test_coarse_ones_are_drawn_before_fine_ones_and_these_before_fitted_grids(self):
+        self.assertEqual([(grid.name, grid.level) for grid in self.grids()], [("air_1", 1), ("air", 0), ("ring", 0)])
+        self.assertEqual(data.Output(0.0, self.grids()).background().name, "air")
+
+    def test_lines_are_where_cells_of_another_level_begin(self):
+        lines = mesh.level_outline(self.grids()[0])
+        self.assertEqual(len(lines), 4)
+        self.assertTrue((lines[:, :, 0] == 0.5).all())
+        np.testing.assert_allclose(sorted(lines[:, :, 1].ravel()), [0, 0.25, 0.25, 0.5, 0.5, 0.75, 0.75, 1])
+
+
 class SideBySide(unittest.TestCase):
     def lattice(self, points, hole=0.0):
         x1, x2 = np.meshgrid(np.linspace(-1, 1, points), np.linspace(-1, 1, points))

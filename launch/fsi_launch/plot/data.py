@@ -60,6 +60,10 @@ class Output:
     t: float
     grids: list
 
+    def background(self):
+        """Of several levels the finest one."""
+        return next(grid for grid in self.grids if grid.level == 0)
+
 
 @dataclass
 class Series:

@@ -203,7 +203,8 @@ def _gas_sides(series, case):
     """[(kind, line)] of the rims of the gases. `case`: the entries of the resolved case."""
     sides, bodies = [], [line for _, line in _bodies(series)]
     for gas in (one for one in series if one.is_gas()):
-        background, *fitted = gas.outputs[0].grids
+        background = gas.outputs[0].background()
+        fitted = [grid for grid in gas.outputs[0].grids if grid is not background]
         kinds = _kinds_of_sides(gas, case)
         sides += [(kinds[name], line) for name, side in SIDES.items() for line in _used_runs(background, side)]
         for grid in fitted:

@@ -40,7 +40,7 @@ def on_common_points(one, other):
 
 def _difference(figure, axes, gases, bodies):
     """|difference of the densities| on the background and the outlines of the solids: full those of the first run."""
-    found = on_common_points(*(gas.grids[0] for gas in gases))
+    found = on_common_points(*(gas.background() for gas in gases))
     if found is None:
         axes.set_visible(False)
         return
@@ -85,10 +85,10 @@ def pictures(series, told):
     moments = [moment for moment in moments if all(None not in solids for _, solids in moment)]
     if not any(schlieren.has_shocks(gas) for moment in moments for gas, _ in moment):
         return
-    finest = max(range(len(runs)), key=lambda k: runs[k][0].outputs[0].grids[0].x1.size)
+    finest = max(range(len(runs)), key=lambda k: runs[k][0].outputs[0].background().x1.size)
     size = schlieren.scales([moment[finest][0] for moment in moments], [moment[finest][1] for moment in moments])
     columns = len(runs) + (1 if len(runs) == 2 else 0)
-    background = moments[0][0][0].grids[0]
+    background = moments[0][0][0].background()
     height = PANEL * np.ptp(background.x2) / np.ptp(background.x1)
     figure, axes = pyplot.subplots(len(moments), columns, figsize=(PANEL * columns + 1, (height + 0.3) * len(moments)),
                                    squeeze=False)
