@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -153,8 +154,11 @@ std::string summary_line(const Case& problem) {
   for (const SolidSpec& solid : problem.solids) {
     parts.push_back(fmt::format("{} ({}) {}", solid.name, solid.law, grids_of(solid)));
   }
-  std::string line = fmt::format("{}: fine; {}, t = 0 to {}; memory about {}", problem.path,
-                                 fmt::join(parts, ", "), problem.time.end, bytes_text(total_memory(problem)));
+  const bool levels =
+      std::ranges::any_of(problem.fluids, [](const FluidSpec& fluid) { return fluid.refine.levels > 1; });
+  std::string line =
+      fmt::format("{}: fine; {}, t = 0 to {}; memory {}about {}", problem.path, fmt::join(parts, ", "),
+                  problem.time.end, levels ? "at most " : "", bytes_text(total_memory(problem)));
   for (const FluidSpec& fluid : problem.fluids) line += added_points(fluid);
   return line;
 }
