@@ -140,6 +140,7 @@ void CoupledRun::exchange() {
   if (part_.status != "stopped") obey_requests();
   if (session_.watched()) coupler_.request_show(session_.picture_due());
   const std::span<const wire::ProjectedInterface> answers = coupler_.step(predicted);
+  if (!coupler_.finished()) ++part_.limited_by[coupler_.next().limited_by];
   clock_.lap(io::Work::advance);
   session_.scatter(answers);
   clock_.lap(io::Work::messages);
@@ -253,6 +254,7 @@ void CoupledRun::show() {
   if (!coupler_.finished()) telemetry.dt_reason = fmt::format("{}: {}", next.limited_by, next.reason);
   telemetry.dt_bid = telemetry.dt;
   telemetry.limited_by = next.limited_by;
+  telemetry.limits = limits_of(part_);
   telemetry.compute_s = part_.compute_s;
   telemetry.wait_s = part_.wait_s;
   telemetry.interfaces = coupler_.profiles();

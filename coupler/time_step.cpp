@@ -42,12 +42,11 @@ std::int32_t substeps_of(const Bid& bid, double dt, double t) {
 }  // namespace
 
 TimeStepAgreement::TimeStepAgreement(const TimeSchedule::Options& options, double start)
-    : schedule_(options), growth_(options.growth), dt_max_(options.dt_max), t_(start) {}
+    : schedule_(options), t_(start) {}
 
 void TimeStepAgreement::archive(Archive& archive) {
   archive.inside("schedule", [&] { schedule_.archive(archive); });
   archive.number("t", t_);
-  archive.number("allowed", allowed_);
 }
 
 AgreedStep TimeStepAgreement::agree(std::span<const Bid> bids) {
@@ -56,22 +55,13 @@ AgreedStep TimeStepAgreement::agree(std::span<const Bid> bids) {
     throw NumbersBroke(fmt::format("the time step of \"{}\" is {:.3g} ({})", bid.from, bid.dt, bid.reason),
                        {.t = t_, .program = bid.from});
   }
-  const Bid* first = smallest(bids);
+  const Bid unlimited{.from = {}, .dt = std::numeric_limits<double>::infinity(), .reason = {}};
+  const Bid* found = smallest(bids);
+  const Bid& first = found != nullptr ? *found : unlimited;
   AgreedStep step;
-  double limit = std::numeric_limits<double>::infinity();
-  const auto lower = [&](double dt, const std::string& by, const std::string& reason) {
-    if (dt >= limit) return;
-    limit = dt;
-    step.limited_by = by;
-    step.reason = reason;
-  };
-  if (first != nullptr) lower(first->dt, first->from, first->reason);
-  if (allowed_ > 0) lower(growth_ * allowed_, "time.growth", "growth from one step to the next");
-  if (dt_max_ > 0) lower(dt_max_, "time.dt", "largest step of the case");
-  step.plan =
-      schedule_.plan(t_, first != nullptr ? first->dt : std::numeric_limits<double>::infinity(), step.reason);
-  allowed_ = std::isinf(limit) ? step.plan.dt : limit;
-  if (step.plan.dt < 0.5 * limit) lower(step.plan.dt, "output.times", "output time");
+  step.plan = schedule_.plan(t_, first.dt, first.reason);
+  step.limited_by = name_of(step.plan.limit, first.from);
+  step.reason = words_for(step.plan.limit, first.reason);
   for (const Bid& bid : bids) step.substeps.push_back(substeps_of(bid, step.plan.dt, t_));
   t_ = step.plan.t_next;
   return step;

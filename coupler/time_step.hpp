@@ -41,9 +41,7 @@ class TimeStepAgreement {
 
  private:
   TimeSchedule schedule_;
-  double growth_, dt_max_;
-  double t_;
-  double allowed_ = 0;  ///< last limit, before the step was shortened to hit a time
+  double t_;  ///< [time]
 };
 
 }  // namespace fsi::coupler

@@ -54,11 +54,22 @@ void Series::thin_out() {
   every_ *= 2;
 }
 
+void Limiters::add(double t, const std::string& by) {
+  if (by.empty() || (!changes_.empty() && (changes_.back().by == by || !(t > changes_.back().t)))) return;
+  if (changes_.size() >= capacity) {
+    for (std::size_t k = 1; 2 * k < changes_.size(); ++k) changes_[k] = changes_[2 * k];
+    changes_.resize((changes_.size() + 1) / 2);
+  }
+  changes_.push_back({.t = t, .by = by});
+}
+
 void History::add(const wire::Telemetry& leader) {
+  limiters_.add(leader.t, leader.limited_by);
   if (leader.t > 0) add("dt", leader.t, leader.dt);  // no step led to the initial state
   for (const wire::Telemetry::Interface& side : leader.interfaces) {
     add(side.name + ".velocity_jump", leader.t, side.velocity_jump);
     add(side.name + ".traction_jump", leader.t, side.traction_jump);
+    add(side.name + ".shear", leader.t, side.shear);
     add(side.name + ".gap", leader.t, side.gap);
     add(side.name + ".power", leader.t, side.power);
     add(side.name + ".p_max", leader.t, side.p_max);

@@ -32,6 +32,23 @@ class Series {
   std::size_t gathered_ = 0;  ///< newcomers in the last point
 };
 
+/// Who limits the step, over the time of a run: one entry for each change that was heard, at most `capacity`;
+/// then every second goes.
+class Limiters {
+ public:
+  struct Change {
+    double t = 0;    ///< from then on [time]
+    std::string by;  ///< a program, or a setting of the case
+  };
+  static constexpr std::size_t capacity = 512;
+
+  void add(double t, const std::string& by);
+  const std::vector<Change>& changes() const { return changes_; }
+
+ private:
+  std::vector<Change> changes_;
+};
+
 /// The quantities of a run over its time t.
 class History {
  public:
@@ -45,8 +62,10 @@ class History {
   /// By name; empty before there was anything.
   const Series& of(const std::string& name) const;
   const std::map<std::string, Series>& all() const { return series_; }
+  const Limiters& limiters() const { return limiters_; }
 
  private:
+  Limiters limiters_;
   std::map<std::string, Series> series_;
 };
 

@@ -93,6 +93,9 @@ json interface_json(const wire::Telemetry::Interface& side) {
           {"traction_jump", number(side.traction_jump)},
           {"gap", number(side.gap)},
           {"power", number(side.power)},
+          {"shear", number(side.shear)},
+          {"velocity_scale", number(side.velocity_scale)},
+          {"traction_scale", number(side.traction_scale)},
           {"p_min", number(side.p_min)},
           {"p_max", number(side.p_max)},
           {"v_min", number(side.v_min)},
@@ -100,9 +103,11 @@ json interface_json(const wire::Telemetry::Interface& side) {
           {"closed", side.closed},
           {"s", numbers(side.s)},
           {"x", numbers(side.x)},
+          {"x_start", numbers(side.x_start)},
           {"p_predicted", numbers(side.p_predicted)},
           {"p_predicted_solid", numbers(side.p_predicted_solid)},
           {"p_projected", numbers(side.p_projected)},
+          {"w_tangential", numbers(side.w_tangential)},
           {"v_predicted", numbers(side.v_predicted)},
           {"v_predicted_gas", numbers(side.v_predicted_gas)},
           {"v_projected", numbers(side.v_projected)}};
@@ -127,6 +132,8 @@ std::string to_json(const RunState& state, double now) {
     result["dt"] = number(leader->dt);
     result["dt_reason"] = leader->dt_reason;
     result["limited_by"] = leader->limited_by;
+    result["limits"] = json::object();
+    for (const wire::StepsLimited& one : leader->limits) result["limits"][one.by] = one.steps;
     result["step"] = leader->step;
   }
   for (const auto& side : state.interfaces()) result["interfaces"][side.name] = interface_json(side);
@@ -153,7 +160,10 @@ std::string history_json(const RunState& state, double now) {
     json& points = timeline[name] = json::array();
     for (const auto& point : line) points.push_back({now - point.at, point.value});
   }
-  return text({{"history", history}, {"timeline", timeline}});
+  json limiters = json::array();
+  for (const Limiters::Change& change : state.history().limiters().changes())
+    limiters.push_back({change.t, change.by});
+  return text({{"history", history}, {"timeline", timeline}, {"limiters", limiters}});
 }
 
 }  // namespace fsi::monitor

@@ -162,13 +162,14 @@ std::vector<std::string> RunState::non_finite() const {
       found.push_back(fmt::format("health of {}", name));
   }
   for (const auto& side : interfaces()) {
-    const std::array<std::pair<const char*, const std::vector<double>*>, 6> all = {
+    const std::array<std::pair<const char*, const std::vector<double>*>, 7> all = {
         {{"p of the gas", &side.p_predicted},
          {"p of the solid", &side.p_predicted_solid},
          {"projected p", &side.p_projected},
          {"v_n of the solid", &side.v_predicted},
          {"v_n of the gas", &side.v_predicted_gas},
-         {"projected v_n", &side.v_projected}}};
+         {"projected v_n", &side.v_projected},
+         {"tangential traction", &side.w_tangential}}};
     for (const auto& [what, values] : all) {
       if (!finite(*values)) found.push_back(fmt::format("{} at {}", what, side.name));
     }

@@ -23,6 +23,7 @@ struct Borrowed {
 
 struct BorrowedTelemetry : Borrowed<amp_fsi_Telemetry, amp_fsi_InterfaceTelemetry> {
   std::vector<amp_fsi_Traffic> traffic;
+  std::vector<amp_fsi_StepsLimited> limits;
 };
 
 Borrowed<amp_fsi_Hello, amp_fsi_InterfaceInfo> borrow(const wire::Hello& hello);

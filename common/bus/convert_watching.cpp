@@ -17,6 +17,9 @@ void copy(const amp_fsi_InterfaceTelemetry& in, wire::Telemetry::Interface& out)
   out.traction_jump = in.traction_jump;
   out.gap = in.gap;
   out.power = in.power;
+  out.shear = in.shear;
+  out.velocity_scale = in.velocity_scale;
+  out.traction_scale = in.traction_scale;
   out.p_min = in.p_min;
   out.p_max = in.p_max;
   out.v_min = in.v_min;
@@ -24,9 +27,11 @@ void copy(const amp_fsi_InterfaceTelemetry& in, wire::Telemetry::Interface& out)
   out.closed = in.closed;
   copy(in.s, out.s);
   copy(in.x, out.x);
+  copy(in.x_start, out.x_start);
   copy(in.p_predicted, out.p_predicted);
   copy(in.p_predicted_solid, out.p_predicted_solid);
   copy(in.p_projected, out.p_projected);
+  copy(in.w_tangential, out.w_tangential);
   copy(in.v_predicted, out.v_predicted);
   copy(in.v_predicted_gas, out.v_predicted_gas);
   copy(in.v_projected, out.v_projected);
@@ -59,6 +64,9 @@ BorrowedTelemetry borrow(const wire::Telemetry& telemetry) {
                             .traction_jump = side.traction_jump,
                             .gap = side.gap,
                             .power = side.power,
+                            .shear = side.shear,
+                            .velocity_scale = side.velocity_scale,
+                            .traction_scale = side.traction_scale,
                             .p_min = side.p_min,
                             .p_max = side.p_max,
                             .v_min = side.v_min,
@@ -66,13 +74,17 @@ BorrowedTelemetry borrow(const wire::Telemetry& telemetry) {
                             .closed = side.closed,
                             .s = borrow(side.s),
                             .x = borrow(side.x),
+                            .x_start = borrow(side.x_start),
                             .p_predicted = borrow(side.p_predicted),
                             .p_predicted_solid = borrow(side.p_predicted_solid),
                             .p_projected = borrow(side.p_projected),
+                            .w_tangential = borrow(side.w_tangential),
                             .v_predicted = borrow(side.v_predicted),
                             .v_predicted_gas = borrow(side.v_predicted_gas),
                             .v_projected = borrow(side.v_projected)});
   }
+  for (const wire::StepsLimited& limit : telemetry.limits)
+    result.limits.push_back({.by = borrow(limit.by), .steps = limit.steps});
   for (const wire::Traffic& heard : telemetry.traffic) {
     result.traffic.push_back({.interface_name = borrow(heard.interface),
                               .from = borrow(heard.from),
@@ -96,6 +108,7 @@ BorrowedTelemetry borrow(const wire::Telemetry& telemetry) {
                    .dt_reason = borrow(telemetry.dt_reason),
                    .dt_bid = telemetry.dt_bid,
                    .limited_by = borrow(telemetry.limited_by),
+                   .limits = borrowed<dds_sequence_amp_fsi_StepsLimited>(result.limits),
                    .compute_s = telemetry.compute_s,
                    .wait_s = telemetry.wait_s,
                    .point_updates_per_s = telemetry.point_updates_per_s,
@@ -124,6 +137,11 @@ void copy(const amp_fsi_Telemetry& from, wire::Telemetry& to) {
   copy(from.dt_reason, to.dt_reason);
   to.dt_bid = from.dt_bid;
   copy(from.limited_by, to.limited_by);
+  to.limits.resize(from.limits._length);
+  for (std::uint32_t k = 0; k < from.limits._length; ++k) {
+    copy(from.limits._buffer[k].by, to.limits[k].by);
+    to.limits[k].steps = from.limits._buffer[k].steps;
+  }
   to.compute_s = from.compute_s;
   to.wait_s = from.wait_s;
   to.point_updates_per_s = from.point_updates_per_s;

@@ -46,6 +46,7 @@ std::string to_json(const Part& part) {
       {"steps", part.steps},
       {"dt_min", part.dt_min},
       {"dt_max", part.dt_max},
+      {"dt_limited_by", part.limited_by},
       {"points", part.points},
       {"substeps", part.substeps},
       {"compute_s", part.compute_s},

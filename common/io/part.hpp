@@ -69,6 +69,7 @@ struct Part {
   double t = 0;                                       ///< [time]
   std::uint64_t steps = 0;                            ///< macro steps
   double dt_min = 0, dt_max = 0;                      ///< [time]
+  std::map<std::string, std::uint64_t> limited_by;    ///< steps, by the program or setting that limited them
   std::uint64_t points = 0;                           ///< grid points, or interface points for the coupler
   std::uint64_t substeps = 0;                         ///< steps the program itself took
   double compute_s = 0, wait_s = 0;                   ///< [s]

@@ -185,6 +185,12 @@ void count_step(io::Part& part, double t, double dt) {
   part.t = t;
 }
 
+std::vector<wire::StepsLimited> limits_of(const io::Part& part) {
+  std::vector<wire::StepsLimited> limits;
+  for (const auto& [by, steps] : part.limited_by) limits.push_back({.by = by, .steps = steps});
+  return limits;
+}
+
 double Stopwatch::lap() {
   const auto now = std::chrono::steady_clock::now();
   const double seconds = std::chrono::duration<double>(now - last_).count();

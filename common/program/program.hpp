@@ -13,6 +13,7 @@
 #include "common/core/failure.hpp"
 #include "common/io/csv_writer.hpp"
 #include "common/io/part.hpp"
+#include "common/wire/messages.hpp"
 
 namespace fsi {
 
@@ -36,6 +37,9 @@ const SolidSpec& solid_of(const Setup& setup);
 const FluidSpec& fluid_of(const Setup& setup);
 
 /// Counts one finished macro step of size dt that ended at time `t`.
+/// What the monitor shows of who limited the steps.
+std::vector<wire::StepsLimited> limits_of(const io::Part& part);
+
 void count_step(io::Part& part, double t, double dt);
 
 /// Runs the body of a program with everything around it. Failures become the exit code and the report's

@@ -12,7 +12,7 @@
 
 namespace fsi::wire {
 
-inline constexpr std::uint32_t protocol_version = 10;
+inline constexpr std::uint32_t protocol_version = 11;
 
 /// Where one program meets the gas or a solid.
 struct InterfaceInfo {
@@ -168,6 +168,12 @@ struct Traffic {
   double latency_p99_us = 0;  ///< [us]
 };
 
+/// So many steps were limited by a program or a setting of the case.
+struct StepsLimited {
+  std::string by;
+  std::uint64_t steps = 0;
+};
+
 /// What the monitor shows; best effort, never waited for.
 struct Telemetry {
   std::string run;
@@ -180,7 +186,8 @@ struct Telemetry {
   double t = 0, t_end = 0, dt = 0;  ///< [time]
   std::string dt_reason;
   double dt_bid = 0;       ///< the step it proposed last; inf: no limit. Coupler: the step agreed on [time]
-  std::string limited_by;  ///< coupler: the program or setting that limits the step; a lone solver: itself
+  std::string limited_by;  ///< coupler, or a lone solver: the program or setting that limits the step
+  std::vector<StepsLimited> limits;  ///< the same of all steps since the start
   double compute_s = 0, wait_s = 0;  ///< [s]
   double point_updates_per_s = 0;    ///< [1/s]
   Health health;
@@ -193,15 +200,21 @@ struct Telemetry {
     std::string name;
     /// [velocity], [pressure], [length], [power/depth]
     double velocity_jump = 0, traction_jump = 0, gap = 0, power = 0;
+    double shear = 0;  ///< largest |tangential traction| of the solid; the gas has none [pressure]
+    /// What jumps are small or large beside: speed of sound or normal velocity of the gas [velocity], its
+    /// pressure [pressure].
+    double velocity_scale = 0, traction_scale = 0;
     /// Of the projected state, over all points [pressure], [velocity].
     double p_min = 0, p_max = 0, v_min = 0, v_max = 0;
     bool closed = false;                    ///< the last point is the first one again
     std::vector<double> s;                  ///< arclength at the points shown (at most 256)
     std::vector<double> x;                  ///< their positions, n_d * points
+    std::vector<double> x_start;            ///< the same at t = 0
     std::vector<double> p_predicted;        ///< of the gas
     std::vector<double> p_predicted_solid;  ///< p_e - n . w of the solid; empty for a solid without traction
     std::vector<double> p_projected;
-    std::vector<double> v_predicted;  ///< normal velocity of the solid
+    std::vector<double> w_tangential;  ///< t . w of the solid, t = n turned to the left; empty as above
+    std::vector<double> v_predicted;   ///< normal velocity of the solid
     std::vector<double> v_predicted_gas, v_projected;
   };
   std::vector<Interface> interfaces;

@@ -248,6 +248,7 @@ void InterfaceExchange::measure(const wire::PredictedInterface& gas, const wire:
   report_ = {.name = pair_.name};
   const Level& now = levels_.front();
   solid_w_n_.resize(solid.w.size() / 2);
+  solid_w_t_.resize(solid_w_n_.size());
   for (std::size_t k = 0; k < curve_.n; ++k) {
     const Vec2 normal = vector_at(n_, k);
     const bool fixed = !solid.fixed.empty() && solid.fixed[k] == wire::Freedom::fixed;
@@ -255,6 +256,8 @@ void InterfaceExchange::measure(const wire::PredictedInterface& gas, const wire:
       report_.velocity_jump = std::max(report_.velocity_jump, std::abs(gas_[k].state.v_n - solid_v_n_[k]));
     if (!solid.w.empty()) {
       solid_w_n_[k] = normal.dot(vector_at(solid.w, k));
+      solid_w_t_[k] = Vec2(-normal.y(), normal.x()).dot(vector_at(solid.w, k));
+      report_.shear = std::max(report_.shear, std::abs(solid_w_t_[k]));
       const Vec2 jump = vector_at(solid.w, k) - gas_[k].state.w_n * normal;
       report_.traction_jump = std::max(report_.traction_jump, jump.norm());
     }
@@ -328,6 +331,9 @@ wire::Telemetry::Interface InterfaceExchange::profile(std::size_t most) const {
   profile.traction_jump = report_.traction_jump;
   profile.gap = report_.gap;
   profile.power = report_.power;
+  profile.shear = report_.shear;
+  profile.velocity_scale = report_.velocity_scale;
+  profile.traction_scale = report_.traction_scale;
   profile.closed = curve_.closed && !curve_.periodic;
   const std::size_t n = curve_.n;
   const Level& now = levels_.front();
@@ -344,13 +350,17 @@ wire::Telemetry::Interface InterfaceExchange::profile(std::size_t most) const {
     profile.s.push_back(s[k]);
     profile.p_predicted.push_back(p_e_ - gas_[k].state.w_n);
     if (!solid_w_n_.empty()) profile.p_predicted_solid.push_back(p_e_ - solid_w_n_[k]);
+    if (!solid_w_t_.empty()) profile.w_tangential.push_back(solid_w_t_[k]);
     profile.p_projected.push_back(p_e_ - now.w_n[k]);
     profile.v_predicted.push_back(solid_v_n_[k]);
     profile.v_predicted_gas.push_back(gas_[k].state.v_n);
     profile.v_projected.push_back(now.v_n[k]);
   }
   for (const std::size_t component : {std::size_t{0}, n}) {
-    for (const std::size_t k : shown) profile.x.push_back(x_gas_[component + k]);
+    for (const std::size_t k : shown) {
+      profile.x.push_back(x_gas_[component + k]);
+      profile.x_start.push_back(pair_.x[component + k]);
+    }
   }
   return profile;
 }

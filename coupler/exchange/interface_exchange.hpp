@@ -25,6 +25,7 @@ struct InterfaceReport {
   std::string name;
   double velocity_jump = 0;   ///< |n.v_f - n.v_s|, clamped points left out [velocity]
   double traction_jump = 0;   ///< |w_s - (p_e - p) n|, zero for solids that have no traction [pressure]
+  double shear = 0;           ///< |t.w_s|, zero in an inviscid gas [pressure]
   double gap = 0;             ///< |n.(x_gas - x_solid)| [length]
   double velocity_scale = 0;  ///< largest of the gas's speed of sound and its |n.v| [velocity]
   double traction_scale = 0;  ///< largest pressure of the gas [pressure]
@@ -115,7 +116,8 @@ class InterfaceExchange {
   std::vector<GasSide> gas_;       ///< predicted gas
   std::vector<double> solid_v_n_;  ///< predicted normal velocity of the solid
   std::vector<double> solid_w_n_;  ///< predicted normal traction of the solid; empty for one without traction
-  double p_e_ = 0;
+  std::vector<double> solid_w_t_;  ///< its tangential traction, along the normal turned to the left
+  double p_e_ = 0;                 ///< [pressure]
   InterfaceReport report_;
 };
 

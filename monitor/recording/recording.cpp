@@ -71,7 +71,7 @@ void Recorder::flush() {
 /// The file itself: links to the blocks while it grows, the blocks themselves at the end.
 void Recorder::write_whole(bool linked) const {
   io::Hdf5 file = io::Hdf5::create(io::aside(path_));
-  file.write_attribute("format", std::string("AMP-FSI recording 1"));
+  file.write_attribute("format", std::string("AMP-FSI recording 2"));
   file.write_attribute("run", run_.run);
   file.write_attribute("case", run_.name);
   file.write_attribute("dir", run_.dir);

@@ -54,17 +54,21 @@ constexpr const char* message_columns =
     "at from role state host pid step t t_end dt dt_reason compute_s wait_s point_updates_per_s min_rho "
     "min_p min_det_F min_cell_quality "
     "first_order_fallbacks floors messages bytes round_trip_p50_us round_trip_p99_us interfaces noise "
-    "dt_bid limited_by traffic";
-constexpr std::size_t message_width = 29;
+    "dt_bid limited_by traffic limits";
+constexpr std::size_t message_width = 30;
 constexpr const char* traffic_columns =
     "interface from messages bytes missing dropped latency_p50_us latency_p99_us";
 constexpr std::size_t traffic_width = 8;
+constexpr const char* limit_columns = "by steps";
+constexpr std::size_t limit_width = 2;
 constexpr const char* interface_columns =
-    "name velocity_jump traction_jump gap power p_min p_max v_min v_max closed points has_p_predicted_solid";
-constexpr std::size_t interface_width = 12;
+    "name velocity_jump traction_jump gap power p_min p_max v_min v_max closed points has_traction "
+    "shear velocity_scale traction_scale";
+constexpr std::size_t interface_width = 15;
 constexpr const char* profile_columns =
-    "s x1 x2 p_predicted p_predicted_solid p_projected v_predicted v_predicted_gas v_projected";
-constexpr std::size_t profile_width = 9;
+    "s x1 x2 p_predicted p_predicted_solid p_projected v_predicted v_predicted_gas v_projected "
+    "w_tangential x1_start x2_start";
+constexpr std::size_t profile_width = 12;
 constexpr const char* abort_columns = "at from exit_code reason";
 constexpr std::size_t abort_width = 4;
 
@@ -80,7 +84,8 @@ void add_profile(Table& profiles, const Side& side) {
   for (std::size_t k = 0; k < n; ++k) {
     profiles.row(std::array{side.s[k], at(side.x, k), at(side.x, n + k), at(side.p_predicted, k),
                             at(side.p_predicted_solid, k), at(side.p_projected, k), at(side.v_predicted, k),
-                            at(side.v_predicted_gas, k), at(side.v_projected, k)});
+                            at(side.v_predicted_gas, k), at(side.v_projected, k), at(side.w_tangential, k),
+                            at(side.x_start, k), at(side.x_start, n + k)});
   }
 }
 
@@ -123,20 +128,29 @@ Side side_from(std::span<const double> row, Rows& profiles, const TextOf& text) 
   side.v_min = row[7];
   side.v_max = row[8];
   side.closed = row[9] != 0;
-  std::vector<double> x2;
+  side.shear = row[12];
+  side.velocity_scale = row[13];
+  side.traction_scale = row[14];
+  std::vector<double> x2, x2_start;
   for (std::uint64_t k = 0; k < whole(row[10]); ++k) {
     const auto point = profiles.take();
     side.s.push_back(point[0]);
     side.x.push_back(point[1]);
     x2.push_back(point[2]);
+    side.x_start.push_back(point[10]);
+    x2_start.push_back(point[11]);
     side.p_predicted.push_back(point[3]);
-    if (row[11] != 0) side.p_predicted_solid.push_back(point[4]);
+    if (row[11] != 0) {
+      side.p_predicted_solid.push_back(point[4]);
+      side.w_tangential.push_back(point[9]);
+    }
     side.p_projected.push_back(point[5]);
     side.v_predicted.push_back(point[6]);
     side.v_predicted_gas.push_back(point[7]);
     side.v_projected.push_back(point[8]);
   }
   side.x.insert(side.x.end(), x2.begin(), x2.end());
+  side.x_start.insert(side.x_start.end(), x2_start.begin(), x2_start.end());
   return side;
 }
 
@@ -154,6 +168,7 @@ wire::Telemetry telemetry_from(std::span<const double> row, const TextOf& text) 
           .dt_reason = text(row[10]),
           .dt_bid = row[26],
           .limited_by = text(row[27]),
+          .limits = {},
           .compute_s = row[11],
           .wait_s = row[12],
           .point_updates_per_s = row[13],
@@ -191,6 +206,7 @@ void write_block(io::Hdf5& group, const std::vector<Heard>& heard) {
   Table sides{.name = "interfaces", .columns = interface_columns};
   Table profiles{.name = "profiles", .columns = profile_columns};
   Table traffic{.name = "traffic", .columns = traffic_columns};
+  Table limits{.name = "limits", .columns = limit_columns};
   Table aborts{.name = "aborts", .columns = abort_columns};
   for (const Heard& one : heard) {
     if (const auto& m = one.telemetry) {
@@ -222,7 +238,10 @@ void write_block(io::Hdf5& group, const std::vector<Heard>& heard) {
                               texts.number(m->noise),
                               m->dt_bid,
                               texts.number(m->limited_by),
-                              count(m->traffic.size())});
+                              count(m->traffic.size()),
+                              count(m->limits.size())});
+      for (const wire::StepsLimited& limit : m->limits)
+        limits.row(std::array{texts.number(limit.by), count(limit.steps)});
       for (const wire::Traffic& line : m->traffic) {
         traffic.row(std::array{texts.number(line.interface), texts.number(line.from), count(line.messages),
                                count(line.bytes), count(line.missing), count(line.dropped),
@@ -232,7 +251,8 @@ void write_block(io::Hdf5& group, const std::vector<Heard>& heard) {
         sides.row(std::array{texts.number(side.name), side.velocity_jump, side.traction_jump, side.gap,
                              side.power, side.p_min, side.p_max, side.v_min, side.v_max,
                              side.closed ? 1.0 : 0.0, count(side.s.size()),
-                             side.p_predicted_solid.empty() ? 0.0 : 1.0});
+                             side.p_predicted_solid.empty() ? 0.0 : 1.0, side.shear, side.velocity_scale,
+                             side.traction_scale});
         add_profile(profiles, side);
       }
     }
@@ -241,7 +261,7 @@ void write_block(io::Hdf5& group, const std::vector<Heard>& heard) {
                             texts.number(abort->reason())});
     }
   }
-  for (const Table* table : {&messages, &sides, &profiles, &traffic, &aborts}) table->write(group);
+  for (const Table* table : {&messages, &sides, &profiles, &traffic, &limits, &aborts}) table->write(group);
   for (std::size_t k = 0; k < texts.all().size(); ++k)
     group.write_attribute(fmt::format("text_{}", k), texts.all()[k]);
 }
@@ -255,7 +275,7 @@ std::vector<Heard> read_block(const io::Hdf5& group) {
   };
   Rows messages(group, "messages", message_width), sides(group, "interfaces", interface_width),
       profiles(group, "profiles", profile_width), traffic(group, "traffic", traffic_width),
-      aborts(group, "aborts", abort_width);
+      limits(group, "limits", limit_width), aborts(group, "aborts", abort_width);
   std::vector<Heard> heard;
   while (messages.more()) {
     const auto row = messages.take();
@@ -265,6 +285,10 @@ std::vector<Heard> read_block(const io::Hdf5& group) {
       telemetry.interfaces.push_back(side_from(sides.take(), profiles, text));
     for (std::uint64_t k = 0; k < whole(row[28]); ++k)
       telemetry.traffic.push_back(traffic_from(traffic.take(), text));
+    for (std::uint64_t k = 0; k < whole(row[29]); ++k) {
+      const auto limit = limits.take();
+      telemetry.limits.push_back({.by = text(limit[0]), .steps = whole(limit[1])});
+    }
   }
   while (aborts.more()) {
     const auto row = aborts.take();

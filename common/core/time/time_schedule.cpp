@@ -36,6 +36,32 @@ TimeSchedule::TimeSchedule(Options options) : options_(std::move(options)) {
   options_.output_times = distinct_times(std::move(options_.output_times), options_.end);
 }
 
+std::string name_of(StepLimit limit, const std::string& bidder) {
+  switch (limit) {
+    case StepLimit::growth:
+      return "time.growth";
+    case StepLimit::largest:
+      return "time.dt";
+    case StepLimit::output:
+      return "output.times";
+    default:
+      return bidder;
+  }
+}
+
+std::string words_for(StepLimit limit, const std::string& reason) {
+  switch (limit) {
+    case StepLimit::growth:
+      return "growth from one step to the next";
+    case StepLimit::largest:
+      return "largest step of the case";
+    case StepLimit::output:
+      return "output time";
+    default:
+      return reason;
+  }
+}
+
 bool TimeSchedule::output_at_start() const {
   return options_.output_times.front() <= 0;
 }
@@ -50,7 +76,11 @@ bool TimeSchedule::is_end(double t) const {
 }
 
 PlannedStep TimeSchedule::plan(double t, double bid, const std::string& reason) {
-  if (std::isinf(bid) && bid > 0) bid = options_.end;
+  StepLimit limit = StepLimit::bid;
+  if (std::isinf(bid) && bid > 0) {
+    bid = options_.end;
+    limit = StepLimit::output;
+  }
   if (!(bid > smallest_part * options_.end) || std::isnan(bid)) {
     if (bid > 0 && previous_ == 0 && t == 0)
       throw UserMistake(fmt::format(
@@ -60,8 +90,12 @@ PlannedStep TimeSchedule::plan(double t, double bid, const std::string& reason) 
     throw NumbersBroke(fmt::format("the time step has collapsed to {:.3g} ({})", bid, reason), {.t = t});
   }
   double dt = bid;
-  if (previous_ > 0) dt = std::min(dt, options_.growth * previous_);
-  if (options_.dt_max > 0) dt = std::min(dt, options_.dt_max);
+  const auto lower = [&](double most, StepLimit by) {
+    if (most < dt) limit = by;
+    dt = std::min(dt, most);
+  };
+  if (previous_ > 0) lower(options_.growth * previous_, StepLimit::growth);
+  if (options_.dt_max > 0) lower(options_.dt_max, StepLimit::largest);
   previous_ = dt;
 
   const double tiny = smallest_part * options_.end;
@@ -69,11 +103,16 @@ PlannedStep TimeSchedule::plan(double t, double bid, const std::string& reason) 
       std::ranges::find_if(options_.output_times, [=](double wanted) { return wanted > t + tiny; });
   if (target == options_.output_times.end()) return {.dt = 0, .t_next = t, .output = false, .end = true};
   const double steps = std::ceil((*target - t) / dt * (1 - 1e-12));
-  if (steps <= 1)
-    return {
-        .dt = *target - t, .t_next = *target, .output = true, .end = *target == options_.output_times.back()};
+  if (steps <= 1) {
+    const double rest = *target - t;
+    return {.dt = rest,
+            .t_next = *target,
+            .output = true,
+            .end = *target == options_.output_times.back(),
+            .limit = rest < 0.5 * dt ? StepLimit::output : limit};
+  }
   dt = (*target - t) / steps;
-  return {.dt = dt, .t_next = t + dt};
+  return {.dt = dt, .t_next = t + dt, .limit = limit};
 }
 
 }  // namespace fsi

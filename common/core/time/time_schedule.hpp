@@ -13,11 +13,20 @@ namespace fsi {
 /// those so close to the start or the end are that.
 std::vector<double> distinct_times(std::vector<double> times, double end);
 
+/// What keeps a step from being longer.
+enum class StepLimit { bid, growth, largest, output };
+
+/// Its name in the case file, `bidder` for a bid.
+std::string name_of(StepLimit limit, const std::string& bidder);
+/// What it is, for people; `reason` for a bid.
+std::string words_for(StepLimit limit, const std::string& reason);
+
 struct PlannedStep {
-  double dt = 0;        ///< [time]
-  double t_next = 0;    ///< exactly an output time when the step reaches one [time]
-  bool output = false;  ///< fields are wanted at t_next
-  bool end = false;     ///< t_next is the end of the run
+  double dt = 0;                     ///< [time]
+  double t_next = 0;                 ///< exactly an output time when the step reaches one [time]
+  bool output = false;               ///< fields are wanted at t_next
+  bool end = false;                  ///< t_next is the end of the run
+  StepLimit limit = StepLimit::bid;  ///< `output` where a wanted time makes the step shorter than half
 };
 
 class TimeSchedule {

@@ -9,11 +9,27 @@
 
 #include "common/case/report/summary.hpp"
 #include "common/core/log.hpp"
+#include "common/core/time/time_schedule.hpp"
 #include "common/program/build_id.hpp"
 
 namespace fsi {
 
 namespace {
+
+/// Steps by who limited them: all programs, and the settings that may.
+void archive_limits(Archive& archive, io::Part& part, const Case& problem) {
+  std::vector<std::string> names;
+  for (const ParticipantSummary& one : participants_of(problem)) names.push_back(one.name);
+  for (const StepLimit limit : {StepLimit::growth, StepLimit::largest, StepLimit::output})
+    names.push_back(name_of(limit, {}));
+  std::vector<double> counts;
+  for (const std::string& name : names)
+    counts.push_back(part.limited_by.contains(name) ? static_cast<double>(part.limited_by[name]) : 0);
+  archive.values("limited_by", counts);
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    if (counts[k] > 0) part.limited_by[names[k]] = static_cast<std::uint64_t>(counts[k]);
+  }
+}
 
 /// What the report has counted so far.
 void archive_part(Archive& archive, io::Part& part) {
@@ -50,7 +66,10 @@ io::CheckpointOrigin Checkpoints::origin() const {
 }
 
 void Checkpoints::archive(Archive& archive) {
-  archive.inside("report", [&] { archive_part(archive, part_); });
+  archive.inside("report", [&] {
+    archive_part(archive, part_);
+    archive_limits(archive, part_, setup_.problem);
+  });
   archive.inside("state", [&] { state_(archive); });
 }
 

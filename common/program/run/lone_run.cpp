@@ -66,6 +66,8 @@ class LoneRun {
     const TimeStepBid bid = solver_.compute_time_step();
     clock_.lap(io::Work::time_step);
     const PlannedStep step = schedule_.plan(at_.t, bid.dt, bid.reason);
+    limited_by_ = name_of(step.limit, part_.participant);
+    ++part_.limited_by[limited_by_];
     solver_.advance(at_.t, step.dt, 1, {});
     clock_.lap(io::Work::advance);
     at_ = {.step = at_.step + 1, .t = step.t_next, .dt = step.dt};
@@ -76,7 +78,7 @@ class LoneRun {
     watch_noise(part_, solver_, at_, step.output || step.end);
     write(step.output);
     clock_.lap(io::Work::output);
-    progress_.show(part_.steps, at_.t, at_.dt, part_.participant);
+    progress_.show(part_.steps, at_.t, at_.dt, limited_by_);
     if (session_.telemetry_due() || step.end) publish(bid);
     if (session_.picture_due()) session_.show(draw_of(part_, solver_, at_), at_.step, step.end);
     clock_.lap(io::Work::messages);
@@ -85,7 +87,8 @@ class LoneRun {
 
   void publish(const TimeStepBid& bid) {
     wire::Telemetry telemetry = telemetry_of(setup_, part_, solver_, at_.dt, bid);
-    telemetry.limited_by = part_.participant;
+    telemetry.limited_by = limited_by_;
+    telemetry.limits = limits_of(part_);
     session_.publish(telemetry);
   }
 
@@ -148,6 +151,7 @@ class LoneRun {
   CheckpointClock due_;
   io::Standing at_;
   std::uint64_t begun_at_ = 0;  ///< step
+  std::string limited_by_;      ///< of the last step: the solver, or a setting
   LastState last_;
   WorkClock clock_;
   bool end_ = false, fields_written_ = true, paused_ = false;

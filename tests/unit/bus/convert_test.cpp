@@ -143,6 +143,7 @@ wire::Telemetry telemetry() {
           .dt_reason = "gas",
           .dt_bid = 4.5,
           .limited_by = "fluid",
+          .limits = {{.by = "fluid", .steps = 40}, {.by = "time.growth", .steps = 2}},
           .compute_s = 5,
           .wait_s = 6,
           .point_updates_per_s = 7,
@@ -169,6 +170,9 @@ wire::Telemetry::Interface interface_telemetry() {
           .traction_jump = 2,
           .gap = 3,
           .power = 4,
+          .shear = 4.5,
+          .velocity_scale = 4.6,
+          .traction_scale = 4.7,
           .p_min = 5,
           .p_max = 6,
           .v_min = 7,
@@ -176,9 +180,11 @@ wire::Telemetry::Interface interface_telemetry() {
           .closed = true,
           .s = {9},
           .x = {10, 11},
+          .x_start = {10.5, 11.5},
           .p_predicted = {12},
           .p_predicted_solid = {13},
           .p_projected = {14},
+          .w_tangential = {14.5},
           .v_predicted = {15},
           .v_predicted_gas = {16},
           .v_projected = {17}};
@@ -195,6 +201,9 @@ TEST(Convert, TelemetryKeepsEveryField) {
             std::tie(out.compute_s, out.wait_s, out.point_updates_per_s, out.messages, out.bytes,
                      out.round_trip_p50_us, out.round_trip_p99_us, out.health.floors, out.noise));
   EXPECT_EQ(std::tie(in.dt_bid, in.limited_by), std::tie(out.dt_bid, out.limited_by));
+  ASSERT_EQ(in.limits.size(), 2U);
+  EXPECT_EQ(std::tie(in.limits[0].by, in.limits[1].by), std::tie(out.limits[0].by, out.limits[1].by));
+  EXPECT_EQ(std::pair(in.limits[0].steps, in.limits[1].steps), std::pair(40UL, 2UL));
   ASSERT_EQ(in.traffic.size(), 1U);
   const wire::Traffic &there = in.traffic[0], &here = out.traffic[0];
   EXPECT_EQ(std::tie(there.interface, there.from, there.messages, there.bytes, there.missing, there.dropped,
@@ -233,13 +242,16 @@ TEST(Convert, TelemetryKeepsItsInterfaces) {
   ASSERT_EQ(in.interfaces.size(), 1U);
   const auto &there = in.interfaces[0], &here = out.interfaces[0];
   EXPECT_EQ(std::tie(there.name, there.velocity_jump, there.traction_jump, there.gap, there.power,
-                     there.p_min, there.p_max, there.v_min, there.v_max, there.closed),
-            std::tie(here.name, here.velocity_jump, here.traction_jump, here.gap, here.power, here.p_min,
-                     here.p_max, here.v_min, here.v_max, here.closed));
-  EXPECT_EQ(std::tie(there.s, there.x, there.p_predicted, there.p_predicted_solid, there.p_projected,
-                     there.v_predicted, there.v_predicted_gas, there.v_projected),
-            std::tie(here.s, here.x, here.p_predicted, here.p_predicted_solid, here.p_projected,
-                     here.v_predicted, here.v_predicted_gas, here.v_projected));
+                     there.shear, there.velocity_scale, there.traction_scale, there.p_min, there.p_max,
+                     there.v_min, there.v_max, there.closed),
+            std::tie(here.name, here.velocity_jump, here.traction_jump, here.gap, here.power, here.shear,
+                     here.velocity_scale, here.traction_scale, here.p_min, here.p_max, here.v_min, here.v_max,
+                     here.closed));
+  EXPECT_EQ(
+      std::tie(there.s, there.x, there.x_start, there.p_predicted, there.p_predicted_solid, there.p_projected,
+               there.w_tangential, there.v_predicted, there.v_predicted_gas, there.v_projected),
+      std::tie(here.s, here.x, here.x_start, here.p_predicted, here.p_predicted_solid, here.p_projected,
+               here.w_tangential, here.v_predicted, here.v_predicted_gas, here.v_projected));
 }
 
 TEST(Convert, RequestKeepsEveryField) {

@@ -264,12 +264,20 @@ TEST(Coupler, WhoWatchesSeesFewPointsBothEndsAndTheExtremesOfAll) {
   auto gas = gas_state(many, 0);
   gas.p.assign(many, 1.2);
   gas.p[many / 3] = 9;
-  coupler.step(std::vector{gas, solid_state(many, 0)});
+  auto solid = solid_state(many, 0);
+  solid.w = everywhere(many, 0.2, 0.3);  // the normal of the interface is (1, 0): 0.3 is tangential
+  solid.w[many + many / 2] = -0.7;
+  coupler.step(std::vector{gas, solid});
   const wire::Telemetry::Interface shown = coupler.profiles().front();
   const std::size_t count = shown.s.size();
   EXPECT_LE(count, 256U);
   EXPECT_EQ(shown.x.size(), 2 * count);
   EXPECT_EQ(shown.p_predicted_solid.size(), count);
+  EXPECT_EQ(shown.w_tangential.size(), count);
+  EXPECT_NEAR(shown.w_tangential.front(), 0.3, 1e-12);
+  EXPECT_NEAR(shown.shear, 0.7, 1e-12) << "a peak between the points shown counts";
+  EXPECT_EQ(shown.x_start, shown.x);
+  EXPECT_EQ(shown.traction_scale, 9.0);
   EXPECT_EQ(shown.s.front(), 0.0);
   EXPECT_EQ(shown.x.front(), gas.x.front());
   EXPECT_EQ(shown.x.back(), gas.x.back());

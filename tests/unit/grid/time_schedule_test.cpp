@@ -29,6 +29,17 @@ TEST(TimeSchedule, HitsEveryOutputTimeExactlyAndNeverExceedsTheBid) {
   EXPECT_EQ(t, 1.0);
 }
 
+TEST(TimeSchedule, SaysWhatKeepsAStepFromBeingLonger) {
+  TimeSchedule schedule({.end = 1.0, .output_times = {0.05}, .growth = 1.5, .dt_max = 0.2});
+  EXPECT_EQ(schedule.plan(0, 0.04, "gas").limit, StepLimit::bid);  // two even steps to the output time
+  EXPECT_EQ(schedule.plan(0.045, 0.04, "gas").limit, StepLimit::output);
+  EXPECT_EQ(schedule.plan(0.05, 0.4, "gas").limit, StepLimit::growth);  // from the bid, not what was left
+  for (int k = 0; k < 5; ++k) schedule.plan(0.1, 0.4, "gas");
+  EXPECT_EQ(schedule.plan(0.1, 0.4, "gas").limit, StepLimit::largest);
+  EXPECT_EQ(name_of(StepLimit::bid, "gas"), "gas");
+  EXPECT_EQ(name_of(StepLimit::largest, "gas"), "time.dt");
+}
+
 /// The steps of a whole run with an even bid: each has a length.
 std::vector<double> sizes_of_steps(TimeSchedule schedule, double bid) {
   std::vector<double> sizes;

@@ -26,10 +26,16 @@ class Summary(InScratch):
 
     def test_coupler_tells_time_and_steps(self):
         self.part("fluid", steps=9, t=0.7)
-        self.part("coupler", steps=10, t=0.8, dt_min=0.05, dt_max=0.1, interface={"max_gap": 1e-6})
+        self.part("coupler", steps=10, t=0.8, dt_min=0.05, dt_max=0.1, interface={"max_gap": 1e-6},
+                  dt_limited_by={"fluid": 8, "time.growth": 2})
         merged = self.merged()
-        self.assertEqual((merged["t"], merged["steps"], merged["dt"]), (0.8, 10, {"min": 0.05, "max": 0.1}))
+        self.assertEqual((merged["t"], merged["steps"], merged["dt"]), (0.8, 10, {"min": 0.05, "max": 0.1, "limited_by": {"fluid": 8, "time.growth": 2}}))
+        self.assertIn("step limited by: fluid 80 %, time.growth 20 %", summary.describe(merged, self.folder))
         self.assertEqual(merged["interface"], {"max_gap": 1e-6})
+
+    def test_who_limited_next_to_no_step_is_not_worth_a_word(self):
+        self.assertEqual(summary.limiters({"time.growth": 2, "fluid": 996, "beam": 0, "output.times": 9}), "fluid 99 %, output.times 1 %")
+        self.assertEqual(summary.limiters({}), "")
 
     def test_errors_of_all_programs_in_the_papers_order(self):
         self.part("solid", errors={"P_bar": 3e-5, "u_bar": 1e-4})

@@ -46,6 +46,20 @@ TEST(Series, WhatIsNotFiniteIsNotForgotten) {
       1);
 }
 
+TEST(Limiters, HoldTheChangesOnlyInBoundedMemory) {
+  Limiters limiters;
+  for (int k = 0; k < 10; ++k) limiters.add(k, k < 4 ? "fluid" : "beam");
+  limiters.add(3, "time.growth");  // behind the last one
+  limiters.add(10, "");            // the run is over
+  ASSERT_EQ(limiters.changes().size(), 2U);
+  EXPECT_EQ(limiters.changes()[1].t, 4);
+  EXPECT_EQ(limiters.changes()[1].by, "beam");
+  for (int k = 10; k < 100000; ++k) limiters.add(k, k % 2 == 0 ? "fluid" : "beam");
+  EXPECT_LE(limiters.changes().size(), Limiters::capacity);
+  EXPECT_EQ(limiters.changes().front().t, 0);
+  EXPECT_GE(limiters.changes().back().t, 99990);
+}
+
 TEST(History, BeginsWithWhatTheTableOfTheRunHolds) {
   const auto path =
       std::filesystem::temp_directory_path() / ("fsi-history-" + std::to_string(getpid()) + ".csv");

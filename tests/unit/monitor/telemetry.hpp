@@ -21,6 +21,8 @@ inline wire::Telemetry telemetry(const std::string& role, const std::string& nam
   result.t = t;
   result.t_end = 4;
   result.dt = 0.01;
+  result.limited_by = "fluid";
+  result.limits = {{.by = "fluid", .steps = step}};
   result.compute_s = 3;
   result.wait_s = 1;
   return result;
@@ -37,12 +39,16 @@ inline wire::Telemetry with_interface(const std::string& name, std::size_t n) {
     side.x.push_back(s);
     side.p_predicted.push_back(1 + s);
     side.p_predicted_solid.push_back(1 + 2 * s);
+    side.w_tangential.push_back(0.1 * s);
     side.p_projected.push_back(1 + 1.5 * s);
     side.v_predicted.push_back(s);
     side.v_predicted_gas.push_back(-s);
     side.v_projected.push_back(0);
   }
   side.x.insert(side.x.end(), n, 0.0);
+  side.x_start = side.x;
+  side.velocity_scale = side.traction_scale = 1;
+  side.shear = 0.1;
   return result;
 }
 
