@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <future>
@@ -12,6 +13,7 @@
 #include <vector>
 
 #include "monitor/json.hpp"
+#include "monitor/recording/field_files.hpp"
 #include "monitor/terminal/screen.hpp"
 #include "monitor/terminal/terminal.hpp"
 
@@ -28,6 +30,7 @@ constexpr double refresh_s = 0.25;        ///< time between two pictures
 constexpr double plain_refresh_s = 1;     ///< time between two lines
 constexpr double web_refresh_s = 0.2;     ///< time between two states for browsers
 constexpr double ask_s = 1;               ///< time between two words that somebody watches
+constexpr double files_s = 0.5;           ///< time between two looks for new output files
 constexpr double message_s = 4;           ///< how long a message stays
 constexpr double patience_at_end_s = 10;  ///< how long the end stays on the screen unless a key is pressed
 
@@ -186,22 +189,59 @@ void follow_plain(Source& source, RunState& state, bool json) {
   }
 }
 
+namespace {
+
+/// The pictures that browsers wish for: of what the run's files hold, and while it goes on of what its programs
+/// draw.
+class PicturesForBrowsers {
+ public:
+  PicturesForBrowsers(Source& source, const RunState& state, WebServer& server)
+      : source_(source), state_(state), server_(server), files_(state.run().dir) {}
+
+  void show() {
+    for (const wire::Picture& picture : source_.pictures()) server_.show(picture);
+    const std::vector<std::string> wishes = server_.wishes();
+    if (wishes.empty()) return;
+    if (!state_.over() && (wishes != wished_ || since(asked_) > ask_s)) {
+      source_.watch(wishes);
+      asked_ = Clock::now();
+    }
+    show_past(wishes);
+    wished_ = wishes;
+  }
+
+ private:
+  void show_past(const std::vector<std::string>& wishes) {
+    if (!more_ && wishes == wished_ && since(looked_) < files_s) return;
+    looked_ = Clock::now();
+    const wire::Telemetry* leader = state_.leader();
+    const double until = leader == nullptr || state_.over() ? HUGE_VAL : leader->t;
+    const std::vector<wire::Picture> past = files_.next(wishes, until);
+    for (const wire::Picture& picture : past) server_.show_past(picture);
+    more_ = !past.empty();
+  }
+
+  Source& source_;
+  const RunState& state_;
+  WebServer& server_;
+  FieldFiles files_;
+  std::vector<std::string> wished_;
+  Clock::time_point asked_ = Clock::now() - std::chrono::seconds(2), looked_ = asked_;
+  bool more_ = false;  ///< the files may hold more than was shown
+};
+
+}  // namespace
+
 void follow_web(Source& source, RunState& state, const WebOptions& options) {
   WebServer server(options);
   server.publish(state, source.now());
   fmt::print("{}\n", server.url());
   std::fflush(stdout);
-  auto last = Clock::now(), asked = last - std::chrono::seconds(2);
-  std::vector<std::string> wished;
+  PicturesForBrowsers pictures(source, state, server);
+  auto last = Clock::now();
   while (caught == 0 && !state.over()) {
     source.listen(state, listen_s);
-    for (const wire::Picture& picture : source.pictures()) server.show(picture);
-    const std::vector<std::string> wishes = server.wishes();
-    if (!wishes.empty() && (wishes != wished || since(asked) > ask_s)) {
-      source.watch(wishes);
-      asked = Clock::now();
-      wished = wishes;
-    }
+    pictures.show();
     if (since(last) < web_refresh_s && !state.over()) continue;
     last = Clock::now();
     server.publish(state, source.now());
@@ -209,7 +249,10 @@ void follow_web(Source& source, RunState& state, const WebOptions& options) {
   if (caught != 0) return;
   fmt::print("the run is over ({}); the page stays until Ctrl-C\n", state.status());
   std::fflush(stdout);
-  while (caught == 0) std::this_thread::sleep_for(std::chrono::duration<double>(listen_s));
+  while (caught == 0) {
+    pictures.show();
+    std::this_thread::sleep_for(std::chrono::duration<double>(listen_s));
+  }
 }
 
 std::optional<RunEntry> choose_on_terminal(const std::vector<RunEntry>& runs) {

@@ -6,13 +6,12 @@
 #include <cctype>
 #include <chrono>
 #include <fstream>
-#include <nlohmann/json.hpp>
 #include <thread>
 #include <utility>
 
 #include "common/bus/peers/peer.hpp"
 #include "common/core/failure.hpp"
-#include "common/io/place_json.hpp"
+#include "monitor/recording/ended_run.hpp"
 
 namespace fsi::monitor {
 
@@ -23,28 +22,6 @@ constexpr double look_s = 0.25;
 
 /// The launcher writes its summary within this time after the last program has ended [s].
 constexpr double summary_s = 3;
-
-/// The launcher's record of a run that is over; null while there is none.
-nlohmann::json summary_in(const std::string& folder) {
-  std::ifstream file(folder + "/summary.json");
-  const auto summary = nlohmann::json::parse(file, nullptr, false);
-  return summary.is_object() ? summary : nlohmann::json();
-}
-
-/// What it says of a failure; none of a run that ended well.
-std::optional<wire::Abort> written_abort(const nlohmann::json& summary, const std::string& run) {
-  try {
-    if (summary.is_null() || summary.at("status") != "failed") return std::nullopt;
-    const auto failure = summary.value("failure", nlohmann::json::object());
-    return wire::Abort{.run = run,
-                       .from = failure.value("told_by", "launcher"),
-                       .exit_code = failure.value("exit_code", 0),
-                       .place = io::place_of(failure),
-                       .what = failure.value("what", summary.at("reason").get<std::string>())};
-  } catch (const nlohmann::json::exception&) {  // of another version
-    return std::nullopt;
-  }
-}
 
 }  // namespace
 
@@ -86,15 +63,15 @@ bool Live::heard_everybody(const RunState& state) const {
 void Live::learn_the_end(RunState& state) {
   if (state.abort() || run_.dir.empty()) return;
   const double start = now();
-  nlohmann::json summary = summary_in(run_.dir);
-  while (summary.is_null() && now() - start < summary_s) {
+  auto ending = ending_of(run_.dir);
+  while (!ending && now() - start < summary_s) {
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    summary = summary_in(run_.dir);
+    ending = ending_of(run_.dir);
   }
-  const auto abort = written_abort(summary, run_.run);
-  if (!abort) return;
-  state.hear(*abort);
-  if (recorder_) recorder_->add(*abort, now());
+  if (!ending || !ending->abort) return;
+  ending->abort->run = run_.run;
+  state.hear(*ending->abort);
+  if (recorder_) recorder_->add(*ending->abort, now());
 }
 
 void Live::look_at_processes(RunState& state) {

@@ -22,7 +22,6 @@ class Live : public Source {
   double now() const override;
   void watch(const std::vector<std::string>& wishes) override { listener_.watch(wishes); }
   std::vector<wire::Picture> pictures() override { return listener_.pictures(); }
-  bool has_pictures() const override { return true; }
   std::string request(const std::string& command) override;
   std::string controls() const override { return "p pause  r resume  c checkpoint  s stop  "; }
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -19,6 +20,7 @@
 #include "monitor/follow.hpp"
 #include "monitor/json.hpp"
 #include "monitor/live.hpp"
+#include "monitor/recording/ended_run.hpp"
 #include "monitor/recording/replay.hpp"
 #include "monitor/registry.hpp"
 #include "monitor/state.hpp"
@@ -105,10 +107,9 @@ void show_once(const Wishes& wishes, Live& live, RunState& state) {
 void follow(const Wishes& wishes, Source& source, RunState& state) {
   if (wishes.web >= 0) {
     follow_web(source, state,
-               {.host = wishes.host,
-                .port = wishes.web,
-                .request = [&source](const std::string& command) { return source.request(command); },
-                .pictures = source.has_pictures()});
+               {.host = wishes.host, .port = wishes.web, .request = [&source](const std::string& command) {
+                  return source.request(command);
+                }});
   } else if (wishes.plain || wishes.json || isatty(STDOUT_FILENO) == 0) {
     follow_plain(source, state, wishes.json);
   } else {
@@ -116,12 +117,21 @@ void follow(const Wishes& wishes, Source& source, RunState& state) {
   }
 }
 
-void replay(const Wishes& wishes) {
-  Replay source(wishes.replay, wishes.once ? 1e9 : wishes.speed);
-  RunState state(source.run());
+void show_again(const Wishes& wishes, Source& source, const RunEntry& run) {
+  RunState state(run);
   if (!wishes.once) return follow(wishes, source, state);
   while (!interrupted() && !state.over()) source.listen(state, 1);
   print(wishes, state, source.now());
+}
+
+/// A recording, or the folder of a run that is over.
+void replay(const Wishes& wishes) {
+  if (std::filesystem::is_directory(wishes.replay)) {
+    EndedRun source(wishes.replay);
+    return show_again(wishes, source, source.run());
+  }
+  Replay source(wishes.replay, wishes.once ? 1e9 : wishes.speed);
+  show_again(wishes, source, source.run());
 }
 
 void send(const std::string& request, const RunEntry& run) {
@@ -154,7 +164,8 @@ void add_options(CommandLine& line, Wishes& wishes) {
   line.add_option("--host", wishes.host,
                   "address of the page; other machines see it where this is not loopback");
   line.add_option("--record", wishes.record, "write everything heard to this HDF5 file");
-  line.add_option("--replay", wishes.replay, "show a recording instead of a run");
+  line.add_option("--replay", wishes.replay,
+                  "show a recording, or the folder of a run that is over, instead of a run");
   line.add_option("--speed", wishes.speed, "of the replay: 2 is twice as fast");
   line.add_option("--send", wishes.send, "send a request to the run instead of watching it");
 }

@@ -25,8 +25,6 @@ class Source {
   virtual void watch(const std::vector<std::string>& /*wishes*/) {}
   /// Pictures heard with the last `listen`.
   virtual std::vector<wire::Picture> pictures() { return {}; }
-  /// A recording holds none.
-  virtual bool has_pictures() const { return false; }
   /// Sends a request ("pause", "resume", "checkpoint", "stop"). Returns what became of it, for people.
   virtual std::string request(const std::string& command) = 0;
   /// The requests that `request` understands, with their keys, for people.

@@ -13,18 +13,6 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-/// The planes that a quantity is made of.
-const std::vector<std::string>& planes_of(const std::string& quantity) {
-  static const std::vector<std::string> none;
-  static const std::map<std::string, std::vector<std::string>> all{{"pressure", {"p"}},
-                                                                   {"density", {"rho"}},
-                                                                   {"schlieren", {"rho"}},
-                                                                   {"speed", {"v1", "v2"}},
-                                                                   {"stress", {"P11", "P12", "P21", "P22"}}};
-  const auto found = all.find(quantity);
-  return found == all.end() ? none : found->second;
-}
-
 /// Every how many points of a grid there is a sample, along its two directions.
 struct Stride {
   int i = 1, j = 1;
@@ -221,6 +209,17 @@ void choose_samples(std::vector<Sampled>& grids) {
 }
 
 }  // namespace
+
+const std::vector<std::string>& planes_of(const std::string& quantity) {
+  static const std::vector<std::string> none;
+  static const std::map<std::string, std::vector<std::string>> all{{"pressure", {"p"}},
+                                                                   {"density", {"rho"}},
+                                                                   {"schlieren", {"rho"}},
+                                                                   {"speed", {"v1", "v2"}},
+                                                                   {"stress", {"P11", "P12", "P21", "P22"}}};
+  const auto found = all.find(quantity);
+  return found == all.end() ? none : found->second;
+}
 
 std::optional<wire::Picture> picture_of(std::span<const io::GridOutput> grids, const std::string& quantity) {
   std::vector<Sampled> sampled;

@@ -16,6 +16,9 @@ namespace fsi {
 /// A picture is at most about so large [byte]: it then fits into the receive buffer of a stock kernel.
 inline constexpr std::size_t largest_picture = 160 << 10;
 
+/// The fields that a quantity is made of; none of one that is not known.
+const std::vector<std::string>& planes_of(const std::string& quantity);
+
 /// A quantity of `wire::Picture` on these grids: "pressure", "density", "speed" |v|, "stress" |P| (the root
 /// of the sum of squares of the nominal stress), "schlieren" |grad rho| (largest among the points a sample
 /// stands for). Nothing where the fields do not have what it is made of. Of n points along a direction every

@@ -266,7 +266,7 @@ def _parser():
                       "free port")
     verb.add_argument("--host", metavar="ADDRESS", help="address of the page (default: 127.0.0.1)")
     verb.add_argument("--record", metavar="FILE", help="write everything that is heard to this HDF5 file")
-    verb.add_argument("--replay", metavar="FILE", help="show such a recording instead of a run")
+    verb.add_argument("--replay", metavar="FILE", help="show such a recording, or a run that is over (its folder), instead of one that is going on")
     verb.add_argument("--speed", metavar="X", type=float, help="of the replay: 2 is twice as fast")
     verb.add_argument("--wait", metavar="S", type=float, help="longest wait of --once for the first word of everybody [s]")
     verb.set_defaults(act=_monitor)

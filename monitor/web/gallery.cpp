@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -14,6 +15,9 @@ constexpr std::chrono::seconds patience_with_browsers{3};
 constexpr std::size_t most_wishes = 16, longest_wish = 32;
 /// More than the programs of a run have quantities: anybody may send pictures under any name.
 constexpr std::size_t most_frames = 256;
+constexpr std::size_t most_kept_bytes = std::size_t{256} << 20U;
+constexpr std::size_t most_at_once = std::size_t{4} << 20U;  ///< of one answer [byte]
+constexpr std::uint64_t newest = std::numeric_limits<std::uint64_t>::max();
 
 template <class T>
 void append(std::string& bytes, const std::vector<T>& values) {
@@ -49,11 +53,22 @@ std::string encoded(const wire::Picture& picture) {
 }  // namespace
 
 void Gallery::hang(const wire::Picture& picture) {
+  put({picture.from, picture.quantity, newest}, picture);
+}
+
+void Gallery::keep(const wire::Picture& picture) {
+  put({picture.from, picture.quantity, picture.step}, picture);
+}
+
+void Gallery::put(const Place& place, const wire::Picture& picture) {
   auto bytes = std::make_shared<const std::string>(encoded(picture));
   {
     const std::scoped_lock lock(mutex_);
-    const std::pair place(picture.from, picture.quantity);
-    if (!frames_.contains(place) && frames_.size() >= most_frames) return;
+    const bool live = std::get<2>(place) == newest;
+    if (!frames_.contains(place)) {
+      if (live ? live_ >= most_frames : kept_bytes_ + bytes->size() > most_kept_bytes) return;
+      live ? ++live_ : kept_bytes_ += bytes->size();
+    }
     frames_[place] = {.version = ++version_, .role = picture.role, .bytes = std::move(bytes)};
   }
   changed_.notify_all();
@@ -74,13 +89,21 @@ Hanging Gallery::wait(std::uint64_t after, const std::vector<std::string>& wishe
   return found;
 }
 
+/// The oldest first, and no more than a browser takes at once: it then asks for the others.
 Hanging Gallery::newer(std::uint64_t after, const std::vector<std::string>& wishes) const {
-  Hanging found{.version = version_, .bytes = {}};
+  std::vector<const Frame*> found;
   for (const auto& [place, frame] : frames_) {
-    const bool wished = std::ranges::find(wishes, frame.role + "." + place.second) != wishes.end();
-    if (frame.version > after && (wished || frame.role == "coupler")) found.bytes += *frame.bytes;
+    const bool wished = std::ranges::find(wishes, frame.role + "." + std::get<1>(place)) != wishes.end();
+    if (frame.version > after && (wished || frame.role == "coupler")) found.push_back(&frame);
   }
-  return found;
+  std::ranges::sort(found, {}, &Frame::version);
+  Hanging answer{.version = version_, .bytes = {}};
+  for (const Frame* frame : found) {
+    if (!answer.bytes.empty() && answer.bytes.size() + frame->bytes->size() > most_at_once) return answer;
+    answer.bytes += *frame->bytes;
+    answer.version = frame == found.back() ? version_ : frame->version;
+  }
+  return answer;
 }
 
 std::vector<std::string> Gallery::wishes() {

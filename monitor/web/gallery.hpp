@@ -8,7 +8,7 @@
 #include <memory>
 #include <mutex>
 #include <string>
-#include <utility>
+#include <tuple>
 #include <vector>
 
 #include "common/wire/messages.hpp"
@@ -29,6 +29,8 @@ class Gallery {
  public:
   /// In place of the last one of the same program and quantity.
   void hang(const wire::Picture& picture);
+  /// Beside all others: one of a moment that is past, from a file. Up to some hundred MB of them.
+  void keep(const wire::Picture& picture);
   /// Notes the wishes; returns the pictures for them (and outlines) that are newer than `after`, as soon as
   /// there is one, nothing after `patience`.
   Hanging wait(std::uint64_t after, const std::vector<std::string>& wishes,
@@ -46,11 +48,16 @@ class Gallery {
     std::shared_ptr<const std::string> bytes;
   };
 
+  /// By program and quantity; of a past moment by its step too, else the largest number.
+  using Place = std::tuple<std::string, std::string, std::uint64_t>;
+
+  void put(const Place& place, const wire::Picture& picture);
   Hanging newer(std::uint64_t after, const std::vector<std::string>& wishes) const;
 
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::map<std::pair<std::string, std::string>, Frame> frames_;  ///< by program and quantity
+  std::map<Place, Frame> frames_;
+  std::size_t live_ = 0, kept_bytes_ = 0;  ///< frames that are replaced; size of the others [byte]
   std::map<std::string, Clock::time_point> wishes_;
   std::uint64_t version_ = 0;
   bool closed_ = false;

@@ -1,13 +1,16 @@
 #pragma once
 /// The files of the page, compiled in; pages.cpp.in is filled when CMake runs.
 
+#include <array>
+
 namespace fsi::monitor {
 
-extern const char* const page_html;
-extern const char* const page_css;
-extern const char* const page_js;
-extern const char* const plots_js;
-extern const char* const raster_js;
-extern const char* const picture_js;
+struct PageFile {
+  const char* path;
+  const char* type;
+  const char* content;
+};
+
+extern const std::array<PageFile, 8> page_files;
 
 }  // namespace fsi::monitor

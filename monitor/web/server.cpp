@@ -114,12 +114,7 @@ struct WebServer::Implementation {
                            "text/plain");
       return httplib::Server::HandlerResponse::Handled;
     });
-    file("/", page_html, "text/html; charset=utf-8");
-    file("/page.css", page_css, "text/css; charset=utf-8");
-    file("/page.js", page_js, "text/javascript; charset=utf-8");
-    file("/plots.js", plots_js, "text/javascript; charset=utf-8");
-    file("/raster.js", raster_js, "text/javascript; charset=utf-8");
-    file("/picture.js", picture_js, "text/javascript; charset=utf-8");
+    for (const PageFile& one : page_files) file(one);
     answer("/api/state.json", "application/json", to_json);
     answer("/api/history.json", "application/json", history_json);
     answer("/metrics", "text/plain; version=0.0.4; charset=utf-8", to_prometheus);
@@ -128,8 +123,8 @@ struct WebServer::Implementation {
     server.Post("/api/control", [this](const auto& request, auto& response) { control(request, response); });
   }
 
-  void file(const std::string& path, const char* content, const char* type) {
-    server.Get(path, [content, type](const auto&, auto& response) { response.set_content(content, type); });
+  void file(const PageFile& one) {
+    server.Get(one.path, [one](const auto&, auto& response) { response.set_content(one.content, one.type); });
   }
 
   void answer(const std::string& path, const char* type, std::string (*text)(const RunState&, double)) {
@@ -146,11 +141,6 @@ struct WebServer::Implementation {
   /// What is newer than the last picture the browser has, as soon
   /// as there is something; else, after a while, nothing.
   void pictures(const httplib::Request& request, httplib::Response& response) {
-    if (!options.pictures) {
-      response.status = 404;
-      response.set_content("a replay holds no pictures\n", "text/plain");
-      return;
-    }
     const std::uint64_t after = std::strtoull(request.get_param_value("after").c_str(), nullptr, 10);
     const Hanging hanging = gallery.wait(after, words_of(request.get_param_value("wish")), heartbeat);
     response.set_header("X-AMP-FSI-Version", fmt::format("{}", hanging.version));
@@ -245,6 +235,10 @@ std::vector<std::string> WebServer::wishes() {
 
 void WebServer::show(const wire::Picture& picture) {
   implementation_->gallery.hang(picture);
+}
+
+void WebServer::show_past(const wire::Picture& picture) {
+  implementation_->gallery.keep(picture);
 }
 
 void WebServer::publish(const RunState& state, double now) {

@@ -16,7 +16,6 @@ struct WebOptions {
   /// Sends a request to the run and returns what became of it. Empty: nobody may. Obeyed only with the token
   /// in `url()`, and only on the loopback interface.
   std::function<std::string(const std::string& command)> request = {};
-  bool pictures = false;  ///< there is a run that can be asked for pictures
 };
 
 class WebServer {
@@ -35,8 +34,10 @@ class WebServer {
   void publish(const RunState& state, double now);
   /// The quantities that browsers look at now, ROLE.QUANTITY.
   std::vector<std::string> wishes();
-  /// A picture for the browsers that wish for it.
+  /// The newest picture for the browsers that wish for it.
   void show(const wire::Picture& picture);
+  /// One of a moment that is past.
+  void show_past(const wire::Picture& picture);
 
  private:
   struct Implementation;

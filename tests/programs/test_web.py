@@ -75,7 +75,7 @@ class Server(WebTest):
         self.assertIn("solid", self.state()["interfaces"])
         self.assertTrue(until(lambda: len(json.loads(self.get("api/history.json"))["history"]["solid.gap"]) > 3))
         self.assertIn(f'amp_fsi_up{{run="{self.state()["run"]}"}} 1', self.get("metrics"))
-        for path in ("", "page.css", "page.js", "plots.js", "raster.js", "picture.js"):
+        for path in ("", "page.css", "page.js", "plots.js", "cursor.js", "tables.js", "raster.js", "picture.js"):
             content = self.get(path)
             self.assertGreater(len(content), 1000)
             self.assertNotIn("https://", content)  # nothing is loaded from elsewhere

@@ -50,13 +50,44 @@ TEST(Gallery, GivesEachPictureOnceToThoseWhoWishForIt) {
   const Hanging first = gallery.wait(0, {"fluid.pressure"}, at_once);
   const auto seen = headers(first.bytes);
   ASSERT_EQ(seen.size(), 2U);  // what was wished for, and the outlines
-  EXPECT_EQ(seen[0]["quantity"], "outline");
-  EXPECT_EQ(seen[1]["quantity"], "pressure");
+  EXPECT_EQ(seen[0]["quantity"], "pressure");
+  EXPECT_EQ(seen[1]["quantity"], "outline");
   EXPECT_EQ(gallery.wait(first.version, {"fluid.pressure"}, at_once).bytes, "");
   gallery.hang(picture("fluid", "pressure", 2));
   const auto next = headers(gallery.wait(first.version, {"fluid.pressure"}, at_once).bytes);
   ASSERT_EQ(next.size(), 1U);
   EXPECT_EQ(next[0]["step"], 2);
+}
+
+TEST(Gallery, KeepsAllMomentsThatArePastBesideTheNewest) {
+  Gallery gallery;
+  for (const std::uint64_t step : {3U, 1U, 2U}) gallery.keep(picture("fluid", "pressure", step));
+  for (const std::uint64_t step : {8U, 9U}) gallery.hang(picture("fluid", "pressure", step));
+  std::vector<int> steps;
+  for (const auto& one : headers(gallery.wait(0, {"fluid.pressure"}, at_once).bytes))
+    steps.push_back(one["step"].get<int>());
+  EXPECT_EQ(steps, (std::vector<int>{3, 1, 2, 9}));
+}
+
+TEST(Gallery, GivesMuchInSeveralAnswersAndNothingTwice) {
+  Gallery gallery;
+  wire::Picture large = picture("fluid", "pressure");
+  large.grids = {
+      {.name = "g", .n1 = 256, .n2 = 256, .straight = true, .x = std::vector<float>(512, 1), .level = {}}};
+  large.grids[0].level.assign(256 * 256, 1);
+  constexpr std::uint64_t many = 100;  // 13 MB
+  for (large.step = 1; large.step <= many; ++large.step) gallery.keep(large);
+  std::uint64_t after = 0, answers = 0, bytes = 0;
+  for (Hanging one = gallery.wait(0, {"fluid.pressure"}, at_once); !one.bytes.empty();
+       one = gallery.wait(after, {"fluid.pressure"}, at_once)) {
+    after = one.version;
+    bytes += one.bytes.size();
+    ++answers;
+  }
+  EXPECT_EQ(after, many);
+  EXPECT_GT(answers, 2U);
+  EXPECT_GT(bytes, many * 256 * 256 * 2);
+  EXPECT_LT(bytes, many * (256 * 256 * 2 + 4096));
 }
 
 TEST(Gallery, WhoWaitsHearsOfANewPictureAndOfTheEnd) {

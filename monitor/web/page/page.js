@@ -4,7 +4,7 @@
 const $ = (id) => document.getElementById(id);
 const MOST = 1200; // points of a history; then every second one goes
 const SPAN = 60;   // seconds of the timeline
-const memory = { state: null, history: {}, timeline: {}, first: {}, last: {}, chosen: null, connected: false, stale: true, drawn: "" };
+const memory = { state: null, history: {}, timeline: {}, limiters: [], last: {}, chosen: null, connected: false, stale: true, drawn: "" };
 
 function make(tag, properties, ...children) {
   const element = Object.assign(document.createElement(tag), properties);
@@ -28,10 +28,10 @@ function hear(state) {
   if (memory.state && memory.state.run !== state.run) location.reload();
   memory.state = state;
   if (state.t > 0) remember("dt", state.t, state.dt);
+  const limiter = memory.limiters[memory.limiters.length - 1];
+  if (state.limited_by && (!limiter || (limiter[1] !== state.limited_by && state.t > limiter[0]))) memory.limiters.push([state.t, state.limited_by]);
   for (const [name, side] of Object.entries(state.interfaces)) {
-    for (const what of ["velocity_jump", "traction_jump", "gap", "power", "p_max"]) remember(`${name}.${what}`, state.t, side[what]);
-    const n = side.s.length;
-    memory.first[name] ||= { x1: side.x.slice(0, n), x2: side.x.slice(n, 2 * n) };
+    for (const what of ["velocity_jump", "traction_jump", "shear", "gap", "power", "p_max"]) remember(`${name}.${what}`, state.t, side[what]);
   }
   for (const [name, program] of Object.entries(state.participants)) {
     const before = memory.last[name], line = (memory.timeline[name] ||= []);
@@ -52,6 +52,7 @@ async function fetchPast() {
   const past = await (await fetch("api/history.json")).json();
   const now = performance.now() / 1000;
   memory.history = past.history;
+  memory.limiters = past.limiters;
   memory.timeline = Object.fromEntries(Object.entries(past.timeline).map(([name, line]) => [name, line.map(([ago, share]) => [now - ago, share])]));
   memory.last = {};
 }
@@ -109,83 +110,8 @@ function showHead(state) {
   $("run").textContent = state.run;
   $("bar").style.width = `${100 * state.progress}%`;
   const facts = [["t", `${short(state.t)} of ${short(state.t_end)}`], ["step", state.step], ["dt", short(state.dt)], ["steps/s", short(state.steps_per_s)],
-    ["left", over(state) ? "\u2013" : duration(state.remaining_s)], ["limited by", state.dt_reason || "\u2013"]];
+    ["left", over(state) ? "\u2013" : duration(state.remaining_s)], ["limited by", (state.dt_reason || "\u2013") + shareOf(state, state.limited_by)]];
   $("facts").replaceChildren(...facts.map(([name, value]) => make("div", {}, make("span", {}, name + " "), make("b", {}, String(value ?? "\u2013")))));
-}
-
-function row(tag, cells) {
-  return make("tr", {}, ...cells.map((cell) => {
-    const element = make(tag, {});
-    element.append(cell instanceof Node ? cell : String(cell));
-    return element;
-  }));
-}
-
-function count(value) {
-  if (value === null) return "\u2013";
-  for (const [size, unit] of [[1e9, "G"], [1e6, "M"], [1e3, "k"]]) if (value >= size) return `${short(Number((value / size).toPrecision(3)))} ${unit}`;
-  return short(Number(value.toPrecision(3)));
-}
-
-function meter(share) {
-  if (share === null) return "\u2013";
-  const fill = make("i", {});
-  fill.style.width = `${100 * share}%`;
-  return make("span", {}, make("span", { className: "meter" }, fill), `${Math.round(100 * share)} / ${100 - Math.round(100 * share)} %`);
-}
-
-function health(program) {
-  const h = program.health, noise = program.noise ? `, NOISE: ${program.noise}` : "";
-  if (program.role === "fluid") return `min \u03c1 ${short(h.min_rho)}, min p ${short(h.min_p)}, cells ${short(h.min_cell_quality)}, first order ${h.first_order_fallbacks}, floors ${h.floors}${noise}`;
-  return program.role === "solid" ? `min det F ${short(h.min_det_F)}${noise}` : "";
-}
-
-// Who limits the step stands out.
-function proposal(state, name, program) {
-  if (program.role === "coupler") return "\u2013";
-  const text = program.dt_bid === null ? "no limit" : short(program.dt_bid);
-  return name === state.limited_by ? make("b", { className: "limiter", title: program.dt_reason }, `${text} limits`) : make("span", { title: program.dt_reason }, text);
-}
-
-function showTraffic(state) {
-  const rows = Object.entries(state.participants).flatMap(([name, program]) => program.traffic.map((one) => [one, name]));
-  rows.sort((a, b) => (a[0].interface < b[0].interface ? -1 : a[0].interface > b[0].interface ? 1 : 0));
-  $("traffic-section").hidden = !rows.length;
-  const warn = (value) => make("span", { className: value > 0 ? "warning" : "" }, String(value));
-  $("traffic").replaceChildren(row("th", ["interface", "from", "to", "messages/s", "bytes/s", "bytes each", "messages", "missing", "dropped", "latency p50 / p99"]),
-    ...rows.map(([one, to]) => row("td", [one.interface, one.from, to, count(one.messages_per_s), count(one.bytes_per_s),
-      one.messages ? count(one.bytes / one.messages) : "\u2013", one.messages, warn(one.missing), warn(one.dropped),
-      one.latency_p99_us ? `${short(Math.round(one.latency_p50_us))} / ${short(Math.round(one.latency_p99_us))} \u00b5s` : "\u2013"])));
-}
-
-const BID_COLOURS = ["gas", "solid", "good", "busy", "bad"];
-
-// What everybody proposed, and what was agreed on. A solid that takes substeps may propose less.
-function showBids(state) {
-  const names = Object.keys(state.participants).filter((name) => state.participants[name].role !== "coupler");
-  const colours = names.map((_, k) => theme[BID_COLOURS[k % BID_COLOURS.length]]);
-  const curves = names.map((name, k) => ({ list: memory.history[`${name}.dt_bid`] || [], colour: colours[k] }));
-  curves.push({ list: memory.history.dt || [], colour: theme.projected, dash: [2, 3] });
-  drawPlot($("bids"), { title: "dt, log", x: "t", log: true, nothing: "no step was proposed yet",
-    curves: curves.map(({ list, ...rest }) => ({ x: list.map((e) => e[0]), y: list.map((e) => e[1]), ...rest })) });
-  const key = names.join("\n") + theme.gas;
-  if ($("bids-legend").dataset.key === key) return;
-  $("bids-legend").dataset.key = key;
-  const mark = (colour, style) => { const line = make("i", {}); line.style.borderTop = `2.5px ${style} ${colour}`; return line; };
-  $("bids-legend").replaceChildren(...names.flatMap((name, k) => [mark(colours[k], "solid"), name]), mark(theme.projected, "dotted"), "agreed on");
-}
-
-function showTables(state) {
-  const head = row("th", ["", "state", "step", "proposes dt", "computing / waiting", "points/s", "steps/s", "messages/s", "bytes/s", "others' answer p50 / p99", "health"]);
-  const rows = Object.entries(state.participants).map(([name, p]) => row("td", [name,
-    make("span", { className: KIND[p.standing] || "" }, p.standing), p.step, proposal(state, name, p), meter(p.computing_now ?? p.computing_share),
-    p.point_updates_per_s > 0 ? count(p.point_updates_per_s) : "\u2013", short(p.steps_per_s), count(p.bus.messages_per_s), count(p.bus.bytes_per_s),
-    `${short(p.bus.round_trip_p50_us / 1e3)} / ${short(p.bus.round_trip_p99_us / 1e3)} ms`, health(p)]));
-  $("programs").replaceChildren(head, ...rows);
-  const sides = Object.entries(state.interfaces);
-  $("interface-section").hidden = !sides.length;
-  $("interfaces").replaceChildren(row("th", ["", "velocity jump", "traction jump", "gap", "power", "p min", "p max", "v_n min", "v_n max"]),
-    ...sides.map(([name, s]) => row("td", [name, ...["velocity_jump", "traction_jump", "gap", "power", "p_min", "p_max", "v_min", "v_max"].map((k) => short(s[k]))])));
 }
 
 function showTabs(names) {
@@ -204,24 +130,28 @@ function showShapes(state) {
   $("p-high").textContent = sides.length ? short(range[1]) : "";
   drawScale($("scale"));
   drawShapes($("shape"), sides.map(([name, side]) => {
-    const n = side.s.length, first = memory.first[name], fits = first.x1.length === n;
-    const moved = (from, x) => x.map((value, k) => (fits ? from[k] + factor * (value - from[k]) : value));
-    return { name, p: side.p_projected, closed: side.closed, first, x1: moved(first.x1, side.x.slice(0, n)), x2: moved(first.x2, side.x.slice(n)) };
+    const n = side.s.length, first = { x1: side.x_start.slice(0, n), x2: side.x_start.slice(n) };
+    const moved = (from, x) => x.map((value, k) => from[k] + factor * (value - from[k]));
+    return { name, p: side.p_projected, s: side.s, chosen: name === memory.chosen, closed: side.closed, first, x1: moved(first.x1, side.x.slice(0, n)), x2: moved(first.x2, side.x.slice(n)) };
   }), range);
-  $("shape-note").textContent = sides.length ? "dashed: the shape when this page first saw it" : "";
+  $("shape-note").textContent = sides.length ? "dashed: the shape at t = 0" : "";
 }
 
-const HISTORIES = [["velocity_jump", "velocity jump", true], ["traction_jump", "traction jump", true], ["gap", "gap", true], ["power", "power", false],
-  ["p_max", "largest pressure", false], ["dt", "dt", false]];
+const ROUND_OFF = 1e-14; // jumps that are smaller parts of what they compare are none
+// [name, title, what makes it round-off: null where the plot is not logarithmic]
+const HISTORIES = [["velocity_jump", "velocity jump", (side) => side.velocity_scale], ["traction_jump", "traction jump", (side) => side.traction_scale],
+  ["shear", "tangential traction of the solid", (side) => side.traction_scale], ["gap", "gap", (side) => side.s[side.s.length - 1]], ["power", "power", null],
+  ["p_max", "largest pressure", null]];
 
 function showHistories() {
-  const wanted = HISTORIES.filter(([what]) => what === "dt" || memory.chosen);
+  const side = memory.state.interfaces[memory.chosen], wanted = side ? HISTORIES : [];
+  $("history-section").hidden = !side;
   if ($("histories").children.length !== wanted.length) $("histories").replaceChildren(...wanted.map(() => make("canvas", {})));
   $("history-of").textContent = memory.chosen || "";
-  wanted.forEach(([what, title, log], k) => {
-    const list = memory.history[what === "dt" ? what : `${memory.chosen}.${what}`] || [];
-    drawPlot($("histories").children[k], { title: title + (log ? ", log" : ""), x: "t", log, nothing: "zero or nothing yet",
-      value: list.length ? short(list[list.length - 1][1]) : "",
+  wanted.forEach(([what, title, scale], k) => {
+    const list = memory.history[`${memory.chosen}.${what}`] || [];
+    drawPlot($("histories").children[k], { title: title + (scale ? ", log" : ""), axis: "t", x: "t", log: scale !== null, floor: scale ? ROUND_OFF * scale(side) : 0,
+      nothing: "zero or nothing yet", value: list.length ? short(list[list.length - 1][1]) : "",
       curves: [{ x: list.map((e) => e[0]), y: list.map((e) => e[1]), colour: theme.projected }] });
   });
 }
@@ -230,13 +160,17 @@ function showProfiles(side) {
   const minus = $("minus").value === "1";
   const curves = (gas, solid, projected) => {
     const shown = (values) => (minus ? values.map((v, k) => (v === null || projected[k] === null ? null : v - projected[k])) : values);
-    return [{ x: side.s, y: shown(projected), colour: theme.projected, width: 2.2 },
-      { x: side.s, y: shown(gas), colour: theme.gas, dash: [6, 4] }, { x: side.s, y: shown(solid), colour: theme.solid, dash: [2, 4], width: 2 }];
+    return [{ name: "projected", x: side.s, y: shown(projected), colour: theme.projected, width: 2.2 },
+      { name: "gas", x: gas.length ? side.s : [], y: shown(gas), colour: theme.gas, dash: [6, 4] },
+      { name: "solid", x: solid.length ? side.s : [], y: shown(solid), colour: theme.solid, dash: [2, 4], width: 2 }];
   };
-  const none = { x: "s", curves: [], nothing: "no interface" };
+  const none = { axis: "s", x: "s", curves: [], nothing: "no interface" };
   const title = (name) => (minus && side ? `${name} minus projected` : name);
-  drawPlot($("pressure"), side ? { title: title("pressure p"), x: "s", curves: curves(side.p_predicted, side.p_predicted_solid, side.p_projected) } : { title: "pressure p", ...none });
-  drawPlot($("velocity"), side ? { title: title("normal velocity v_n"), x: "s", curves: curves(side.v_predicted_gas, side.v_predicted, side.v_projected) } : { title: "normal velocity v_n", ...none });
+  const draw = (canvas, name, sets) => drawPlot($(canvas), side ? { title: title(name), axis: "s", x: "s", robust: true, curves: curves(...sets), nothing: "none: this solid has no stress of its own" } : { title: name, ...none });
+  draw("pressure", "pressure p", side && [side.p_predicted, side.p_predicted_solid, side.p_projected]);
+  draw("velocity", "normal velocity v_n", side && [side.v_predicted_gas, side.v_predicted, side.v_projected]);
+  const free = side && side.w_tangential.map(() => 0); // the gas has no viscosity: the projection takes it away
+  draw("shear", "tangential traction w_t", side && [[], side.w_tangential, free]);
 }
 
 function show() {

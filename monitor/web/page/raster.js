@@ -49,6 +49,18 @@ function extentOf(pictures) {
   return box[0] <= box[1] ? box : null;
 }
 
+// The rim of a solid, as curves: around its only grid, or of several those of rings, of which the wider side lies outside.
+function rimsOf(picture) {
+  const line = (grid, points) => ({ n1: points.length, n2: 1, straight: false, x: Float32Array.from([...points.map((one) => one[0]), ...points.map((one) => one[1])]) });
+  const along = (grid, j) => Array.from({ length: grid.n1 }, (_, i) => positionOf(grid, i, j)), up = (grid, i) => Array.from({ length: grid.n2 }, (_, j) => positionOf(grid, i, j));
+  const width = (points) => Math.max(...points.map((one) => one[0])) - Math.min(...points.map((one) => one[0]));
+  const closes = (grid) => { const points = along(grid, 0), [a, b] = [points[0], points[grid.n1 - 1]]; return Math.hypot(a[0] - b[0], a[1] - b[1]) < 1e-4 * width(points); };
+  return picture.grids.flatMap((grid) => {
+    if (!grid.straight && closes(grid)) return [line(grid, [along(grid, 0), along(grid, grid.n2 - 1)].sort((a, b) => width(b) - width(a))[0])];
+    return picture.grids.length > 1 ? [] : [line(grid, [...along(grid, 0), ...up(grid, grid.n1 - 1), ...along(grid, grid.n2 - 1).reverse(), ...up(grid, 0).reverse()])];
+  });
+}
+
 // How the plane lies on a raster: a rectangle of it in the middle, with equal scales.
 function viewOf(box, width, height) {
   const across = Math.max(box[1] - box[0], 1e-300), up = Math.max(box[3] - box[2], 1e-300);

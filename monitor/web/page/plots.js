@@ -76,26 +76,36 @@ function spread(values) {
   return [low, high];
 }
 
-// plot: {title, x label, curves: [{x, y, colour, dash, width}], log}. Returns nothing; says so where there is no data.
+// Range of the values without a few that stand out: a spike at an end shall not press all else into a line. [low, high, whether any is cut]
+function robustSpread(values) {
+  const whole = spread(values);
+  if (!whole) return null;
+  const sorted = values.filter((value) => value !== null && isFinite(value)).sort((a, b) => a - b), n = sorted.length;
+  const low = sorted[Math.floor(0.03 * (n - 1))], high = sorted[Math.ceil(0.97 * (n - 1))], room = 0.5 * (high - low);
+  if (n < 12 || !(high > low) || whole[1] - whole[0] < 4 * (high - low)) return [...whole, false];
+  return [Math.max(whole[0], low - room), Math.min(whole[1], high + room), true];
+}
+
+// plot: {title, axis: "t" or "s", x (its label), curves: [{name, x, y, colour, dash, width}], log, floor (of a log plot: what is below is round-off),
+// robust, strip: [[x from, colour]], value, nothing}. Says so where there is no data.
 function drawPlot(canvas, plot) {
-  const { pen, width, height } = open(canvas);
-  pen.fillStyle = theme.ink;
+  makeReadable(canvas);
+  const { pen, width, height } = open(canvas), floor = Math.log10(plot.floor || 0);
   pen.textBaseline = "top";
-  pen.textAlign = "left";
-  pen.font = "600 12px system-ui, 'DejaVu Sans', sans-serif";
-  pen.fillText(plot.title, 2, 1);
-  pen.font = "11px system-ui, 'DejaVu Sans', sans-serif";
-  if (plot.value) {
-    pen.textAlign = "right";
-    pen.fillText(plot.value, width - 4, 1);
-  }
-  const map = (v) => (plot.log ? (v > 0 ? Math.log10(v) : null) : v);
-  const curves = plot.curves.map((c) => ({ ...c, y: c.y.map(map) }));
-  const across = spread(curves.flatMap((c) => c.x)), up = spread(curves.flatMap((c) => c.y));
+  plot.map = (v) => (!plot.log || v === null ? v : v > 0 || plot.floor ? Math.max(Math.log10(v), floor) : null);
+  const span = spanOf(plot), within = (x) => !span || (x >= span[0] && x <= span[1]);
+  const curves = plot.curves.map((c) => ({ ...c, y: c.y.map(plot.map) }));
+  const across = span || spread(curves.flatMap((c) => c.x)), all = curves.flatMap((c) => c.y.filter((_, k) => within(c.x[k])));
+  const up = plot.robust ? robustSpread(all) : spread(all);
+  const at = axes[plot.axis] ? axes[plot.axis].at : null;
+  drawTitle(pen, plot, at !== null && across && up ? wordsAt(plot, at) : plot.value || "", width, up && up[2]);
   if (!across || !up) {
     pen.fillStyle = theme.dim;
     pen.textAlign = "center";
     pen.fillText(plot.nothing || "nothing yet", width / 2, height / 2);
+    canvas.setAttribute("role", "img");
+    canvas.setAttribute("aria-label", `${plot.title}: ${plot.nothing || "nothing yet"}`);
+    plots.delete(canvas);
     return;
   }
   const pad = 0.06 * (up[1] - up[0]);
@@ -109,8 +119,44 @@ function drawPlot(canvas, plot) {
   pen.beginPath();
   pen.rect(box.left, box.top - 1, box.right - box.left + 1, box.bottom - box.top + 2);
   pen.clip();
+  if (!plot.log && low < 0 && high > 0) drawZero(pen, box, place(0, 0)[1]);
+  drawStrip(pen, box, plot.strip || [], place);
   for (const curve of curves) drawCurve(pen, curve, place);
   pen.restore();
+  drawCursor(pen, canvas, plot, { box, across, place });
+  const [least, most] = plot.log ? up.map((v) => Math.pow(10, v)) : up;
+  canvas.setAttribute("role", "img");
+  canvas.setAttribute("aria-label", `${plot.title} over ${plot.x}, from ${short(least)} to ${short(most)}; the arrow keys read values`);
+}
+
+function drawTitle(pen, plot, said, width, cut) {
+  pen.fillStyle = theme.ink;
+  pen.textAlign = "left";
+  pen.font = "600 12px system-ui, 'DejaVu Sans', sans-serif";
+  pen.fillText(plot.title, 2, 1);
+  const room = width - pen.measureText(plot.title).width - 16;
+  pen.font = "11px system-ui, 'DejaVu Sans', sans-serif";
+  const words = said || (cut ? "spikes are cut" : "");
+  pen.textAlign = "right";
+  if (words) pen.fillText(words, width - 4, 1, Math.max(40, room));
+}
+
+function drawZero(pen, box, y) {
+  pen.strokeStyle = theme.dim;
+  pen.lineWidth = 1;
+  pen.beginPath();
+  pen.moveTo(box.left, Math.round(y) + 0.5);
+  pen.lineTo(box.right, Math.round(y) + 0.5);
+  pen.stroke();
+}
+
+// A band at the lower edge in the colours of [x from, colour].
+function drawStrip(pen, box, strip, place) {
+  strip.forEach(([from, colour], k) => {
+    const left = Math.max(box.left, place(from, 0)[0]), right = k + 1 < strip.length ? place(strip[k + 1][0], 0)[0] : box.right;
+    pen.fillStyle = colour;
+    if (right > left) pen.fillRect(left, box.bottom - 7, right - left + 0.5, 7);
+  });
 }
 
 function drawFrame(pen, box, scale, across, place, plot) {
@@ -196,6 +242,7 @@ function drawShapes(canvas, shapes, range) {
   const place = (x, y) => [width / 2 + (x - middle[0]) * unit, height / 2 - (y - middle[1]) * unit];
   drawRuler(pen, unit, width, height);
   for (const shape of shapes) drawShape(pen, shape, range, place);
+  canvas.setAttribute("aria-label", shapes.map((shape) => `${shape.name}: pressure from ${short(Math.min(...shape.p))} to ${short(Math.max(...shape.p))}`).join("; "));
 }
 
 function drawRuler(pen, unit, width, height) {
@@ -241,11 +288,25 @@ function drawShape(pen, shape, range, place) {
     pen.lineTo(...place(shape.x1[k + 1], shape.x2[k + 1]));
     pen.stroke();
   }
+  drawPlaceAlong(pen, shape, place);
   const [x, y] = place(shape.x1[0], shape.x2[0]);
   pen.fillStyle = theme.ink;
   pen.textAlign = "left";
   pen.textBaseline = "bottom";
   pen.fillText(shape.name, x + 9, y - 5);
+}
+
+// Where along the shape the cursor of the plots is.
+function drawPlaceAlong(pen, shape, place) {
+  const at = axes.s.at;
+  if (!shape.chosen || at === null) return;
+  const k = shape.s.reduce((best, s, i) => (Math.abs(s - at) < Math.abs(shape.s[best] - at) ? i : best), 0);
+  const [x, y] = place(shape.x1[k], shape.x2[k]);
+  pen.lineWidth = 2;
+  pen.strokeStyle = theme.ink;
+  pen.beginPath();
+  pen.arc(x, y, 6, 0, 2 * Math.PI);
+  pen.stroke();
 }
 
 // rows: [{name, points: [[time, share]]}] over the last `span` seconds before `now`.

@@ -77,10 +77,9 @@ async function watchRun() {
     const wishes = wishesOf().join(",");
     if (wishes !== live.wanted) live.version = 0;
     live.wanted = wishes;
-    if (!visible() || (over(memory.state) && live.version)) { await new Promise((wake) => setTimeout(wake, 200)); continue; }
+    if (!visible()) { await new Promise((wake) => setTimeout(wake, 200)); continue; }
     try {
       const answer = await fetch(`api/pictures?after=${live.version}&wish=${wishes}`);
-      if (answer.status === 404) { $("live").hidden = true; return; } // a replay
       if (!answer.ok) throw new Error(answer.statusText);
       decode(await answer.arrayBuffer()).forEach(keep);
       live.version = Number(answer.headers.get("X-AMP-FSI-Version"));
@@ -111,11 +110,11 @@ function layersOf(frame) {
   return all.sort((a, b) => (a.role > b.role ? 1 : a.role < b.role ? -1 : 0));
 }
 
-// The interfaces at the step of the solids that are drawn.
+// The interfaces at the step of the solids that are drawn; of a moment from a file the rims of the solids.
 function outlineOf(layers, frame) {
-  const { step } = layers.find((picture) => picture.role === "solid") || frame;
-  const same = live.frames.find((one) => one.step === step);
-  return same && same.pictures.get("coupler");
+  const solids = layers.filter((picture) => picture.role === "solid"), { step } = solids[0] || frame;
+  const same = live.frames.find((one) => one.step === step), heard = same && same.pictures.get("coupler");
+  return heard || (solids.length ? { grids: solids.flatMap(rimsOf) } : undefined);
 }
 
 function drawLive() {

@@ -1,0 +1,152 @@
+#include "monitor/recording/ended_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "common/core/failure.hpp"
+#include "common/io/place_json.hpp"
+
+namespace fsi::monitor {
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+json object_in(const fs::path& path) {
+  std::ifstream file(path);
+  json content = json::parse(file, nullptr, false);
+  return content.is_object() ? content : json();
+}
+
+double number(const json& part, const char* key, double missing = 0) {
+  const auto found = part.find(key);
+  return found != part.end() && found->is_number() ? found->get<double>() : missing;
+}
+
+std::string words(const json& part, const char* key) {
+  const auto found = part.find(key);
+  return found != part.end() && found->is_string() ? found->get<std::string>() : "";
+}
+
+/// What a program reported at its end, as it would have said it.
+wire::Telemetry last_words(const json& part) {
+  const json health = part.value("health", json::object()), counters = part.value("counters", json::object());
+  wire::Telemetry said;
+  said.from = words(part, "participant");
+  said.role = words(part, "role");
+  said.state = "done";
+  said.step = static_cast<std::uint64_t>(number(part, "steps"));
+  said.t = said.t_end = number(part, "t");
+  said.compute_s = number(part, "compute_s");
+  said.wait_s = number(part, "wait_s");
+  said.point_updates_per_s = number(part, "point_updates_per_s");
+  said.dt_bid = std::nan("");
+  said.health = {
+      .min_rho = number(health, "min_rho"),
+      .min_p = number(health, "min_p"),
+      .min_det_F = number(health, "min_det_F"),
+      .min_cell_quality = number(health, "min_cell_quality", 1),
+      .first_order_fallbacks = static_cast<std::uint64_t>(number(counters, "first_order_fallbacks")),
+      .floors = static_cast<std::uint64_t>(number(counters, "floors"))};
+  const json limits = part.value("dt_limited_by", json::object());
+  for (const auto& [by, steps] : limits.items())
+    said.limits.push_back({.by = by, .steps = steps.get<std::uint64_t>()});
+  const auto most = std::ranges::max_element(said.limits, {}, &wire::StepsLimited::steps);
+  if (most != said.limits.end()) said.limited_by = said.dt_reason = most->by;
+  return said;
+}
+
+/// The interfaces as the last line of the coupler's table has them.
+std::vector<wire::Telemetry::Interface> interfaces_of(const History& history, const json& part) {
+  const std::string gap = ".gap";
+  const json scales = part.value("interface", json::object());
+  std::vector<wire::Telemetry::Interface> sides;
+  for (const auto& [name, series] : history.all()) {
+    if (!name.ends_with(gap)) continue;
+    wire::Telemetry::Interface side;
+    side.name = name.substr(0, name.size() - gap.size());
+    const auto last = [&](const std::string& what) {
+      const auto& points = history.of(side.name + what).points();
+      return points.empty() ? 0 : points.back().value;
+    };
+    side.velocity_jump = last(".velocity_jump");
+    side.traction_jump = last(".traction_jump");
+    side.gap = last(gap);
+    side.power = last(".power");
+    side.velocity_scale = number(scales, "velocity_scale");
+    side.traction_scale = number(scales, "traction_scale");
+    side.shear = side.p_min = side.p_max = side.v_min = side.v_max = std::nan("");  // nobody wrote them
+    sides.push_back(std::move(side));
+  }
+  return sides;
+}
+
+}  // namespace
+
+std::optional<Ending> ending_of(const std::string& run_dir) {
+  const json summary = object_in(fs::path(run_dir) / "summary.json");
+  if (summary.is_null()) return std::nullopt;
+  Ending ending{.name = words(summary, "case"), .abort = std::nullopt};
+  if (words(summary, "status") != "failed") return ending;
+  const json failure = summary.value("failure", json::object());
+  ending.abort = wire::Abort{.run = {},
+                             .from = "launcher",
+                             .exit_code = static_cast<std::int32_t>(number(failure, "exit_code")),
+                             .place = {},
+                             .what = words(summary, "reason")};
+  try {
+    ending.abort->place = io::place_of(failure);
+    ending.abort->from = failure.value("told_by", ending.abort->from);
+    ending.abort->what = failure.value("what", ending.abort->what);
+  } catch (const json::exception&) {  // of another version
+    return ending;
+  }
+  return ending;
+}
+
+EndedRun::EndedRun(const std::string& run_dir) {
+  const auto ending = ending_of(run_dir);
+  if (!ending)
+    throw UserMistake(fmt::format(
+        "--replay: '{}' holds no summary.json: give a recording, or the folder of a run that is over",
+        run_dir));
+  ending_ = *ending;
+  const fs::path folder = fs::weakly_canonical(run_dir);
+  run_ = {.run = folder.filename().string(), .name = ending_.name, .dir = folder.string()};
+}
+
+void EndedRun::listen(RunState& state, double /*seconds*/) {
+  if (state.over()) return;
+  state.read_table(run_.dir + "/interface.csv");
+  std::error_code none;
+  std::set<fs::path> parts;
+  for (const auto& entry : fs::directory_iterator(run_.dir + "/parts", none)) parts.insert(entry.path());
+  for (const fs::path& path : parts) {
+    try {
+      const json part = object_in(path);
+      if (part.is_null()) continue;
+      wire::Telemetry said = last_words(part);
+      if (said.role == "coupler") said.interfaces = interfaces_of(state.history(), part);
+      if (said.t > 0 && said.dt == 0 && !state.history().of("dt").points().empty())
+        said.dt = state.history().of("dt").points().back().value;
+      state.hear(said, 0);
+    } catch (const json::exception&) {  // of another version
+      continue;
+    }
+  }
+  if (ending_.abort) state.hear(*ending_.abort);
+  state.end();
+}
+
+std::string EndedRun::request(const std::string& command) {
+  return fmt::format("{}: the run is over", command);
+}
+
+}  // namespace fsi::monitor

@@ -1,0 +1,91 @@
+"use strict";
+// Tables of the programs, the interfaces and the messages at them, and who proposes which step.
+
+function row(tag, cells) {
+  return make("tr", {}, ...cells.map((cell) => {
+    const element = make(tag, {});
+    element.append(cell instanceof Node ? cell : String(cell));
+    return element;
+  }));
+}
+
+function count(value) {
+  if (value === null) return "\u2013";
+  for (const [size, unit] of [[1e9, "G"], [1e6, "M"], [1e3, "k"]]) if (value >= size) return `${short(Number((value / size).toPrecision(3)))} ${unit}`;
+  return short(Number(value.toPrecision(3)));
+}
+
+function meter(share) {
+  if (share === null) return "\u2013";
+  const fill = make("i", {});
+  fill.style.width = `${100 * share}%`;
+  return make("span", {}, make("span", { className: "meter" }, fill), `${Math.round(100 * share)} / ${100 - Math.round(100 * share)} %`);
+}
+
+function health(program) {
+  const h = program.health, noise = program.noise ? `, NOISE: ${program.noise}` : "";
+  if (program.role === "fluid") return `min \u03c1 ${short(h.min_rho)}, min p ${short(h.min_p)}, cells ${short(h.min_cell_quality)}, first order ${h.first_order_fallbacks}, floors ${h.floors}${noise}`;
+  return program.role === "solid" ? `min det F ${short(h.min_det_F)}${noise}` : "";
+}
+
+// Who limits the step stands out.
+function proposal(state, name, program) {
+  if (program.role === "coupler") return "\u2013";
+  const text = program.dt_bid === null ? "no limit" : short(program.dt_bid), limits = name === state.limited_by;
+  const bids = Object.values(state.participants || {}).map((one) => one.dt_bid).filter((bid) => bid !== null && isFinite(bid));
+  const fill = make("i", { className: limits ? "limits" : "" }), part = program.dt_bid === null ? 1 : program.dt_bid / Math.max(...bids, program.dt_bid);
+  fill.style.width = `${100 * part}%`;
+  return make(limits ? "b" : "span", { className: limits ? "limiter" : "", title: program.dt_reason }, make("span", { className: "meter short" }, fill), limits ? `${text} limits` : text);
+}
+
+function showTraffic(state) {
+  const rows = Object.entries(state.participants).flatMap(([name, program]) => program.traffic.map((one) => [one, name]));
+  rows.sort((a, b) => (a[0].interface < b[0].interface ? -1 : a[0].interface > b[0].interface ? 1 : 0));
+  $("traffic-section").hidden = !rows.length;
+  const warn = (value) => make("span", { className: value > 0 ? "warning" : "" }, String(value));
+  $("traffic").replaceChildren(row("th", ["interface", "from", "to", "messages/s", "bytes/s", "bytes each", "messages", "missing", "dropped", "latency p50 / p99"]),
+    ...rows.map(([one, to]) => row("td", [one.interface, one.from, to, count(one.messages_per_s), count(one.bytes_per_s),
+      one.messages ? count(one.bytes / one.messages) : "\u2013", one.messages, warn(one.missing), warn(one.dropped),
+      one.latency_p99_us ? `${short(Math.round(one.latency_p50_us))} / ${short(Math.round(one.latency_p99_us))} \u00b5s` : "\u2013"])));
+}
+
+const BID_COLOURS = ["gas", "solid", "good", "busy", "bad"];
+const SETTING_COLOUR = "dim";
+
+// ", 98 % of the steps" a program or a setting limited so far.
+function shareOf(state, by) {
+  const total = Object.values(state.limits || {}).reduce((sum, steps) => sum + steps, 0);
+  return total && state.limits[by] ? `, ${short(Number((100 * state.limits[by] / total).toPrecision(3)))} % of the steps` : "";
+}
+
+// What everybody proposed, and what was agreed on. A solid that takes substeps may propose less.
+function showBids(state) {
+  const names = Object.keys(state.participants).filter((name) => state.participants[name].role !== "coupler");
+  const colours = names.map((_, k) => theme[BID_COLOURS[k % BID_COLOURS.length]]);
+  const curves = names.map((name, k) => ({ name, list: memory.history[`${name}.dt_bid`] || [], colour: colours[k] }));
+  curves.push({ name: "agreed on", list: memory.history.dt || [], colour: theme.projected, dash: [2, 3] });
+  const colourOf = (name) => (names.includes(name) ? colours[names.indexOf(name)] : theme[SETTING_COLOUR]);
+  drawPlot($("bids"), { title: "dt, log; below: who limits it", axis: "t", x: "t", log: true, nothing: "no step was proposed yet",
+    strip: memory.limiters.map(([t, name]) => [t, colourOf(name)]),
+    curves: curves.map(({ list, ...rest }) => ({ x: list.map((e) => e[0]), y: list.map((e) => e[1]), ...rest })) });
+  const shares = Object.keys(state.limits || {}).filter((name) => state.limits[name]).map((name) => `${name}${shareOf(state, name)}`).join("; ");
+  const key = names.join("\n") + theme.gas + shares;
+  if ($("bids-legend").dataset.key === key) return;
+  $("bids-legend").dataset.key = key;
+  const mark = (colour, style) => { const line = make("i", {}); line.style.borderTop = `2.5px ${style} ${colour}`; return line; };
+  $("bids-legend").replaceChildren(...names.flatMap((name, k) => [mark(colours[k], "solid"), name]), mark(theme.projected, "dotted"), "agreed on",
+    mark(theme[SETTING_COLOUR], "solid"), "a setting", make("span", { className: "dim" }, shares ? `\u00b7 limited by ${shares}` : ""));
+}
+
+function showTables(state) {
+  const head = row("th", ["", "state", "step", "proposes dt", "computing / waiting", "points/s", "steps/s", "messages/s", "bytes/s", "others' answer p50 / p99", "health"]);
+  const rows = Object.entries(state.participants).map(([name, p]) => row("td", [name,
+    make("span", { className: KIND[p.standing] || "" }, p.standing), p.step, proposal(state, name, p), meter(p.computing_now ?? p.computing_share),
+    p.point_updates_per_s > 0 ? count(p.point_updates_per_s) : "\u2013", short(p.steps_per_s), count(p.bus.messages_per_s), count(p.bus.bytes_per_s),
+    `${short(p.bus.round_trip_p50_us / 1e3)} / ${short(p.bus.round_trip_p99_us / 1e3)} ms`, health(p)]));
+  $("programs").replaceChildren(head, ...rows);
+  const sides = Object.entries(state.interfaces);
+  $("interface-section").hidden = !sides.length;
+  $("interfaces").replaceChildren(row("th", ["", "velocity jump", "traction jump", "tangential traction", "gap", "power", "p min", "p max", "v_n min", "v_n max"]),
+    ...sides.map(([name, s]) => row("td", [name, ...["velocity_jump", "traction_jump", "shear", "gap", "power", "p_min", "p_max", "v_min", "v_max"].map((k) => short(s[k]))])));
+}

@@ -1,0 +1,114 @@
+/// What a run left in its folder can be looked at again: its fields as pictures, its reports as a state.
+
+#include "monitor/recording/ended_run.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "common/core/failure.hpp"
+#include "common/core/field.hpp"
+#include "common/io/grid_writer.hpp"
+#include "common/io/part.hpp"
+#include "common/program/picture.hpp"
+#include "monitor/recording/field_files.hpp"
+
+namespace fsi::monitor {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder with the fields of a gas and a solid at three times.
+class Folder : public testing::Test {
+ public:
+  Folder() : path_(fs::temp_directory_path() / ("fsi-ended-" + std::to_string(getpid()))) {
+    fs::create_directories(path_);
+    for (int j = 0; j < 4; ++j) {
+      for (int i = 0; i < 6; ++i) {
+        x_(0, i, j) = i + 0.1 * j;
+        x_(1, i, j) = j;
+        v_(0, i, j) = 3 * i;
+        v_(1, i, j) = 4 * i;
+      }
+    }
+    io::GridWriter gas(path_.string(), "fluid_left"), solid(path_.string(), "solid_beam");
+    for (std::uint64_t k = 0; k < 3; ++k) {
+      gas.write(0.5 * static_cast<double>(k), 10 * k, std::vector{grid()});
+      solid.write(0.5 * static_cast<double>(k), 10 * k, std::vector{grid()});
+    }
+  }
+  ~Folder() override { fs::remove_all(path_); }
+
+  io::GridOutput grid() const {
+    return {.grid = "g",
+            .x = x_.view(),
+            .u = {},
+            .fields = {{.name = "v1", .field = v_.view(), .plane = 0},
+                       {.name = "v2", .field = v_.view(), .plane = 1}}};
+  }
+  void write(const std::string& name, const std::string& text) const { std::ofstream(path_ / name) << text; }
+
+  fs::path path_;
+  Field x_{Layout(6, 4), 2}, v_{Layout(6, 4), 2};
+};
+
+TEST_F(Folder, ItsFieldsArePicturesOnceEachAndNotBeforeTheirTime) {
+  FieldFiles files(path_.string());
+  const std::vector<std::string> wishes{"fluid.speed", "solid.speed", "solid.no_such_thing",
+                                        "fluid.pressure"};
+  std::set<std::pair<std::string, std::uint64_t>> seen;
+  for (const wire::Picture& one : files.next(wishes, 0.6)) seen.insert({one.from, one.step});
+  EXPECT_EQ(seen, (std::set<std::pair<std::string, std::uint64_t>>{
+                      {"left", 0}, {"left", 10}, {"beam", 0}, {"beam", 10}}));
+  const std::vector<wire::Picture> rest = files.next(wishes, 9);
+  ASSERT_EQ(rest.size(), 2U);
+  EXPECT_TRUE(files.next(wishes, 9).empty());
+  const auto expected = picture_of(std::vector{grid()}, "speed");
+  ASSERT_TRUE(expected);
+  EXPECT_EQ(rest[0].t, 1.0);
+  EXPECT_EQ(rest[0].high, expected->high);
+  EXPECT_EQ(rest[0].grids[0].level, expected->grids[0].level);
+  EXPECT_EQ(rest[0].grids[0].x, expected->grids[0].x);
+  EXPECT_EQ(rest[0].role, rest[0].from == "beam" ? "solid" : "fluid");
+}
+
+TEST_F(Folder, WhatIsDamagedOrGoneIsPassedOver) {
+  write("fluid_left.h5", "this is no such file");
+  EXPECT_EQ(FieldFiles(path_.string()).next({"fluid.speed", "solid.speed"}, 9).size(), 3U);
+  EXPECT_TRUE(FieldFiles("/no/such/folder").next({"fluid.speed"}, 9).empty());
+  EXPECT_TRUE(FieldFiles("").next({"fluid.speed"}, 9).empty());
+}
+
+TEST_F(Folder, ItsReportsAreTheLastStateOfTheRun) {
+  io::Part part;
+  part.participant = part.role = "coupler";
+  part.steps = 20;
+  part.t = 1;
+  part.limited_by = {{"left", 18}, {"time.growth", 2}};
+  io::write_part(path_.string(), part);
+  write("interface.csv", "step,t [time],dt [time],beam.gap [length]\n1,0.5,0.05,1e-3\n20,1,0.05,2e-3\n");
+  EXPECT_THROW(EndedRun(path_.string()), UserMistake) << "it is not over";
+  write("summary.json", R"({"case": "piston", "status": "failed", "reason": "left: it broke",
+      "failure": {"told_by": "left", "exit_code": 3, "what": "it broke", "step": 21}})");
+  EndedRun run(path_.string());
+  RunState state(run.run());
+  run.listen(state, 1);
+  EXPECT_TRUE(state.over());
+  EXPECT_EQ(state.run().name, "piston");
+  EXPECT_EQ(state.leader()->limited_by, "left");
+  EXPECT_EQ(state.leader()->dt, 0.05);
+  ASSERT_EQ(state.interfaces().size(), 1U);
+  EXPECT_EQ(state.interfaces()[0].gap, 2e-3);
+  EXPECT_TRUE(std::isnan(state.interfaces()[0].shear));
+  ASSERT_TRUE(state.abort());
+  EXPECT_EQ(state.abort()->place.step, 21);
+}
+
+}  // namespace
+}  // namespace fsi::monitor
