@@ -56,7 +56,8 @@ def _beams(tools, factor):
 
 def _centrelines(tools, beam):
     """Largest distance between the centrelines of two grids."""
-    from fsi_launch.plot import beams, data
+    from fsi_launch.plot.one_run import beams
+    from fsi_launch.plot.reading import data
     runs, typed = [], ""
     for factor in (8, 16, 32):
         directory, _, typed = _run(tools, f"beam-{factor}-{beam[0]}-{beam[1]}", "beam",
@@ -97,7 +98,7 @@ def _frequencies(t, u):
 
 def _timoshenko(directory):
     """The same of a Timoshenko beam with the outline's own thickness: linear elements, reduced integration of shear."""
-    from fsi_launch.plot import data
+    from fsi_launch.plot.reading import data
     outline = [grid for one in data.all_series(directory) for grid in one.outputs[0].grids if not grid.is_cartesian()][0]
     x, y = outline.fields["x1_bar"][0], outline.fields["x2_bar"][0]
     half = [(y[side][np.argsort(y[side])], np.abs(x[side])[np.argsort(y[side])]) for side in (x > 0, x < 0)]

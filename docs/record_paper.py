@@ -57,7 +57,8 @@ def beside(tools, name, case, published, settings=(), solids=()):
 def bounds(tools):
     """Least and largest values of figure 10: the paper's, ours, and those of the one-dimensional reference run."""
     import numpy as np
-    from fsi_launch.plot import data, disk
+    from fsi_launch.plot.one_run import disk
+    from fsi_launch.plot.reading import data
     directory, _, typed = tools.run_once("disk-bounds", "rotating_disk",
                                          ["grid.factor=4", "parameters.delta=0.1", "time.end=1", "output.times=[0.5, 1]"])
     series, reference = data.all_series(directory), data.disk_reference(directory)

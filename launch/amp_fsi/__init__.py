@@ -12,6 +12,6 @@ docs/python.md explains it; all quantities have the units of the case.
 
 from amp_fsi.control import Running, RunFailed, run, start, study
 from amp_fsi.results import Run, open_run as open  # noqa: A004  read as amp_fsi.open
-from fsi_launch.plot.data import Grid
+from fsi_launch.plot.reading.data import Grid
 
 __all__ = ["Grid", "Run", "RunFailed", "Running", "open", "run", "start", "study"]

@@ -4,7 +4,7 @@ import functools
 import json
 from pathlib import Path
 
-from fsi_launch.plot import data
+from fsi_launch.plot.reading import data
 
 
 class Fields(dict):

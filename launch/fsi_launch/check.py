@@ -37,7 +37,10 @@ def draw(options):
     from fsi_launch import plot
     style = plot.style_or_mistake()
     style.use()
-    from fsi_launch.plot import data, grids, several, units
+    from fsi_launch.plot.look import units
+    from fsi_launch.plot.one_run import grids
+    from fsi_launch.plot.reading import data
+    from fsi_launch.plot.several_runs import several
     entries = several.entries(case.text)
     units.use_those_of([entries])
     with tempfile.TemporaryDirectory(prefix="fsi-grids-") as folder:

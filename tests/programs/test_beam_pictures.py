@@ -10,7 +10,8 @@ from matplotlib import pyplot
 from running import ROOT
 
 sys.path.insert(0, str(ROOT / "launch"))
-from fsi_launch.plot import beams, data, streamlines  # noqa: E402
+from fsi_launch.plot.one_run import beams, streamlines  # noqa: E402
+from fsi_launch.plot.reading import data  # noqa: E402
 
 HALF, DEPTH = 0.05, 0.02
 

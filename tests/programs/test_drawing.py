@@ -13,7 +13,8 @@ from matplotlib import pyplot
 from running import ROOT
 
 sys.path.insert(0, str(ROOT / "launch"))
-from fsi_launch.plot import curves, drawing, style, units  # noqa: E402
+from fsi_launch.plot.look import drawing, style, units  # noqa: E402
+from fsi_launch.plot.one_run import curves  # noqa: E402
 
 
 def picture(k):

@@ -14,7 +14,8 @@ import numpy as np
 from running import BIN, FSI, ROOT, WATCHDOG, EndToEnd
 
 sys.path.insert(0, str(ROOT / "launch"))
-from fsi_launch.plot import data, grids  # noqa: E402
+from fsi_launch.plot.one_run import grids  # noqa: E402
+from fsi_launch.plot.reading import data  # noqa: E402
 
 CORNERS = "# corners\n0, 0\n2, -0.6\n2.4, 0.4\n1.2, 0.9\n"
 

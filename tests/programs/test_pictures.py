@@ -17,7 +17,10 @@ from running import ROOT
 sys.path.insert(0, str(ROOT / "launch"))
 from fsi_launch import plot  # noqa: E402
 from fsi_launch.failure import UserMistake  # noqa: E402
-from fsi_launch.plot import curves, data, disk, mesh, outlines, scales, several, side_by_side, style  # noqa: E402
+from fsi_launch.plot.look import style  # noqa: E402
+from fsi_launch.plot.one_run import curves, disk  # noqa: E402
+from fsi_launch.plot.reading import data, mesh, scales  # noqa: E402
+from fsi_launch.plot.several_runs import outlines, several, side_by_side  # noqa: E402
 
 HOLE, RIM, OUTER = 0.5, 0.55, 0.8  # radii: unused points, the ring's inside and outside
 

@@ -61,7 +61,7 @@ class TwoGases(EndToEnd):
         pictures = {path.stem for path in (run.directory / "plots").glob("*.png")}
         self.assertLessEqual({"fields_0001", "grid", "lines", "interface", "forces_plate"}, pictures)
         self.assertNotIn("streamlines", pictures)   # of a gas on one grid nobody draws any
-        from fsi_launch.plot import data
+        from fsi_launch.plot.reading import data
         series = data.all_series(run.directory)
         self.assertEqual([(one.name, one.is_gas()) for one in series], [("left", True), ("right", True), ("plate", False)])
         self.assertEqual(len(data.gas_of(series).outputs[0].grids), 2)

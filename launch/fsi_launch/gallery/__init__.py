@@ -66,7 +66,7 @@ def _write_tables(directory, problem, rows):
 
 def judge(problem, run, directory):
     """Compares a run, writes tables and a picture into the folder and prints the table; True if all passes."""
-    from fsi_launch.plot import style
+    from fsi_launch.plot.look import style
     from fsi_launch.gallery import picture
     rows, curves = compare(problem, run)
     _write_tables(directory, problem, rows)

@@ -6,7 +6,7 @@ import numpy as np
 
 from fsi_launch.results import summary
 from fsi_launch.failure import EXPECTATION_MISSED, Failure
-from fsi_launch.plot import data
+from fsi_launch.plot.reading import data
 
 
 def _columns(run, name):

@@ -19,7 +19,9 @@ def _folder(name):
 
 def _one(directory, out, options):
     """(name, figure or a function that makes it) of everything the results of one run hold."""
-    from fsi_launch.plot import beams, convergence, curves, data, disk, fields, grids, scales, schlieren, streamlines, study
+    from fsi_launch.plot.one_run import beams, curves, disk, fields, grids, schlieren, streamlines
+    from fsi_launch.plot.reading import data, scales
+    from fsi_launch.plot.several_runs import convergence, study
     if varied := data.study(directory):
         out.mkdir(parents=True, exist_ok=True)
         return study.pictures(varied)
@@ -42,13 +44,15 @@ def _one(directory, out, options):
 
 def _several(directories, out, options):
     """(name, figure) of what several runs have to compare."""
-    from fsi_launch.plot import compare
+    from fsi_launch.plot.several_runs import compare
     return compare.pictures(directories, out, options.at)
 
 
 def _take_units(directories):
     """Labels as the cases of these runs want them; of a convergence study its finest level counts."""
-    from fsi_launch.plot import data, several, units
+    from fsi_launch.plot.look import units
+    from fsi_launch.plot.reading import data
+    from fsi_launch.plot.several_runs import several
     paths = [data.finest_level(directory) / "case.yaml" for directory in directories]
     units.use_those_of([several.entries(path.read_text(encoding="utf-8")) for path in paths if path.is_file()])
 
@@ -56,7 +60,7 @@ def _take_units(directories):
 def style_or_mistake():
     """The module of the look of pictures, where what it needs is installed."""
     try:
-        from fsi_launch.plot import style
+        from fsi_launch.plot.look import style
     except ModuleNotFoundError as error:
         raise UserMistake(f"plot needs Debian's {error.name}: apt-get install python3-h5py python3-matplotlib") from None
     return style
@@ -65,7 +69,8 @@ def style_or_mistake():
 def draw_movie(directory, out=None):
     """Makes the animated file of a run and prints its path."""
     style_or_mistake().use()
-    from fsi_launch.plot import data, movie
+    from fsi_launch.plot.one_run import movie
+    from fsi_launch.plot.reading import data
     _take_units([Path(directory)])
     series = data.all_series(Path(directory))
     if not series:
@@ -81,7 +86,7 @@ def main(options):
     style.use()
     _take_units(directories)
     pictures = _one(directories[0], out, options) if len(directories) == 1 else _several(directories, out, options)
-    from fsi_launch.plot import drawing
+    from fsi_launch.plot.look import drawing
     drawing.draw([(out / f"{name}.{options.format}", figure) for name, figure in pictures], lambda path: print(path, flush=True))
     if options.movie:
         draw_movie(directories[0], out)

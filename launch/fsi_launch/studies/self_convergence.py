@@ -63,14 +63,15 @@ def _refined(curve):
 def _outlines(directory):
     """{solid: {t: outline}}; nothing where h5py or matplotlib is missing."""
     try:
-        from fsi_launch.plot import data, outlines
+        from fsi_launch.plot.reading import data
+        from fsi_launch.plot.several_runs import outlines
     except ModuleNotFoundError:
         return {}
     return {body.name: body.outlines for body in outlines.of(data.all_series(Path(directory)))}
 
 
 def _distance(coarse, fine):
-    from fsi_launch.plot import outlines
+    from fsi_launch.plot.several_runs import outlines
     return float(outlines.distance(coarse, _refined(fine)))
 
 

@@ -204,7 +204,8 @@ def _write_csv(result, path):
 
 
 def _draw(result, directory):
-    from fsi_launch.plot import study, style
+    from fsi_launch.plot.look import style
+    from fsi_launch.plot.several_runs import study
     style.use()
     for name, figure in study.pictures(result):
         style.save(figure, directory / f"{name}.png")

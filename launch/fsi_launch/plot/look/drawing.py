@@ -6,7 +6,7 @@ import sys
 import traceback
 
 from fsi_launch.living import interrupts
-from fsi_launch.plot import style
+from fsi_launch.plot.look import style
 
 MOST_PROCESSES = 8      # each holds a picture in memory
 

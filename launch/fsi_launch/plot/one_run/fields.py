@@ -1,15 +1,16 @@
 """Pictures of the fields at the output times, solids in deformed position (the paper's figure 10)."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
 from matplotlib import pyplot
-from matplotlib.collections import LineCollection, PolyCollection, TriMesh
+from matplotlib.collections import LineCollection, PolyCollection
 
-from fsi_launch.plot import data, mesh, style, units
-from fsi_launch.plot.scales import Scales
+from fsi_launch.plot.look import shading, style, units
+from fsi_launch.plot.reading import data, mesh
+from fsi_launch.plot.reading.scales import Scales
 
 MOST_TIMES = 12        # pictures of fields; of a longer series, times evenly spread
 CONTOURS = 16          # lines, where they are asked for; an even number keeps off the zero of signed fields
@@ -112,27 +113,46 @@ def _contours(axes, grids, k, values, levels):
         axes.tricontour(triangles, values, levels=levels, colors="black", linewidths=0.4, linestyles="solid")
 
 
-def _colour(axes, outputs, quantity, colours, look):
-    """Draws one quantity of the gas, or of all solids, on all component grids; returns what the colour bar needs:
-    (mesh, the constant if it is one)."""
-    floor = look.scales.floor(quantity.unit)
-    everything = np.concatenate([quantity.values(grid)[grid.used()] for output in outputs for grid in output.grids])
-    low, high, constant = _colour_range(everything[np.isfinite(everything)], floor)
+def _range(outputs, quantities, floor):
+    """`_colour_range` of a quantity over these outputs; `quantities`: (of the gas, of the solids), `outputs`: those of both."""
+    found = []
+    for quantity, some in zip(quantities, outputs):
+        for grid in (grid for output in some for grid in output.grids) if quantity else ():
+            values = quantity.values(grid)[grid.used()]
+            if (values := values[np.isfinite(values)]).size:
+                found += [values.min(), values.max()]
+    return _colour_range(np.array(found or [0.0]), floor)
+
+
+@dataclass
+class Panel:
+    """One panel of the pictures of all times, each with the same colours. Where gas and solids show the same, what is continuous across
+    their interface, they have one scale: both ranges are the same object."""
+
+    title: str
+    of_gas: Quantity | None
+    of_solid: Quantity | None
+    gas_range: tuple | None = None
+    solid_range: tuple | None = None
+
+    def one_scale(self):
+        return self.gas_range is self.solid_range
+
+
+def _colour(axes, outputs, quantity, colours, limits, look):
+    """Draws one quantity of the gas, or of all solids, on all component grids; returns what the colour bar needs."""
+    low, high, constant = limits
     colours = style.SIGNED_MAP if constant is None and low == -high else colours
-    levels = np.linspace(low, high, CONTOURS + 2)[1:-1]
+    levels, drawn = np.linspace(low, high, CONTOURS + 2)[1:-1], None
     for output in outputs:
         for k, grid in enumerate(output.grids):
-            values = np.where(grid.used(), quantity.values(grid), 0).ravel()
+            values = np.where(grid.used(), quantity.values(grid), 0)
             if constant is not None:
                 values[:] = constant
-            if triangles := mesh.triangles(grid):
-                drawn = TriMesh(triangles, cmap=colours)
-                drawn.set_array(values)
-                drawn.set_clim(low, high)
-                axes.add_collection(drawn, autolim=False)  # the box is known; finding it takes longer than the drawing
+            drawn = shading.shade(axes, grid, values, colours, (low, high)) or drawn
             if look.contours and constant is None:
-                _contours(axes, output.grids, k, values, levels)
-    return drawn, constant
+                _contours(axes, output.grids, k, values.ravel(), levels)
+    return drawn
 
 
 def _fill(axes, grids):
@@ -149,58 +169,89 @@ def outline(axes, grids):
 
 def _draw(figure, axes, gas, solids, panel, look):
     """One panel."""
-    title, of_gas, of_solid = panel
-    if solids and of_solid:  # the bar drawn first is the one further out
-        drawn, constant = _colour(axes, solids, of_solid, style.SOLID_MAP, look)
-        style.bar(figure, axes, drawn, "solid" if gas else "", constant)
+    if solids and panel.of_solid:  # the bar drawn first is the one further out
+        colours = style.GAS_MAP if panel.one_scale() else style.SOLID_MAP
+        drawn = _colour(axes, solids, panel.of_solid, colours, panel.solid_range, look)
+        if not panel.one_scale():
+            style.bar(figure, axes, drawn, "solid" if gas else "", panel.solid_range[2])
     if gas:
-        drawn, constant = _colour(axes, [gas], of_gas, style.GAS_MAP, look)
-        style.bar(figure, axes, drawn, "gas" if solids else "", constant)
+        drawn = _colour(axes, [gas], panel.of_gas, style.GAS_MAP, panel.gas_range, look)
+        style.bar(figure, axes, drawn, "gas" if solids and not panel.one_scale() else "", panel.gas_range[2])
     for solid in solids:
-        if not of_solid:
+        if not panel.of_solid:
             _fill(axes, solid.grids)
         outline(axes, solid.grids)
-    axes.set_title(units.label(title, (of_gas or of_solid).unit), loc="left")
+    axes.set_title(units.label(panel.title, (panel.of_gas or panel.of_solid).unit), loc="left")
 
 
-def _panels_of(gas, solids, floor):
-    """The panels that say something: along x1 the speed is the size of v1."""
+def _kinds_of_panels(gas, solids, floor):
+    """The panels that say something of these outputs: along x1 the speed is the size of v1."""
     if not gas:
         return SOLID_PANELS
     everything = BOTH_PANELS if solids else GAS_PANELS
     along = all(np.allclose(np.abs(grid.fields["v1"]), grid.speed(), rtol=1e-6, atol=floor, equal_nan=True)
-                for output in (gas, *solids) for grid in output.grids)
+                for output in (*gas, *solids) for grid in output.grids)
     return everything[1:] if along else everything
 
 
-def _field_picture(series, index, box, look):
+def _panels_of(gas, solids, look):
+    """The panels for all these outputs of the gas and of the solids."""
+    found = []
+    for title, of_gas, of_solid in _kinds_of_panels(gas, solids, look.scales.floor(SPEED.unit)):
+        floor = look.scales.floor((of_gas or of_solid).unit)
+        if of_gas is of_solid:
+            both = _range((gas, solids), (of_gas, of_solid), floor)
+            found.append(Panel(title, of_gas, of_solid, both, both))
+        else:
+            found.append(Panel(title, of_gas, of_solid, _range((gas, []), (of_gas, None), floor) if of_gas else None,
+                               _range(([], solids), (None, of_solid), floor) if of_solid else None))
+    return found
+
+
+@dataclass
+class _Plan:
+    """What the pictures of all times have in common."""
+
+    gas: object         # Series, or None
+    solids: list
+    box: tuple
+    panels: list
+    look: Look
+
+
+def _plan(series, look):
+    gas, solids = data.gas_of(series), [one for one in series if not one.is_gas()]
+    box = box_around([grid for one in series for output in one.outputs for grid in output.grids])
+    return _Plan(gas, solids, box, _panels_of(gas.outputs if gas else [], [output for one in solids for output in one.outputs], look), look)
+
+
+def _field_picture(plan, index):
     """All quantities of all programs at output `index`."""
-    gases = data.gas_of(series)
-    gas = gases.outputs[index] if gases else None
-    solids = [one.outputs[index] for one in series if not one.is_gas()]
-    chosen = _panels_of(gas, solids, look.scales.floor(SPEED.unit))
-    figure, axes = panels(len(chosen), box, 0.8 * (bool(gas) + bool(solids)))
-    for one, panel in zip(axes, chosen):
-        _draw(figure, one, gas, solids, panel, look)
-    figure.suptitle(units.moment(series[0].outputs[index].t), x=0.01, ha="left", fontsize=10)
+    gas, solids = plan.gas.outputs[index] if plan.gas else None, [one.outputs[index] for one in plan.solids]
+    bars = max(bool(gas) + bool(solids) - panel.one_scale() for panel in plan.panels)
+    figure, axes = panels(len(plan.panels), plan.box, 0.8 * bars)
+    for one, panel in zip(axes, plan.panels):
+        _draw(figure, one, gas, solids, panel, plan.look)
+    figure.same_places = id(plan)
+    figure.suptitle(units.moment((gas or solids[0]).t), x=0.01, ha="left", fontsize=10)
     return figure
 
 
 def pictures(series, look):
-    """(name, function that draws it) of the fields at the output times."""
+    """(name, function that draws it) of the fields at the output times, all with the same colours."""
     if not series:
         return
-    box = box_around([grid for one in series for output in one.outputs for grid in output.grids])
     count = min(len(one.outputs) for one in series)  # a killed run may lack the last output of one program
+    plan = _plan([replace(one, outputs=one.outputs[:count]) for one in series], look)
     for index in times_shown(count):
-        yield f"fields_{index:04}", partial(_field_picture, series, index, box, look)
+        yield f"fields_{index:04}", partial(_field_picture, plan, index)
 
 
 def last_picture(series, look):
     """(name, figure) of the state just before the numbers broke."""
     if not series:
         return
-    figure = _field_picture(series, 0, box_around([grid for one in series for grid in one.outputs[0].grids]), look)
+    figure = _field_picture(_plan(series, look), 0)
     times = ", ".join(f"{one.name} at {units.moment(one.outputs[0].t)}" for one in series)
     figure.suptitle(f"the last state before the numbers broke: {times}", x=0.01, ha="left", fontsize=10)
     yield "fields_last", figure

@@ -10,7 +10,8 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import MaxNLocator
 from matplotlib.tri import LinearTriInterpolator
 
-from fsi_launch.plot import data, mesh, style, units
+from fsi_launch.plot.look import style, units
+from fsi_launch.plot.reading import data, mesh
 
 SAME_TIME = 1e-9
 AXIS_POINTS = 1601  # along y = 0

@@ -4,11 +4,12 @@ from functools import partial
 
 import numpy as np
 from matplotlib import pyplot
-from matplotlib.collections import TriMesh
 from matplotlib.path import Path
 from matplotlib.tri import LinearTriInterpolator
 
-from fsi_launch.plot import data, fields, mesh, style, units
+from fsi_launch.plot.look import shading, style, units
+from fsi_launch.plot.one_run import fields
+from fsi_launch.plot.reading import data, mesh
 
 MOST_TIMES = 8
 PANEL = 4.4         # width [inch]
@@ -38,23 +39,28 @@ def _sample_lattice(grid, values, points):
     return np.where(inside, (1 - s) * low + s * high, np.nan)
 
 
-def _sample(grid, key, points):
-    """A field of one grid on the lattice, NaN outside."""
+def _sample(grid, keys, points):
+    """Fields of one grid on the lattice, NaN outside."""
     if grid.is_cartesian():
-        return _sample_lattice(grid, np.where(grid.used(), grid.fields[key], np.nan), points)
-    cells = mesh.triangles(grid)
+        return [_sample_lattice(grid, np.where(grid.used(), grid.fields[key], np.nan), points) for key in keys]
+    cells, found = mesh.triangles(grid), [np.full(points[0].shape, np.nan) for _ in keys]
     if not cells:
-        return np.full(points[0].shape, np.nan)
-    values = np.where(grid.used(), grid.fields[key], 0).ravel()
-    return LinearTriInterpolator(cells, values)(*points).filled(np.nan)
+        return found
+    near = np.ones(points[0].shape, dtype=bool)     # to find the triangle of a point takes long: only of those in the grid's box
+    for x, of_grid in zip(points, (grid.x1, grid.x2)):
+        near &= (x >= of_grid.min()) & (x <= of_grid.max())
+    here, finder = [x[near] for x in points], cells.get_trifinder()
+    for key, values in zip(keys, found):
+        known = np.where(grid.used(), grid.fields[key], 0).ravel()
+        values[near] = LinearTriInterpolator(cells, known, trifinder=finder)(*here).filled(np.nan)
+    return found
 
 
 def _velocity(gas, points):
     """(v1, v2) on the lattice; body-fitted grids, which come last, win; NaN where there is no gas."""
     v = [np.full(points[0].shape, np.nan) for _ in range(2)]
     for grid in gas.grids:
-        for c, total in enumerate(v):
-            found = _sample(grid, f"v{c + 1}", points)
+        for total, found in zip(v, _sample(grid, ("v1", "v2"), points)):
             total[:] = np.where(np.isnan(found), total, found)
     return v
 
@@ -77,11 +83,8 @@ def _solid_speed(axes, solids, floor):
     rests, drawn = most <= floor, None
     for solid in solids:
         for grid in solid.grids:
-            if cells := mesh.triangles(grid):
-                drawn = TriMesh(cells, cmap=style.SOLID_MAP)
-                drawn.set_array(np.where(grid.used() & (not rests), grid.speed(), 0).ravel())
-                drawn.set_clim(0, 1 if rests else most)
-                axes.add_collection(drawn, autolim=False)
+            values = np.where(grid.used() & (not rests), grid.speed(), 0)
+            drawn = shading.shade(axes, grid, values, style.SOLID_MAP, (0, 1 if rests else most)) or drawn
         fields.outline(axes, solid.grids)
     return drawn, rests
 

@@ -7,7 +7,8 @@ import numpy as np
 from matplotlib import pyplot
 from matplotlib.collections import LineCollection, TriMesh
 
-from fsi_launch.plot import data, mesh, style, units
+from fsi_launch.plot.look import shading, style, units
+from fsi_launch.plot.reading import data, mesh
 
 STRENGTH = 12.0
 TYPICAL = 99.9     # percentile of |grad rho| that is drawn as exp(-STRENGTH)
@@ -88,11 +89,7 @@ def _colour(axes, solids, speed):
     drawn = None
     for one in solids:
         for grid in one.grids:
-            if triangles := mesh.triangles(grid):
-                drawn = TriMesh(triangles, cmap=SPEED_MAP)
-                drawn.set_array(np.where(grid.used() & (speed > 0), grid.speed(), 0).ravel())
-                drawn.set_clim(0, speed or 1)
-                axes.add_collection(drawn, autolim=False)
+            drawn = shading.shade(axes, grid, np.where(grid.used() & (speed > 0), grid.speed(), 0), SPEED_MAP, (0, speed or 1)) or drawn
         lines = [line for grid in one.grids for line in mesh.outer_lines(grid)]
         axes.add_collection(LineCollection(lines, colors="black", linewidths=0.6))
     return drawn

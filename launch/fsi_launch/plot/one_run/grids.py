@@ -8,8 +8,10 @@ from matplotlib.collections import LineCollection
 from matplotlib.lines import Line2D
 from matplotlib.patches import Rectangle
 
-from fsi_launch.plot import data, fields, mesh, style, units
-from fsi_launch.plot.data import DISCRETISED, INTERPOLATED
+from fsi_launch.plot.look import style, units
+from fsi_launch.plot.one_run import fields
+from fsi_launch.plot.reading import data, mesh
+from fsi_launch.plot.reading.data import DISCRETISED, INTERPOLATED
 
 MOST_LINES = 170     # of a background grid in the picture of the whole; of finer grids every n-th line is drawn
 CLOSE_UP = 14        # half the width of a close-up, in grid spacings

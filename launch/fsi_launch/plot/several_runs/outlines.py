@@ -7,7 +7,8 @@ import numpy as np
 from matplotlib import pyplot
 from matplotlib.lines import Line2D
 
-from fsi_launch.plot import several, style, units
+from fsi_launch.plot.look import style, units
+from fsi_launch.plot.several_runs import several
 
 HEADING = ("solid", "run", "other run", "t [time]", "largest distance [length]")
 COLOURS = ("#2b5ea8", "#1d8a3d", "#b5281e", "#8a5a00", "#7a3fa0", "#3b3b3b")

@@ -3,13 +3,14 @@
 import math
 
 import matplotlib
+import numpy as np
 
 matplotlib.use("Agg")
 
 from matplotlib import pyplot  # noqa: E402
 from matplotlib.ticker import MaxNLocator  # noqa: E402
 
-from fsi_launch.plot import units  # noqa: E402
+from fsi_launch.plot.look import units  # noqa: E402
 
 GAS_MAP = "viridis"
 SOLID_MAP = "magma"
@@ -33,15 +34,55 @@ def use():
         "axes.formatter.use_mathtext": True})
 
 
+def _save_drawn_part(figure, path):
+    """What is not white, and a margin: found in the picture itself, for to ask every text how large it is takes as long as to draw it."""
+    from PIL import Image
+    figure.canvas.draw()
+    pixels = np.asarray(figure.canvas.buffer_rgba())
+    drawn, margin = (pixels[..., :3] < 255).any(axis=2), round(MARGIN * figure.dpi)
+    rows, columns = np.flatnonzero(drawn.any(axis=1)), np.flatnonzero(drawn.any(axis=0))
+    if len(rows):
+        pixels = pixels[max(0, rows[0] - margin):rows[-1] + 1 + margin, max(0, columns[0] - margin):columns[-1] + 1 + margin]
+    Image.fromarray(np.ascontiguousarray(pixels[..., :3])).save(path, dpi=(figure.dpi, figure.dpi), compress_level=4)
+    pyplot.close(figure)
+
+
+_laid_out = {}      # places of the axes, by the key of pictures that have the same
+
+
+def _places(figure):
+    return [(one.get_position(original=True).frozen(), one.get_anchor(), one.get_box_aspect()) for one in figure.axes]
+
+
+def _lay_out(figure):
+    """Finds places for all axes; of pictures that differ in their colours alone (`figure.same_places`) once for all."""
+    key = getattr(figure, "same_places", None)
+    known = _laid_out.get(key, []) if key else []
+    if len(known) != len(figure.axes):
+        figure.get_layout_engine().execute(figure)
+        if key:
+            _laid_out[key] = _places(figure)
+        return
+    for one, (place, anchor, aspect) in zip(figure.axes, known):
+        one._set_position(place, which="original")      # noqa: SLF001  as the layout does: set_position would end it
+        one.set_anchor(anchor)
+        one.set_box_aspect(aspect)
+    if figure._suptitle:                                # noqa: SLF001
+        figure._suptitle.set_y(0.99)                    # noqa: SLF001
+
+
 def save(figure, path):
     """Writes a picture and forgets it. Its layout is made here: savefig would draw all of it twice to find its size. What lies within
     the axes has no say in it: of a mesh every cell would be looked at."""
     for axes in figure.axes:
         for artist in (*axes.collections, *axes.lines, *axes.patches):
             artist.set_in_layout(False)
-    figure.get_layout_engine().execute(figure)
+    _lay_out(figure)
     with pyplot.rc_context({"figure.constrained_layout.use": False}):
         figure.set_layout_engine()
+    if path.suffix == ".png":
+        _save_drawn_part(figure, path)
+        return
     box = figure.get_tightbbox(figure.canvas.get_renderer()).padded(MARGIN)
     figure.savefig(path, bbox_inches=box)
     pyplot.close(figure)

@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib.path import Path
 from matplotlib.tri import Triangulation
 
-from fsi_launch.plot.data import INTERPOLATED
+from fsi_launch.plot.reading.data import INTERPOLATED
 
 
 def cells(used):

@@ -6,7 +6,10 @@ import numpy as np
 from matplotlib import pyplot
 from matplotlib.colors import LogNorm
 
-from fsi_launch.plot import data, outlines, schlieren, several, style, units
+from fsi_launch.plot.look import style, units
+from fsi_launch.plot.one_run import schlieren
+from fsi_launch.plot.reading import data
+from fsi_launch.plot.several_runs import outlines, several
 
 PANEL = 4.6        # width [inch]
 LEAST = 1e-4       # differences are drawn from this part of the largest density up

@@ -6,7 +6,9 @@ import numpy as np
 from matplotlib import pyplot
 from matplotlib.tri import LinearTriInterpolator
 
-from fsi_launch.plot import mesh, several, style, units
+from fsi_launch.plot.look import style, units
+from fsi_launch.plot.reading import mesh
+from fsi_launch.plot.several_runs import several
 
 HEADING = ("beam", "coarse", "fine", "t", "largest distance")
 SLENDER = 3         # a beam is so many times longer than it is thick

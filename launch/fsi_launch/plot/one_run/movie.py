@@ -8,7 +8,9 @@ from pathlib import Path
 import numpy as np
 from matplotlib import pyplot
 
-from fsi_launch.plot import data, fields, mesh, schlieren, style, units
+from fsi_launch.plot.look import style, units
+from fsi_launch.plot.one_run import fields, schlieren
+from fsi_launch.plot.reading import data, mesh
 
 FRAMES_PER_SECOND = 12
 HEIGHT = 5.0        # inch

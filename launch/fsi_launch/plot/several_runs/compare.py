@@ -1,7 +1,9 @@
 """What several runs have in common, drawn side by side."""
 
 from fsi_launch.failure import UserMistake
-from fsi_launch.plot import beams, data, outlines, several, side_by_side
+from fsi_launch.plot.one_run import beams
+from fsi_launch.plot.reading import data
+from fsi_launch.plot.several_runs import outlines, several, side_by_side
 
 
 def _case_of(directory):

@@ -5,7 +5,8 @@ from functools import partial
 import numpy as np
 from matplotlib import pyplot
 
-from fsi_launch.plot import several, style, units
+from fsi_launch.plot.look import style, units
+from fsi_launch.plot.several_runs import several
 
 GAS_LINES = (("rho", "density $\\rho$"), ("v", "velocity $v$"), ("p", "pressure $p$"))
 SOLID_LINES = (("u", "displacement $\\bar u$"), ("v", "velocity $\\bar v$"), ("P11", "stress $\\bar P_{11}$"))

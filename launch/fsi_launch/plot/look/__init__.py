@@ -1,0 +1,1 @@
+"""One look for all pictures: style, units, drawing many at once."""
