@@ -98,6 +98,31 @@ def vortex():
     write("vortex", ("r", "p"), rows[::8], "pressure over the distance from the centre of the vortex, by integration of dp/dr = rho v^2 / r")
 
 
+def oblique(mach, turn):
+    """Ratio of the pressures over the weaker of the oblique shocks that turn a stream by an angle."""
+    def turned(angle):
+        return math.atan(2 / math.tan(angle) * (mach ** 2 * math.sin(angle) ** 2 - 1) / (mach ** 2 * (GAMMA + math.cos(2 * angle)) + 2))
+    least = math.asin(1 / mach)
+    strongest = max((least + (math.pi / 2 - least) * k / 5000 for k in range(5001)), key=turned)
+    angle = bisect(lambda angle: turned(angle) - turn, least, strongest)
+    return 1 + 2 * GAMMA / (GAMMA + 1) * ((mach * math.sin(angle)) ** 2 - 1)
+
+
+def cylinder_in_shock():
+    """A shock of Mach 2 meets the wall of a cylinder: where it does, it is reflected as from a plane wall with the slope that the
+    cylinder has there. Seen from the point where it meets the wall, the gas ahead comes along the wall, and the reflected shock
+    turns it back along the wall."""
+    mach = 2.0
+    p_1 = 1 + 2 * GAMMA / (GAMMA + 1) * (mach ** 2 - 1)
+    rho_1 = (GAMMA + 1) * mach ** 2 / ((GAMMA - 1) * mach ** 2 + 2)
+    found = [p_1 * ((3 * GAMMA - 1) * p_1 - (GAMMA - 1)) / ((GAMMA - 1) * p_1 + GAMMA + 1)]      # at the front the wall is across
+    for degrees in (10, 20, 30):
+        along = mach / math.tan(math.radians(degrees))      # of the gas ahead, along the shock
+        turn = math.atan2(along, mach / rho_1) - math.atan2(along, mach)
+        found.append(p_1 * oblique(math.hypot(along, mach / rho_1) / math.sqrt(p_1 / rho_1), turn))
+    print("cylinder_in_shock: p = " + ", ".join(f"{p / GAMMA:.4f}" for p in found) + " at 0, 10, 20 and 30 degrees")
+
+
 # --- gas and solid
 
 
@@ -177,5 +202,5 @@ def panel_flutter():
 
 
 if __name__ == "__main__":
-    for solution in (sod, vortex, elastic_piston, shock_on_solid, plate, elastica, panel_flutter):
+    for solution in (sod, vortex, cylinder_in_shock, elastic_piston, shock_on_solid, plate, elastica, panel_flutter):
         solution()

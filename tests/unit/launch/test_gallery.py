@@ -89,6 +89,21 @@ class KnownNumbers(unittest.TestCase):
         jump = table["x"][np.nonzero(table["rho"] > before["rho"] * 1.01)[0][-1]]
         self.assertAlmostEqual(jump, 0.5 + 0.2 * speed, delta=0.001)
 
+    def test_shock_that_a_wall_throws_back_leaves_gas_at_rest_behind_it(self):
+        known = {entry["what"]: entry["known"] for entry in problems.problem("cylinder_in_shock").numbers if "known" in entry}
+        p_2, (p_1, rho_1, v_1) = known["largest pressure on the wall at the front"], (4.5 / 1.4, 8 / 3, 1.25)
+        rho_2 = rho_1 * (6 * p_2 + p_1) / (p_2 + 6 * p_1)       # Hugoniot curve of air
+        speed = rho_1 * v_1 / (rho_2 - rho_1)                   # of the shock that goes back, by the mass it passes
+        self.assertAlmostEqual(p_2 - p_1, rho_1 * v_1 * (v_1 + speed), places=3)
+        self.assertEqual(sorted(known.values(), reverse=True), list(known.values()))    # the steeper the wall the more
+
+    def test_light_ellipses_begin_at_rest_and_move_as_their_velocity_says(self):
+        for name in ("shocked_ellipse", "shocked_rigid_ellipse"):
+            table = self.table(name)
+            self.assertEqual([table[key][0] for key in ("centre1", "centre2", "velocity1", "angle", "force1")], [-1, 0, 0, 0, 0])
+            moved = np.cumsum(0.5 * (table["velocity1"][1:] + table["velocity1"][:-1]) * np.diff(table["t"]))
+            np.testing.assert_allclose(table["centre1"][1:] + 1, moved, atol=2e-3)
+
     def test_vortex_rests_where_it_is_slow(self):
         table = self.table("vortex")
         self.assertAlmostEqual(table["p"][-1], 1 / 1.4, places=9)
