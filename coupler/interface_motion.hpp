@@ -90,7 +90,7 @@ class InterfaceMotion {
  private:
   std::vector<double> v_, a_;
   std::vector<double> mean_;  ///< mean acceleration of the last step
-  double dt_ = 0;             ///< its size
+  double dt_ = 0;             ///< its size [time]
   int steps_ = 0;
 };
 

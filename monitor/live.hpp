@@ -34,7 +34,7 @@ class Live : public Source {
   bus::Listener listener_;
   std::unique_ptr<Recorder> recorder_;
   std::string host_;
-  double looked_at_ = 0;
+  double looked_at_ = 0;  ///< [s]
   bool table_read_ = false;
 };
 

@@ -21,7 +21,7 @@ enum class Process { unknown, lives, stopped, gone };
 /// What a program does now, over the last seconds.
 struct Rates {
   double steps_per_s = 0, messages_per_s = 0, bytes_per_s = 0;  ///< [1/s], [1/s], [byte/s]
-  std::optional<double> computing;  ///< share of the time it computes instead of waiting
+  std::optional<double> computing;  ///< share of the time it computes instead of waiting [-]
 };
 
 /// What comes in at one interface now.
@@ -101,7 +101,7 @@ class RunState {
   std::map<std::string, std::deque<Series::Point>> timeline_;
   History history_;
   std::optional<wire::Abort> abort_;
-  std::optional<double> empty_since_;
+  std::optional<double> empty_since_;  ///< [s]
   bool ended_ = false;
 };
 

@@ -37,19 +37,19 @@ struct GridSpec {
   Kind kind = Kind::rectangle;
   std::string name;
   int n1 = 0, n2 = 0;                         ///< points, both ends included
-  double x_a = 0, x_b = 1, y_a = 0, y_b = 1;  ///< rectangle
+  double x_a = 0, x_b = 1, y_a = 0, y_b = 1;  ///< rectangle [length]
   double rotation = 0;                        ///< of the whole grid about the origin [rad]
   VectorExpressions map;                      ///< mapped: x(r, s, t), y(r, s, t) on the unit square
   bool moving = false;                        ///< the mapping depends on t
   std::array<bool, 2> periodic{false, false};
-  double shake = 0;  ///< random displacement of each inner point at each step, in cells
+  double shake = 0;  ///< random displacement of each inner point at each step, in cells [-]
   std::uint64_t shake_seed = 1;
 };
 
 /// Points of a curve, the body to the left of their direction.
 struct CurveSpec {
   std::vector<double> x;  ///< 2 n, component-major; of a closed curve the last point is the first one
-  double spacing = 0;     ///< mean distance of points
+  double spacing = 0;     ///< mean distance of points [length]
   /// Open: sides of the background on which its ends lie; of a curve on a wall, those it stands for: the side
   /// whose direction into the domain is nearest to the wall's.
   std::optional<std::array<Side, 2>> walls = {};
@@ -96,9 +96,9 @@ struct BodyFittedSpec {
   Side side =
       Side::bottom;    ///< of the grid, where the curve is: bottom, domain to its left, or top, to its right
   int lines = 8;       ///< the curve included
-  double spacing = 0;  ///< of the first line from the curve
-  double growth = 1;   ///< ratio of successive distances
-  double concave_smoothing = 1;  ///< of lines that converge, in parts of the grid's depth
+  double spacing = 0;  ///< of the first line from the curve [length]
+  double growth = 1;   ///< ratio of successive distances [-]
+  double concave_smoothing = 1;  ///< of lines that converge, in parts of the grid's depth [-]
   std::optional<VectorExpressions>
       map;  ///< x(r, s), y(r, s), r along the curve and s from it, instead of marching
   std::array<BoundarySpec, 4> boundary;  ///< left, right, bottom, top
@@ -126,8 +126,8 @@ struct RefineSpec {
 struct FluidSpec {
   std::string name = "fluid";  ///< of the participant: "fluid", or that under `fluids`
   std::string path = "fluid";  ///< of its section, for messages
-  double gamma = 1.4;
-  double p_e = 0;
+  double gamma = 1.4;          ///< [-]
+  double p_e = 0;              ///< [pressure]
   GridSpec grid;
   RefineSpec refine;
   std::array<BoundarySpec, 4> boundary;  ///< left, right, bottom, top
@@ -165,8 +165,8 @@ struct SolidSpec {
   std::string law;      ///< the executable is solid_solver_<law>, or `program` where the law is external
   std::string program;  ///< of an external solid: a name among the programs, or a path
   std::map<std::string, double> data;  ///< numbers for that program, or of the law besides lambda and mu
-  double rho = 1, lambda = 1, mu = 1;
-  bool fixed = false;  ///< a rigid body that stays where it is
+  double rho = 1, lambda = 1, mu = 1;  ///< [mass/volume], [pressure]
+  bool fixed = false;                  ///< a rigid body that stays where it is
   GridSpec grid;
   std::array<BoundarySpec, 4> boundary;
   std::vector<BodyFittedSpec> body_fitted;  ///< along the outline; none where the outline is that of `grid`
@@ -178,12 +178,12 @@ struct SolidSpec {
 };
 
 struct TimeSpec {
-  double end = 1;
-  double cfl = 0.9;     ///< safety factor C_CFL
-  double growth = 1.2;  ///< largest ratio of successive steps
+  double end = 1;       ///< [time]
+  double cfl = 0.9;     ///< safety factor C_CFL [-]
+  double growth = 1.2;  ///< largest ratio of successive steps [-]
   bool multirate = false;
   int robin_order = 2;        ///< 1 linear, 2 quadratic extrapolation of the Robin data
-  std::optional<double> dt;   ///< largest step, for studies
+  std::optional<double> dt;   ///< largest step, for studies [time]
   double join_timeout = 20;   ///< [s]
   double peer_timeout = 4;    ///< [s]
   double step_timeout = 120;  ///< [s]
@@ -200,14 +200,14 @@ struct InterfaceSpec : ProjectionSpec {
 
 struct ProbeSpec {
   std::string name, in;  ///< in: a gas ("fluid") or a solid
-  double x = 0, y = 0;   ///< gas: where; solid: reference position
+  double x = 0, y = 0;   ///< gas: where; solid: reference position [length]
 };
 
 struct OutputSpec {
   std::vector<double> times;
   std::vector<ProbeSpec> probes;
   int checkpoint_every = 0;         ///< steps; 0: never
-  double checkpoint_seconds = 600;  ///< of wall time
+  double checkpoint_seconds = 600;  ///< of wall time [s]
   bool checkpoint_at_end = true;    ///< so that the run can be extended
   bool go_on = false;               ///< where results cannot be written, without them
 };
@@ -223,8 +223,8 @@ struct ReferenceSpec {
 };
 
 struct Expectation {
-  std::string quantity;  ///< path in summary.json, "errors.rho"
-  std::optional<double> max, min;
+  std::string quantity;            ///< path in summary.json, "errors.rho"
+  std::optional<double> max, min;  ///< [unit of the quantity]
   std::optional<std::string> equals;
 };
 
@@ -235,7 +235,7 @@ struct Case {
   std::string resolved;             ///< the case with parameters and overrides filled in, as YAML
   std::vector<std::string> chosen;  ///< keys that the file left open, with the values chosen for them
   std::map<std::string, double> parameters;
-  double grid_factor = 1;  ///< j of h = 1 / (10 j)
+  double grid_factor = 1;  ///< j of h = 1 / (10 j) [-]
   TimeSpec time;
   InterfaceSpec interface;
   std::vector<FluidSpec> fluids;  ///< one from `fluid`, or all of `fluids`

@@ -49,8 +49,8 @@ class ElasticPiston final : public Solution {
 
  private:
   ElasticPistonData data_;
-  double cos_, sin_;
-  double series_end_;           ///< the power series of the impulse is used up to this time
+  double cos_, sin_;            ///< [-]
+  double series_end_;           ///< the power series of the impulse is used up to this time [time]
   std::vector<double> series_;  ///< its coefficients, in powers of the drop of the sound speed
 
   double sound_speed(double tau) const;

@@ -30,8 +30,8 @@ class Riemann {
 
  private:
   TubeState left_, right_;
-  double gamma_;
-  double p_star_ = 0, v_star_ = 0;
+  double gamma_;                    ///< [-]
+  double p_star_ = 0, v_star_ = 0;  ///< [pressure], [velocity]
 
   TubeState sample_side(const TubeState& outer, double speed, double direction) const;
 };
@@ -48,7 +48,7 @@ class RiemannTube final : public Solution {
  private:
   Riemann riemann_;
   TubeState left_, right_;
-  double x_0_;
+  double x_0_;  ///< [length]
 };
 
 }  // namespace fsi::exact

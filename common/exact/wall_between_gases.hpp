@@ -27,10 +27,11 @@ struct WallBetweenGasesData {
   double p = 1;                                ///< pressure at rest, of both gases [force/area]
   double thickness = 1;                        ///< d [length]
   std::optional<double> mass;                  ///< m of a wall that does not deform [mass/area]
-  double rho_bar = 1, c_p = 1;                 ///< density and p-wave speed of a wall that does; lambda = mu
-  double size = 1e-6;                          ///< largest pressure of the pulse over p [-]
-  double distance = 0.1;                       ///< of its front from the wall at t = 0 [length]
-  double length = 0.6;                         ///< of the pulse at t = 0 [length]
+  double rho_bar = 1,
+         c_p = 1;  ///< density and p-wave speed of a wall that does; lambda = mu [mass/volume], [velocity]
+  double size = 1e-6;     ///< largest pressure of the pulse over p [-]
+  double distance = 0.1;  ///< of its front from the wall at t = 0 [length]
+  double length = 0.6;    ///< of the pulse at t = 0 [length]
 };
 
 class WallBetweenGases final : public Solution {
@@ -52,7 +53,7 @@ class WallBetweenGases final : public Solution {
 
  private:
   WallBetweenGasesData data_;
-  double a_left_, a_right_;
+  double a_left_, a_right_;  ///< [velocity]
 
   double place(double t) const;
   double impulse(double t) const;

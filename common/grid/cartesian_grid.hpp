@@ -10,8 +10,8 @@ namespace fsi::grid {
 
 struct CartesianGrid {
   std::string name = "background";
-  int n1 = 0, n2 = 0;  ///< points, both ends included
-  double x_a = 0, x_b = 1, y_a = 0, y_b = 1;
+  int n1 = 0, n2 = 0;                         ///< points, both ends included
+  double x_a = 0, x_b = 1, y_a = 0, y_b = 1;  ///< [length]
 
   double dx() const { return (x_b - x_a) / (n1 - 1); }
   double dy() const { return (y_b - y_a) / (n2 - 1); }

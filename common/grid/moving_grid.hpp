@@ -30,7 +30,7 @@ struct GridDescription {
   bool periodic1 = false;  ///< the mapping continues periodically: point n1 - 1 is point 0 of the next period
   bool periodic2 = false;
   bool follows = false;  ///< one of its sides is moved by commands
-  double shake = 0;      ///< random displacement of every inner point at every step, in cells (tests)
+  double shake = 0;      ///< random displacement of every inner point at every step, in cells (tests) [-]
   std::uint64_t shake_seed = 1;
   /// Marched from `curve` in place of a mapping, and again
   /// at every move from the commanded points of its side.

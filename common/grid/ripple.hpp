@@ -26,7 +26,7 @@ namespace fsi::grid {
 struct WatchedQuantity {
   std::vector<std::string> components;  ///< their names
   int first = 0;
-  double floor = 0;  ///< ranges below this are round-off
+  double floor = 0;  ///< ranges below this are round-off [unit of the quantity]
 };
 
 /// The fields on a component grid.
@@ -37,14 +37,14 @@ struct WatchedGrid {
 };
 
 struct Ripple {
-  double size = 0;  ///< a part of the quantity's range; 0 below RippleWatch::faintest
+  double size = 0;  ///< a part of the quantity's range; 0 below RippleWatch::faintest [-]
   int component = 0, grid = 0, i = 0, j = 0;
   Vec2 place = Vec2::Zero();
-  double t = 0;
+  double t = 0;  ///< [time]
 };
 
 /// Above this size a program says so.
-inline constexpr double noisy = 0.03;
+inline constexpr double noisy = 0.03;  ///< [-]
 
 /// Maxima and minima of a row of values that come one by one.
 class TurnCounter {
@@ -60,7 +60,7 @@ class TurnCounter {
   explicit TurnCounter(double value) : last_(value), turn_(value) {}
 
   static constexpr int reach = 3;  ///< most points from one turn to the next
-  double last_ = 0, turn_ = 0;     ///< value before, and at the last turn
+  double last_ = 0, turn_ = 0;     ///< value before, and at the last turn [unit of the quantity]
   int direction_ = 0;              ///< the values rise (1) or fall (-1)
   int away_ = 0;                   ///< points since the last turn
   bool turned_ = false;            ///< there was one
@@ -70,7 +70,7 @@ class TurnCounter {
 
 class RippleWatch {
  public:
-  static constexpr double faintest = 1e-3;
+  static constexpr double faintest = 1e-3;  ///< [-]
   /// Steps between two looks: together they cost less than a hundredth of a run.
   static constexpr int every = 100;
 
@@ -94,7 +94,7 @@ class RippleWatch {
   struct Place {
     const WatchedGrid& on;
     int plane;
-    double range;
+    double range;  ///< [unit of the quantity]
     Ripple found;  ///< without its size and point
   };
   void look_along_rows(const Place& at);

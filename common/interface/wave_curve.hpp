@@ -82,7 +82,7 @@ inline NormalState at_wall(double v_n, const GasSide& gas) {
 inline NormalState between(const NormalSide& solid, const GasSide& gas) {
   const NormalState linear = between(solid, gas.state);
   if (gas.curve.gamma == 0) return linear;
-  constexpr double round_off = 1e-15;
+  constexpr double round_off = 1e-15;  ///< [-]
   constexpr int most = 100;
   const double scale = gas.curve.sound() + std::fabs(solid.v_n);
   double correction = linear.v_n - solid.v_n;

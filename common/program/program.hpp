@@ -98,7 +98,7 @@ class ProgressLines {
   void show(std::uint64_t step, double t, double dt, const std::string& limit);
 
  private:
-  double t_end_;
+  double t_end_;  ///< [time]
   std::chrono::steady_clock::time_point last_{};
 };
 

@@ -44,7 +44,7 @@ class Recorder {
 
   std::string path_;
   RunEntry run_;
-  double start_, last_flush_;
+  double start_, last_flush_;  ///< [s]
   std::vector<Heard> block_;
   std::size_t blocks_ = 0;
   bool closed_ = false, failed_ = false;

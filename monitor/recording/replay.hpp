@@ -31,11 +31,11 @@ class Replay : public Source {
   double place() const;
 
   Recording recording_;
-  double speed_;
+  double speed_;  ///< [-]
   std::deque<Heard> ahead_;
   bool finished_ = false;
   mutable std::mutex clock_;  ///< requests come from other threads
-  double at_start_ = 0;       ///< place in the recording at `start_`
+  double at_start_ = 0;       ///< place in the recording at `start_` [s]
   Clock::time_point start_ = Clock::now();
   bool held_ = false;
 };

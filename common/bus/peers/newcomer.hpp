@@ -27,7 +27,7 @@ class Newcomer {
   int pid_ = 0;
   std::uint64_t born_ = 0;      ///< start time of the process
   std::uint64_t computed_ = 0;  ///< by all its threads, up to the last look [clock ticks]
-  double idle_s_ = 0;
+  double idle_s_ = 0;           ///< [s]
   std::chrono::steady_clock::time_point last_look_ = std::chrono::steady_clock::now();
 };
 

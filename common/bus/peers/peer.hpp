@@ -25,9 +25,9 @@ struct Activity {
 std::optional<Activity> activity_of(int pid);
 
 /// A step may need so many times the processor time of the longest one so far.
-inline constexpr double slower_than_longest = 20;
+inline constexpr double slower_than_longest = 20;  ///< [-]
 /// And so many times its limit of processor time on the clock: others compute too, disks are slow.
-inline constexpr double clock_over_work = 10;
+inline constexpr double clock_over_work = 10;  ///< [-]
 
 /// How much a program's first thread has computed and how often it has waited.
 struct Pulse {

@@ -152,7 +152,7 @@ class Link {
   bool aborted_ = false;  ///< somebody's Abort was heard, or ours was sent
   Clock::time_point last_telemetry_{}, last_repetition_{}, last_check_{}, wait_began_{}, last_word_{};
   wire::Telemetry telemetry_;      ///< the latest
-  double waited_before_it_s_ = 0;  ///< time waited until then
+  double waited_before_it_s_ = 0;  ///< time waited until then [s]
   Statistics statistics_;
   RoundTrips round_trips_;
   dds_time_t waiting_since_ = 0;  ///< by the clock of DDS

@@ -14,8 +14,8 @@ namespace fsi {
 /// What is given of the grids of a body; the rest is chosen.
 struct BodyWish {
   std::optional<int> lines;
-  std::optional<double> line_spacing;
-  double growth = 1;                         ///< ratio of successive distances of lines
+  std::optional<double> line_spacing;        ///< [length]
+  double growth = 1;                         ///< ratio of successive distances of lines [-]
   bool curve_is_given = false;               ///< the points along the outline
   std::optional<std::array<double, 4>> box;  ///< x_a, x_b, y_a, y_b of the core
 };
@@ -24,7 +24,7 @@ struct BodyWish {
 struct BodyGrids {
   int outline_points = 0;
   int lines = 0;
-  double line_spacing = 0;
+  double line_spacing = 0;  ///< [length]
   GridSpec core;
 };
 
@@ -44,12 +44,12 @@ BodyGrids fit_body(const Outline& outline, double h, const BodyWish& wish, bool 
 /// Lines of a grid of the gas.
 struct RingGrid {
   int lines = 8;
-  double spacing = 0;
+  double spacing = 0;  ///< [length]
 };
 
 /// Grids of the gas around bodies.
 struct GasGrids {
-  double background = 0;        ///< distance of the background's points
+  double background = 0;        ///< distance of the background's points [length]
   std::vector<RingGrid> rings;  ///< those that were open
 };
 

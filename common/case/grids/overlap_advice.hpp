@@ -12,7 +12,7 @@ struct Advice {
   const config::Node& node;
   std::string path;
   std::string text;
-  double missing = 0;  ///< of a distance that is too short
+  double missing = 0;  ///< of a distance that is too short [length]
 };
 
 /// Looks for what is too near for the grids, then tries finer spacings and fewer lines.

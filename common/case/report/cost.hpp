@@ -15,8 +15,8 @@ struct StepCost {
   std::string program;  ///< "fluid", or the name of a gas or a solid
   bool is_gas = false;
   int levels = 1;            ///< of the background; with more, `points` are those of the finest everywhere
-  double points = 0;         ///< of all its grids
-  double dt = 0;             ///< infinite for a program that takes any step
+  double points = 0;         ///< of all its grids [-]
+  double dt = 0;             ///< infinite for a program that takes any step [time]
   std::string grid = {};     ///< whose cell sets it
   Vec2 x = Vec2::Zero();     ///< where
   Vec2 cell = Vec2::Zero();  ///< distances of points there, along the grid's two directions [length]
@@ -26,9 +26,9 @@ struct StepCost {
 
 struct RunCost {
   std::vector<StepCost> programs;  ///< gas first
-  double dt = 0;                   ///< of a step that all take together, safety factor included
-  double steps = 0;                ///< to time.end
-  double seconds = 0;              ///< about, each program on a core of its own
+  double dt = 0;                   ///< of a step that all take together, safety factor included [time]
+  double steps = 0;                ///< to time.end [-]
+  double seconds = 0;              ///< about, each program on a core of its own [s]
   /// Of a program within a step: 1, or more with `time.multirate`.
   int substeps(const StepCost& program) const;
 };

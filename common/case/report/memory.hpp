@@ -13,8 +13,8 @@ namespace fsi {
 /// What one program needs at its peak.
 struct MemoryNeed {
   std::string program;  ///< "fluid", or the name of a gas or a solid
-  double points = 0;    ///< of all its grids
-  double bytes = 0;
+  double points = 0;    ///< of all its grids [-]
+  double bytes = 0;     ///< [byte]
 };
 
 /// Of every program whose grids the case describes; without those of an external solid.

@@ -54,7 +54,7 @@ class TimeSchedule {
 
  private:
   Options options_;
-  double previous_ = 0;  ///< last step before it was shortened to hit a time
+  double previous_ = 0;  ///< last step before it was shortened to hit a time [time]
 };
 
 }  // namespace fsi

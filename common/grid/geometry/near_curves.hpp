@@ -22,7 +22,7 @@ namespace fsi::grid {
 /// A curve and the grid along it.
 struct FittedCurve {
   std::vector<double> x;  ///< its n points, component-major, 2 n
-  double step = 0;        ///< distance of the grid's lines, their mean; 0: they are not drawn in
+  double step = 0;        ///< distance of the grid's lines, their mean; 0: they are not drawn in [length]
 };
 
 /// The two curves that are nearest to each other.
@@ -34,12 +34,12 @@ struct Approach {
 class NearCurves {
  public:
   /// Lines there are to be between two curves at least.
-  static constexpr double lines_between = 5;
+  static constexpr double lines_between = 5;  ///< [-]
   /// The distance from which on a grid is less deep, in distances of its lines.
-  static constexpr double onset = 1.25 * lines_between;
+  static constexpr double onset = 1.25 * lines_between;  ///< [-]
 
   /// Nearer than that, in cells of the background, no gas is computed between two curves.
-  static constexpr double fewest_cells = 0.5;
+  static constexpr double fewest_cells = 0.5;  ///< [-]
 
   /// Curves that touch in the beginning stay out of this: one body stands on another.
   explicit NearCurves(std::vector<FittedCurve> curves);

@@ -33,7 +33,7 @@ double distance_to(std::span<const double> curve, const Vec2& position);
 
 /// The smallest distance of two curves that do not cross, and where on the first of them.
 struct Gap {
-  double distance = 0;
+  double distance = 0;  ///< [length]
   Vec2 x = Vec2::Zero();
 };
 Gap gap_between(std::span<const double> a, std::span<const double> b);
@@ -41,7 +41,7 @@ Gap gap_between(std::span<const double> a, std::span<const double> b);
 /// The smallest radius of curvature of a curve where it turns to the left (`turn` = 1) or to the right (-1),
 /// and where; infinite where it never does. At `corners` (points) it turns with no radius: left out.
 struct Bend {
-  double radius = 0;
+  double radius = 0;  ///< [length]
   Vec2 x = Vec2::Zero();
 };
 Bend sharpest_bend(std::span<const double> x, Curve ends, double turn, std::span<const int> corners = {});

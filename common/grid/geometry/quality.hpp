@@ -12,7 +12,7 @@
 namespace fsi::grid {
 
 struct GridQuality {
-  double min_jacobian = 0;        ///< smallest corner area of a cell; negative where folded
+  double min_jacobian = 0;        ///< smallest corner area of a cell; negative where folded [area]
   double min_jacobian_ratio = 0;  ///< smallest ratio of a cell's smallest to its largest corner area [-]
   double max_skew = 0;            ///< largest |cos| of a corner's angle: 0 is orthogonal [-]
   double max_aspect = 0;          ///< largest ratio of the lengths of the edges that meet at a corner [-]
@@ -34,7 +34,7 @@ void check_cells(ConstFieldView x, const std::string& name, double t);
 /// first ghost line has shrunk to nothing, and beyond it runs backwards.
 struct CrowdedCorner {
   int point = 0;       ///< of the curve
-  double spacing = 0;  ///< between the curve and the next line that it would hold
+  double spacing = 0;  ///< between the curve and the next line that it would hold [length]
   double part = 0;     ///< the same over the present one [-]: less than 1 where it is too crowded
   Vec2 x = Vec2::Zero();
 };
@@ -60,7 +60,7 @@ struct SlantedLine {
 };
 
 /// From there on the pressure behind a wall, continued along the slanted line, feeds the noise before it.
-inline constexpr double largest_slant = 2;
+inline constexpr double largest_slant = 2;  ///< [-]
 
 /// The most slanted line from the curve on side `curve` (bottom or top).
 SlantedLine most_slanted_line(ConstFieldView x, Side curve);

@@ -26,14 +26,14 @@ struct HyperbolicGrid {
   int lines = 0;              ///< the curve included
   Side curve = Side::bottom;  ///< bottom: marches to the curve's left; top: to its right
   Curve ends = Curve::closed;
-  double spacing = 0;  ///< distance of the first line from the curve
+  double spacing = 0;  ///< distance of the first line from the curve [length]
   double growth = 1;   ///< ratio of successive distances [-]
   /// Open: direction of the wall on which an end slides, at the first and at the last point; without one the
   /// end goes along the curve's normal.
   std::array<std::optional<Vec2>, 2> walls = {};
   double smoothing =
       0.1;  ///< eps of x_rr for lines as far apart as the points are, in proportion for closer ones [-]
-  double end_smoothing = 0.01;  ///< the same at the ends
+  double end_smoothing = 0.01;  ///< the same at the ends [-]
   /// Added where the curve is concave with a radius below the depth over `concave_onset`, where lines would
   /// converge until cells fold: the length depth * concave_smoothing of a front's speed on its curvature [-].
   double concave_smoothing = 1;
@@ -71,14 +71,14 @@ class HyperbolicMarch {
   struct LinePoint {
     Vec2 tangent;      ///< unit
     Vec2 normal;       ///< unit, towards the next line
-    double blend = 0;  ///< 1 where the wall alone decides on the normal, 0 where the curve does
+    double blend = 0;  ///< 1 where the wall alone decides on the normal, 0 where the curve does [-]
   };
 
   HyperbolicGrid grid_;
   LineSolver solver_;
   std::vector<LinePoint> line_;
   std::vector<double> arc_;   ///< distance between points
-  double mean_distance_ = 0;  ///< the same of the first curve, its mean
+  double mean_distance_ = 0;  ///< the same of the first curve, its mean [length]
   /// Smoothed along the line, point k at [k + 1], a neighbour beyond each end: distance between points, and
   /// depth over concave radius. The last one is work memory.
   std::vector<double> smooth_, concave_, before_;

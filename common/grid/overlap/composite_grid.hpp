@@ -66,10 +66,10 @@ struct OverlapCounts {
 struct OverlapRecord {
   /// Implicit points: how much larger than its cause an error may arrive, and where and when; 1 where there
   /// are none to speak of.
-  double amplification = 1;
+  double amplification = 1;  ///< [-]
   int grid = 0, i = 0, j = 0;
   Vec2 x = Vec2::Zero();
-  double t = 0;
+  double t = 0;                                                ///< [time]
   std::size_t implicit = 0, narrowed = 0, lines_left_out = 0;  ///< most at a time, see OverlapCounts
 };
 
@@ -119,7 +119,7 @@ class CompositeGrid {
 
   /// More than that, and errors of implicit points would be felt: twice what three donors per direction that
   /// are known have at most next to the stencil's ends, (25/16) each.
-  static constexpr double sound_amplification = 3.125;
+  static constexpr double sound_amplification = 3.125;  ///< [-]
 
  private:
   struct Part {
@@ -130,8 +130,8 @@ class CompositeGrid {
   /// Positions and point sets of one time: that of the update or the one before.
   struct Level {
     bool before = false;
-    double behind_curve = 0;  ///< how far behind a curve a donor stencil may reach, in lines
-    double outside = 0;       ///< how far out of the background, in cells
+    double behind_curve = 0;  ///< how far behind a curve a donor stencil may reach, in lines [-]
+    double outside = 0;       ///< how far out of the background, in cells [-]
     int widest = 3;           ///< donors per direction
   };
   /// That of an update: the chord of two curve points may cut off half a thin line.

@@ -14,7 +14,7 @@ namespace fsi::grid {
 /// Cell between the points (i, j) and (i + 1, j + 1), and about where in it (0 .. 1).
 struct CellPosition {
   int i = 0, j = 0;
-  double r = 0, s = 0;
+  double r = 0, s = 0;  ///< [-]
 };
 
 /// The cells of a body-fitted grid.
@@ -55,8 +55,8 @@ struct Donors {
 
 /// How far from its stencil a position may lie, in points.
 struct Reach {
-  double low = 0;   ///< before j = 0
-  double high = 0;  ///< behind j = n2 - 1
+  double low = 0;   ///< before j = 0 [-]
+  double high = 0;  ///< behind j = n2 - 1 [-]
 };
 
 /// The best legal stencil for a position: width 3 before width 2, discretised donors before interpolated

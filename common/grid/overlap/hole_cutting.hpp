@@ -30,8 +30,8 @@ struct CuttingCurve {
 /// Where a row meets the curve: between columns `column` - 1 and `column`.
 struct Crossing {
   int row = 0, column = 0;
-  int segment = 0;  ///< of the curve, from its point `segment` to the next
-  double x = 0;
+  int segment = 0;         ///< of the curve, from its point `segment` to the next
+  double x = 0;            ///< [length]
   bool into_hole = false;  ///< going towards larger x
 };
 
@@ -57,7 +57,7 @@ class CurveCut {
   /// Change of side along the grid's left boundary between rows `row` - 1 and `row`.
   struct Flip {
     int row = 0;
-    double y = 0;
+    double y = 0;            ///< [length]
     bool into_hole = false;  ///< going towards larger y
   };
 

@@ -56,13 +56,13 @@ class ImplicitSystem {
   /// An unknown: its entry, and how much it takes.
   struct Entry {
     ImplicitPoint place;
-    double on_known = 0, on_unknown = 0;  ///< sums of sizes of its weights
+    double on_known = 0, on_unknown = 0;  ///< sums of sizes of its weights [-]
   };
   struct Factors;
 
   std::vector<Entry> entries_;
   std::shared_ptr<Factors> factors_;
-  double amplification_ = 1;
+  double amplification_ = 1;  ///< [-]
   std::size_t worst_ = 0;
   std::vector<double> through_;  ///< of the worst point's error: what comes in at each unknown
 

@@ -17,7 +17,7 @@ struct Stencil {
   int i = 0, j = 0;
   int width = 3;
   bool implicit = false;  ///< some donors are interpolated themselves
-  double r = 0, s = 0;    ///< position of the point in the stencil, in points from (i, j)
+  double r = 0, s = 0;    ///< position of the point in the stencil, in points from (i, j) [-]
 };
 
 /// Weights of equidistant points 0, 1, 2 (width 3, quadratic) or 0, 1 (width 2, linear) for a value at r.

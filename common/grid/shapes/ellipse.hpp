@@ -6,7 +6,7 @@ namespace fsi::grid {
 
 struct Ellipse {
   Vec2 centre = Vec2::Zero();
-  double a = 1, b = 1;  ///< semi-axes
+  double a = 1, b = 1;  ///< semi-axes [length]
   double angle = 0;     ///< of the axis a against the x axis [rad]
 };
 

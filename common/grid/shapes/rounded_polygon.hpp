@@ -17,7 +17,7 @@ namespace fsi::grid {
 struct RoundedPolygon {
   std::vector<Vec2> corners = {};  ///< a closed polygon's last corner is joined to its first one
   Curve ends = Curve::open;        ///< open: the first and the last corner are its ends
-  double radius = 0;               ///< of every corner's arc; 0: sharp corners
+  double radius = 0;               ///< of every corner's arc; 0: sharp corners [length]
 };
 
 /// Starts in the middle of a closed polygon's first edge, at an open one's first corner.

@@ -46,7 +46,7 @@ class CheckpointClock {
 
  private:
   std::uint64_t every_;
-  double seconds_;
+  double seconds_;  ///< [s]
   std::uint64_t last_ = 0;
   std::chrono::steady_clock::time_point last_time_ = std::chrono::steady_clock::now();
 };

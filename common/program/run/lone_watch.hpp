@@ -35,9 +35,9 @@ class LoneWatch {
   const io::Part& part_;
   clockid_t work_clock_ = 0;  ///< processor time of the thread that is watched
 
-  std::mutex mutex_;  ///< of all between here and the thread
-  io::Part report_;   ///< as it was after the last step
-  double work_began_s_ = 0, clock_began_s_ = 0, longest_work_s_ = 0;
+  std::mutex mutex_;                                                  ///< of all between here and the thread
+  io::Part report_;                                                   ///< as it was after the last step
+  double work_began_s_ = 0, clock_began_s_ = 0, longest_work_s_ = 0;  ///< [s]
   std::condition_variable_any wake_;
   std::jthread watcher_;  ///< last: it ends first
 
