@@ -4,8 +4,9 @@
 
 namespace fsi::monitor {
 
-Frame::Frame(Extent extent)
+Frame::Frame(Extent extent, char32_t cut)
     : extent_{.columns = std::max(1, extent.columns), .rows = std::max(1, extent.rows)},
+      cut_(cut),
       cells_(static_cast<std::size_t>(extent_.columns) * static_cast<std::size_t>(extent_.rows)) {}
 
 const Cell& Frame::at(int column, int row) const {
@@ -26,6 +27,7 @@ int Frame::put(int column, int row, std::string_view text, Style style) {
     put(column, row, byte < 0x20 || byte == 0x7f ? U' ' : byte > 0x7f ? U'?' : char32_t{byte}, style);
     ++column;
   }
+  if (column > extent_.columns) put(extent_.columns - 1, row, cut_, style);
   return column;
 }
 

@@ -28,14 +28,15 @@ struct Area {
 
 class Frame {
  public:
-  explicit Frame(Extent extent);
+  /// @param cut stands at the border in place of text that goes on beyond it
+  explicit Frame(Extent extent, char32_t cut = U'\u2026');
 
   Extent extent() const { return extent_; }
   Area all() const { return {.column = 0, .row = 0, .columns = extent_.columns, .rows = extent_.rows}; }
   const Cell& at(int column, int row) const;
   /// Outside the frame: nothing happens.
   void put(int column, int row, char32_t character, Style style);
-  /// Writes ASCII text, cut at the border; other bytes, which may come from outside, become '?' or blanks.
+  /// Writes ASCII text, cut at the border with a mark that says so; other bytes, which may come from outside, become '?' or blanks.
   /// Returns the column behind it.
   int put(int column, int row, std::string_view text, Style style = Style::plain);
   /// The same, ending before column `end`.
@@ -47,6 +48,7 @@ class Frame {
 
  private:
   Extent extent_;
+  char32_t cut_;
   std::vector<Cell> cells_;
 };
 

@@ -20,8 +20,8 @@ struct Range {
   }
   bool empty() const { return !(low <= high); }
   /// Wide enough that noise in the last digits of a constant does not fill the picture.
-  Range widened() const {
-    const double least = std::max(1e-6 * std::max(std::abs(low), std::abs(high)), 1e-300);
+  Range widened(double floor = 0) const {
+    const double least = std::max({1e-6 * std::max(std::abs(low), std::abs(high)), floor, 1e-300});
     if (high - low >= least) return *this;
     return {.low = low - least, .high = high + least};
   }
@@ -29,7 +29,8 @@ struct Range {
 
 double ordinate(const Plot& plot, double y) {
   if (!plot.logarithmic) return y;
-  return y > 0 ? std::log10(y) : std::numeric_limits<double>::quiet_NaN();
+  return y > 0 || plot.floor > 0 ? std::log10(std::max(y, plot.floor))
+                                 : std::numeric_limits<double>::quiet_NaN();
 }
 
 bool shown(const PlotCurve& curve, const Plot& plot, std::size_t k) {
@@ -97,6 +98,14 @@ void line(Canvas& canvas, const PlotCurve& curve, std::array<int, 2> from, std::
   }
 }
 
+/// A dotted line where y is 0.
+void draw_zero(Canvas& canvas, const Range& y) {
+  constexpr int apart = 4;
+  const PlotCurve dots{.style = Style::dim, .mark = '.'};
+  const int height = static_cast<int>(std::lround(-y.low / (y.high - y.low) * (canvas.height() - 1)));
+  for (int place = 0; place < canvas.width(); place += apart) canvas.set(place, height, dots);
+}
+
 void draw_curve(Canvas& canvas, const Plot& plot, const PlotCurve& curve, const Range& x, const Range& y) {
   const auto place = [&](std::size_t k) -> std::array<int, 2> {
     const double right = (curve.x[k] - x.low) / (x.high - x.low);
@@ -134,7 +143,9 @@ void draw(Frame& frame, const Area& area, const Plot& plot, bool braille) {
   }
   Canvas canvas({.column = area.column, .row = area.row + 1, .columns = area.columns, .rows = area.rows - 1},
                 braille);
-  for (const PlotCurve& curve : plot.curves) draw_curve(canvas, plot, curve, x.widened(), y.widened());
+  const Range across = x.widened(), up = y.widened(plot.logarithmic ? 0 : plot.floor);
+  if (!plot.logarithmic && up.low < 0 && up.high > 0) draw_zero(canvas, up);
+  for (const PlotCurve& curve : plot.curves) draw_curve(canvas, plot, curve, across, up);
   canvas.show(frame);
 }
 

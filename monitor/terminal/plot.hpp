@@ -19,6 +19,7 @@ struct Plot {
   std::string title;
   std::vector<PlotCurve> curves;  ///< later ones lie above
   bool logarithmic = false;       ///< y, for what spans decades; what is not positive is left out
+  double floor = 0;  ///< what varies by less is drawn as a constant; below it a logarithm ends [unit of y]
 };
 
 /// Draws into `area`: a line with the title and the range of y, the curves below it.

@@ -16,6 +16,10 @@ namespace {
 
 using Side = wire::Telemetry::Interface;
 
+/// Parts of an interface's scale: what varies by less along it is not worth a picture; a jump that is smaller
+/// is none.
+constexpr double unseen = 1e-9, round_off = 1e-14;
+
 Style style_of_status(const std::string& status) {
   if (status == "running" || status == "alive") return Style::good;
   if (status == "aborted" || status == "lost" || status == "failed" || status == "stopped" ||
@@ -33,6 +37,16 @@ std::string short_count(double value) {
   return fmt::format("{:.1f}G", 1e-9 * value);
 }
 
+/// ", 98 % of the steps": of those that the present limiter has limited.
+std::string share_limited(const wire::Telemetry& leader) {
+  double all = 0, own = 0;
+  for (const wire::StepsLimited& one : leader.limits) {
+    all += static_cast<double>(one.steps);
+    if (one.by == leader.limited_by) own += static_cast<double>(one.steps);
+  }
+  return own > 0 ? fmt::format(", {:.0f} % of the steps", 100 * own / all) : "";
+}
+
 /// Two times in one unit, "0.4/1.2 ms".
 std::string trips(double p50_us, double p99_us) {
   if (!(p50_us > 0)) return "-";
@@ -44,7 +58,11 @@ std::string trips(double p50_us, double p99_us) {
 class Painter {
  public:
   Painter(const RunState& state, double now, const View& view, Extent extent)
-      : state_(state), view_(view), now_(now), frame_(extent), columns_(frame_.extent().columns) {}
+      : state_(state),
+        view_(view),
+        now_(now),
+        frame_(extent, view.braille ? U'\u2026' : U'>'),
+        columns_(frame_.extent().columns) {}
 
   Frame paint() {
     title();
@@ -88,16 +106,17 @@ class Painter {
     }
     const std::string start = fmt::format("t {:.6g} of {:.6g} ", leader->t, leader->t_end);
     const auto remaining = state_.remaining_s();
-    const std::string end = fmt::format(" {:5.1f} %  left {}", 100 * state_.progress(),
-                                        remaining && !state_.over() ? duration_text(*remaining) : "-");
+    const std::string end =
+        fmt::format(" {:5.1f} %  left {}", 100 * state_.progress(),
+                    remaining && state_.status() == "running" ? duration_text(*remaining) : "-");
     const int column = frame_.put(0, row_, start, Style::strong);
     bar(column, columns_ - static_cast<int>(end.size()) - column);
     frame_.put_right(columns_, row_, end);
     ++row_;
     frame_.put(
         0, row_++,
-        fmt::format("step {}  {:.1f} steps/s  dt {:.4g}  limited by {}", leader->step, state_.steps_per_s(),
-                    leader->dt, leader->dt_reason.empty() ? "-" : leader->dt_reason));
+        fmt::format("step {}  {:.1f} steps/s  dt {:.4g}  limited by {}{}", leader->step, state_.steps_per_s(),
+                    leader->dt, leader->dt_reason.empty() ? "-" : leader->dt_reason, share_limited(*leader)));
   }
 
   void bar(int column, int width) {
@@ -212,10 +231,14 @@ class Painter {
                                     {.x = side.s, .y = projected, .style = Style::projected, .mark = '*'}};
     };
     draw(frame_, {.column = 0, .row = row_, .columns = half - 1, .rows = rows - 1},
-         {.title = "p", .curves = curves(side.p_predicted, side.p_predicted_solid, side.p_projected)},
+         {.title = "p",
+          .curves = curves(side.p_predicted, side.p_predicted_solid, side.p_projected),
+          .floor = unseen * side.traction_scale},
          view_.braille);
     draw(frame_, {.column = half, .row = row_, .columns = columns_ - half, .rows = rows - 1},
-         {.title = "v_n", .curves = curves(side.v_predicted_gas, side.v_predicted, side.v_projected)},
+         {.title = "v_n",
+          .curves = curves(side.v_predicted_gas, side.v_predicted, side.v_projected),
+          .floor = unseen * side.velocity_scale},
          view_.braille);
     row_ += rows - 1;
   }
@@ -223,13 +246,20 @@ class Painter {
   struct Small {
     std::string title, series;
     bool logarithmic = false;
+    double floor = 0;  ///< see Plot
   };
 
   void histories(int rows) {
     std::vector<Small> small = {{.title = "dt", .series = "dt"}};
     if (const Side* side = chosen()) {
-      small = {{.title = "v jump", .series = side->name + ".velocity_jump", .logarithmic = true},
-               {.title = "w jump", .series = side->name + ".traction_jump", .logarithmic = true},
+      small = {{.title = "v jump",
+                .series = side->name + ".velocity_jump",
+                .logarithmic = true,
+                .floor = round_off * side->velocity_scale},
+               {.title = "w jump",
+                .series = side->name + ".traction_jump",
+                .logarithmic = true,
+                .floor = round_off * side->traction_scale},
                {.title = "dt", .series = "dt"},
                {.title = "power", .series = side->name + ".power"}};
       if (columns_ >= 120)
@@ -246,7 +276,8 @@ class Painter {
       draw(frame_, {.column = static_cast<int>(k) * width, .row = row_, .columns = width - 1, .rows = rows},
            {.title = fmt::format("{}{} {}", small[k].logarithmic ? "lg " : "", small[k].title, last),
             .curves = {std::move(curve)},
-            .logarithmic = small[k].logarithmic},
+            .logarithmic = small[k].logarithmic,
+            .floor = small[k].floor},
            view_.braille);
     }
     row_ += rows;
@@ -284,9 +315,27 @@ class Painter {
     const int column = std::max(0, (columns_ - width) / 2),
               row = std::max(1, (frame_.extent().rows - height) / 2);
     frame_.fill({.column = column, .row = row, .columns = width, .rows = height}, U' ', Style::title);
+    box({.column = column, .row = row, .columns = width, .rows = height});
     for (int k = 0; k < static_cast<int>(lines.size()); ++k) {
       frame_.put(column + 2, row + 1 + k, lines[static_cast<std::size_t>(k)], Style::title);
     }
+  }
+
+  /// A line round an area.
+  void box(const Area& area) {
+    const int right = area.column + area.columns - 1, low = area.row + area.rows - 1;
+    const auto edge = [&](char32_t drawn, char32_t ascii) { return view_.braille ? drawn : ascii; };
+    for (int k = area.column; k <= right; ++k) {
+      for (const int row : {area.row, low}) frame_.put(k, row, edge(U'\u2500', U'-'), Style::title);
+    }
+    for (int k = area.row; k <= low; ++k) {
+      for (const int column : {area.column, right})
+        frame_.put(column, k, edge(U'\u2502', U'|'), Style::title);
+    }
+    frame_.put(area.column, area.row, edge(U'\u250c', U'+'), Style::title);
+    frame_.put(right, area.row, edge(U'\u2510', U'+'), Style::title);
+    frame_.put(area.column, low, edge(U'\u2514', U'+'), Style::title);
+    frame_.put(right, low, edge(U'\u2518', U'+'), Style::title);
   }
 
   const RunState& state_;

@@ -18,8 +18,14 @@ constexpr short pair_of(Style style) {
   return static_cast<short>(static_cast<int>(style) + 1);
 }
 
+/// https://no-color.org: any value that is not empty.
+bool wants_colours() {
+  const char* refused = std::getenv("NO_COLOR");  // NOLINT(concurrency-mt-unsafe): nobody sets it here
+  return has_colors() && (refused == nullptr || *refused == '\0');
+}
+
 void prepare_colours() {
-  if (!has_colors()) return;
+  if (!wants_colours()) return;
   start_color();
   use_default_colors();
   init_pair(pair_of(Style::good), COLOR_GREEN, -1);
@@ -48,7 +54,7 @@ attr_t attributes(Style style) {
 }
 
 void set_style(Style style) {
-  const bool coloured = has_colors() && style >= Style::good && style <= Style::projected;
+  const bool coloured = wants_colours() && style >= Style::good && style <= Style::projected;
   attr_set(attributes(style), coloured ? pair_of(style) : short{0}, nullptr);
 }
 

@@ -110,6 +110,63 @@ TEST(Screen, FitsAnyTerminalWhateverTheRunSays) {
   }
 }
 
+TEST(Screen, SaysWhereTextIsCutAndWhatShareOfTheStepsSomebodyLimits) {
+  RunState state = coupled();
+  EXPECT_TRUE(
+      shows(screen(state, 2, {}, {.columns = 120, .rows = 24}), "acoustic waves, 100 % of the steps"));
+  auto coupler = with_interface("beam", 4);
+  coupler.t = 3;
+  coupler.dt_reason = std::string(100, 'z');
+  coupler.limits = {{.by = "fluid", .steps = 1}, {.by = "time.dt", .steps = 3}};
+  state.hear(coupler, 3);
+  const Frame frame = screen(state, 3, {}, {.columns = 80, .rows = 24});
+  EXPECT_EQ(frame.at(79, 2).character, U'\u2026') << text_of(frame);
+  View ascii;
+  ascii.braille = false;
+  EXPECT_EQ(screen(state, 3, ascii, {.columns = 80, .rows = 24}).at(79, 2).character, U'>');
+  EXPECT_TRUE(shows(screen(state, 3, {}, {.columns = 240, .rows = 24}), "z, 25 % of the steps"));
+}
+
+TEST(Screen, RoundOffIsDrawnFlatAndZeroHasALine) {
+  const auto rows_of = [](double size, double floor) {
+    Frame frame({.columns = 40, .rows = 9});
+    Plot plot{.title = "v_n", .curves = {{.style = Style::gas}}, .floor = floor};
+    for (int k = 0; k < 40; ++k) {
+      plot.curves[0].x.push_back(k);
+      plot.curves[0].y.push_back(k % 2 == 0 ? size : -size);
+    }
+    draw(frame, frame.all(), plot, true);
+    int rows = 0, zero = 0;
+    for (int row = 1; row < 9; ++row) {
+      bool drawn = false;
+      for (int column = 0; column < 40; ++column) {
+        drawn = drawn || frame.at(column, row).style == Style::gas;
+        zero += frame.at(column, row).style == Style::dim ? 1 : 0;
+      }
+      rows += drawn ? 1 : 0;
+    }
+    return std::pair(rows, zero);
+  };
+  EXPECT_EQ(rows_of(1, 1e-9).first, 8);
+  EXPECT_LE(rows_of(1e-16, 1e-9).first, 2) << "round-off does not fill the picture";
+  Frame frame({.columns = 40, .rows = 9});
+  draw(frame, frame.all(), {.title = "v_n", .curves = {{.x = {0, 1}, .y = {-1, 3}, .style = Style::gas}}},
+       true);
+  int dots = 0;
+  for (int column = 0; column < 40; ++column) dots += frame.at(column, 6).style == Style::dim ? 1 : 0;
+  EXPECT_GT(dots, 10) << "the line of zero, a quarter from below";
+}
+
+TEST(Screen, NoTimeIsLeftWhileARunIsPaused) {
+  RunState state = coupled();
+  EXPECT_FALSE(shows(screen(state, 2, {}, {}), "left -"));
+  auto coupler = with_interface("beam", 4);
+  coupler.t = 2;
+  coupler.state = "paused";
+  state.hear(coupler, 2.1);
+  EXPECT_TRUE(shows(screen(state, 2.1, {}, {}), "left -"));
+}
+
 TEST(Screen, SaysWhatIsWrong) {
   RunState state = coupled();
   state.see_process("fluid", Process::gone);
