@@ -48,13 +48,15 @@ def _several(directories, out, options):
     return compare.pictures(directories, out, options.at)
 
 
-def _take_units(directories):
-    """Labels as the cases of these runs want them; of a convergence study its finest level counts."""
-    from fsi_launch.plot.look import units
+def _take_words(directories):
+    """Labels and captions as the cases of these runs want them; of a convergence study its finest level counts."""
+    from fsi_launch.plot.look import caption, units
     from fsi_launch.plot.reading import data
     from fsi_launch.plot.several_runs import several
     paths = [data.finest_level(directory) / "case.yaml" for directory in directories]
-    units.use_those_of([several.entries(path.read_text(encoding="utf-8")) for path in paths if path.is_file()])
+    texts = [path.read_text(encoding="utf-8") for path in paths if path.is_file()]
+    units.use_those_of([several.entries(text) for text in texts])
+    caption.use(caption.of_case(texts[0], several.entries(texts[0])) if len(directories) == len(texts) == 1 else "")
 
 
 def style_or_mistake():
@@ -71,7 +73,7 @@ def draw_movie(directory, out=None):
     style_or_mistake().use()
     from fsi_launch.plot.one_run import movie
     from fsi_launch.plot.reading import data
-    _take_units([Path(directory)])
+    _take_words([Path(directory)])
     series = data.all_series(Path(directory))
     if not series:
         raise UserMistake(f"'{directory}' holds no fields: no fluid.h5, solid_*.h5")
@@ -84,7 +86,7 @@ def main(options):
     directories = [_folder(name) for name in options.directories]
     out = Path(options.out) if options.out else directories[0] / "plots"
     style.use()
-    _take_units(directories)
+    _take_words(directories)
     pictures = _one(directories[0], out, options) if len(directories) == 1 else _several(directories, out, options)
     from fsi_launch.plot.look import drawing
     drawing.draw([(out / f"{name}.{options.format}", figure) for name, figure in pictures], lambda path: print(path, flush=True))

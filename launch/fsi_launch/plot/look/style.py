@@ -1,5 +1,6 @@
 """One look for all pictures."""
 
+import io
 import math
 
 import matplotlib
@@ -9,8 +10,9 @@ matplotlib.use("Agg")
 
 from matplotlib import pyplot  # noqa: E402
 from matplotlib.ticker import MaxNLocator  # noqa: E402
+from matplotlib.transforms import Bbox  # noqa: E402
 
-from fsi_launch.plot.look import units  # noqa: E402
+from fsi_launch.plot.look import caption, units  # noqa: E402
 
 GAS_MAP = "viridis"
 SOLID_MAP = "magma"
@@ -23,6 +25,7 @@ GAS_GRIDS = ("#2b5ea8", "#1d8a3d")
 SOLID_GRIDS = ("#b5281e", "#e0559f")
 GAS_LINE, SOLID_LINE = "#2b5ea8", "#b5281e"
 MARGIN = 0.06       # around a picture [inch]
+BEYOND = 1.5        # how far texts may reach beyond a figure [inch]
 
 
 def use():
@@ -37,13 +40,19 @@ def use():
 def _save_drawn_part(figure, path):
     """What is not white, and a margin: found in the picture itself, for to ask every text how large it is takes as long as to draw it."""
     from PIL import Image
-    figure.canvas.draw()
-    pixels = np.asarray(figure.canvas.buffer_rgba())
-    drawn, margin = (pixels[..., :3] < 255).any(axis=2), round(MARGIN * figure.dpi)
-    rows, columns = np.flatnonzero(drawn.any(axis=1)), np.flatnonzero(drawn.any(axis=0))
+    width, height = figure.get_size_inches()
+    for axes in figure.axes:        # the places as they are drawn; a picture of more than the figure would keep those before
+        locator = axes.get_axes_locator()
+        axes.apply_aspect(locator(axes, None) if locator else None)
+    drawn = io.BytesIO()
+    figure.savefig(drawn, format="png", bbox_inches=Bbox([[-BEYOND, -BEYOND], [width + BEYOND, height + BEYOND]]),
+                   pil_kwargs={"compress_level": 0})
+    pixels = np.asarray(Image.open(drawn).convert("RGB"))
+    part, margin = (pixels < 255).any(axis=2), round(MARGIN * figure.dpi)
+    rows, columns = np.flatnonzero(part.any(axis=1)), np.flatnonzero(part.any(axis=0))
     if len(rows):
         pixels = pixels[max(0, rows[0] - margin):rows[-1] + 1 + margin, max(0, columns[0] - margin):columns[-1] + 1 + margin]
-    Image.fromarray(np.ascontiguousarray(pixels[..., :3])).save(path, dpi=(figure.dpi, figure.dpi), compress_level=4)
+    Image.fromarray(np.ascontiguousarray(pixels)).save(path, dpi=(figure.dpi, figure.dpi), compress_level=4)
     pyplot.close(figure)
 
 
@@ -74,6 +83,7 @@ def _lay_out(figure):
 def save(figure, path):
     """Writes a picture and forgets it. Its layout is made here: savefig would draw all of it twice to find its size. What lies within
     the axes has no say in it: of a mesh every cell would be looked at."""
+    caption.write(figure)
     for axes in figure.axes:
         for artist in (*axes.collections, *axes.lines, *axes.patches):
             artist.set_in_layout(False)

@@ -146,7 +146,7 @@ def _picture(gas, solids, chosen, natural):
     rows = -(-len(chosen) // columns)
     box = _box(gas.outputs[0])
     height = max(PANEL * np.ptp(box[1]) / np.ptp(box[0]), 1.0)
-    figure, axes = pyplot.subplots(rows, columns, figsize=(PANEL * columns + 0.8, (height + 0.3) * rows), squeeze=False)
+    figure, axes = pyplot.subplots(rows, columns, figsize=(PANEL * columns + 0.8, (height + 0.45) * rows + 0.3), squeeze=False)
     for one in axes.flat[len(chosen):]:
         one.set_visible(False)
     style.name_axes(axes)

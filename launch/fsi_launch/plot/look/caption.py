@@ -1,0 +1,59 @@
+"""What a picture of one run says above all else: the case, its grid, the laws, and the parameters that are not as the case ships."""
+
+import re
+
+from fsi_launch import paths
+
+MOST = 4        # parameters
+
+_caption = ""   # of the pictures that are being drawn, as the units of their labels
+
+
+def _parameters(text):
+    """{name: number} of the section `parameters` of a case, as far as they are plain numbers."""
+    section = re.search(r"^parameters:\n((?:[ \t]+.*\n|[ \t]*\n)*)", text, flags=re.MULTILINE)
+    found = {}
+    for line in section[1].splitlines() if section else ():
+        name, _, value = line.split("#")[0].strip().partition(":")
+        try:
+            found[name] = float(value)
+        except ValueError:
+            continue
+    return found
+
+
+def _own_parameters(name, text):
+    """Those of a run that differ from the case it was made from, or all of a case that is none of configs/."""
+    shipped = paths.ROOT / "configs" / f"{name}.yaml"
+    own = _parameters(text)
+    if not shipped.is_file():
+        return dict(list(own.items())[:MOST])
+    usual = _parameters(shipped.read_text(encoding="utf-8"))
+    return {key: value for key, value in own.items() if key in usual and usual[key] != value}
+
+
+def of_case(text, entries):
+    """One line; `entries`: what several.entries says of the text of a resolved case."""
+    name = entries.get("name", "")
+    words = [name] if name else []
+    if "grid.factor" in entries:
+        words.append(f"h = 1/{10 * float(entries['grid.factor']):g}")
+    laws = [value.replace("_", " ") for key, value in entries.items() if re.fullmatch(r"solids\.[^.]+\.law", key)]
+    words += dict.fromkeys(laws)
+    words += [f"{key} = {value:g}" for key, value in list(_own_parameters(name, text).items())[:MOST]]
+    return ", ".join(words)
+
+
+def use(line):
+    """Takes a line for all pictures from now on; "" for none."""
+    global _caption     # noqa: PLW0603
+    _caption = line
+
+
+def write(figure):
+    """Puts it before what a picture says of itself."""
+    if not _caption:
+        return
+    own = figure._suptitle.get_text() if figure._suptitle else ""      # noqa: SLF001
+    if not own.startswith(_caption):
+        figure.suptitle(f"{_caption}: {own}" if own else _caption, x=0.01, ha="left", fontsize=10)
