@@ -9,6 +9,7 @@ import unittest
 from pathlib import Path
 
 from matplotlib import pyplot
+from PIL import Image
 
 from running import ROOT
 
@@ -48,6 +49,16 @@ class Drawing(unittest.TestCase):
     def test_a_figure_that_is_there_is_drawn_as_well(self):
         drawing.draw([(self.folder / "a.png", picture(1)), (self.folder / "b.png", picture(2))], lambda path: None, 2)
         self.assertTrue((self.folder / "a.png").is_file() and (self.folder / "b.png").is_file())
+
+    def test_a_png_is_what_is_drawn_and_a_margin_also_beyond_the_figure(self):
+        sizes = []
+        for reach in (0.0, -0.2):
+            figure, axes = pyplot.subplots(figsize=(4, 3))
+            figure.text(0.5, reach, "below")
+            style.save(figure, self.folder / "reach.png")
+            with Image.open(self.folder / "reach.png") as drawn:
+                sizes.append(drawn.size)
+        self.assertGreater(sizes[1][1], sizes[0][1] + 0.15 * 3 * 130)
 
     def test_failures_come_out_whoever_draws(self):
         for jobs in (1, 2):

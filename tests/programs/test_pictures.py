@@ -15,10 +15,13 @@ import numpy as np
 from running import ROOT
 
 sys.path.insert(0, str(ROOT / "launch"))
+from matplotlib import pyplot  # noqa: E402
+from matplotlib.collections import TriMesh  # noqa: E402
+from matplotlib.image import AxesImage  # noqa: E402
 from fsi_launch import plot  # noqa: E402
 from fsi_launch.failure import UserMistake  # noqa: E402
-from fsi_launch.plot.look import style  # noqa: E402
-from fsi_launch.plot.one_run import curves, disk  # noqa: E402
+from fsi_launch.plot.look import caption, shading, style  # noqa: E402
+from fsi_launch.plot.one_run import curves, disk, fields  # noqa: E402
 from fsi_launch.plot.reading import data, mesh, scales  # noqa: E402
 from fsi_launch.plot.several_runs import outlines, several, side_by_side  # noqa: E402
 
@@ -54,6 +57,60 @@ def area(triangles):
 def circle(r, corners=200):
     """Area of the regular polygon in a circle."""
     return 0.5 * corners * r ** 2 * np.sin(2 * np.pi / corners)
+
+
+class Shading(unittest.TestCase):
+    """Colours over a grid."""
+
+    def setUp(self):
+        figure, self.axes = pyplot.subplots()
+        self.addCleanup(pyplot.close, figure)
+
+    def test_even_grids_are_images_with_the_holes_left_free_and_others_are_triangles(self):
+        grid = background()
+        drawn = shading.shade(self.axes, grid, grid.x1 + 2 * grid.x2, "viridis", (0, 1))
+        self.assertIsInstance(drawn, AxesImage)
+        self.assertEqual(int(drawn.get_array().mask.sum()), int((~grid.used()).sum()))
+        left, right, bottom, top = drawn.get_extent()
+        n2, n1 = grid.x1.shape
+        h = (right - left) / n1     # a point lies in the middle of its pixel
+        self.assertAlmostEqual(left + h * (10 + 0.5), grid.x1[0, 10])
+        self.assertAlmostEqual(bottom + (top - bottom) / n2 * (70 + 0.5), grid.x2[70, 0])
+        self.assertEqual(drawn.get_array()[70, 10], grid.x1[70, 10] + 2 * grid.x2[70, 10])
+        self.assertEqual(drawn.get_clim(), (0, 1))
+        around = ring()
+        self.assertIsInstance(shading.shade(self.axes, around, around.x1, "viridis", (0, 1)), TriMesh)
+
+    def test_grids_that_are_nearly_even_or_turned_are_triangles(self):
+        even = background()
+        for x1, x2 in ((even.x1 + 0.01 * even.x1 ** 3, even.x2), (even.x1 + 0.1 * even.x2, even.x2), (-even.x1, even.x2)):
+            grid = read({"x1": x1, "x2": x2, "rho": np.ones_like(x1)})
+            self.assertIsInstance(shading.shade(self.axes, grid, grid.x1, "viridis", (0, 1)), TriMesh)
+
+    def moving(self, speed):
+        """Series of a gas that moves at up to 1 and of a solid at up to `speed`, at two times."""
+        def output(grid, t, v):
+            zero = np.zeros_like(grid.x1)
+            grid.fields.update(v1=v * t * grid.x1, v2=v * t * grid.x2, p=1 + zero, rho=1 + zero, **{f"P{c}": zero for c in ("11", "12", "21", "22")})
+            return data.Output(t, [grid])
+        return [data.Series(name, [output(make(), t, v) for t in (0.5, 1.0)]) for name, make, v in (("fluid", background, 0.7), ("body", ring, speed))]
+
+    def test_velocities_have_one_scale_over_time_and_over_the_interface_unless_the_solid_is_slow(self):
+        size = scales.of_run(self.moving(1.0))
+        for speed, shared in ((1.0, True), (0.01, False)):
+            plan = fields._plan(self.moving(speed), fields.Look(size))
+            panel = next(one for one in plan.panels if one.title.startswith("speed"))
+            self.assertEqual(panel.one_scale(), shared)
+            self.assertAlmostEqual(panel.solid_range[1] if not shared else panel.gas_range[1], speed * OUTER if not shared else 0.7 * np.sqrt(2), places=6)
+
+
+class Captions(unittest.TestCase):
+    def test_case_grid_law_and_own_parameters(self):
+        text = (ROOT / "configs" / "shock_ellipse.yaml").read_text(encoding="utf-8")
+        resolved = "name: shock_ellipse\n" + text.replace("rho_bar: 0.1", "rho_bar: 0.01").replace("grid: {factor: 4}", "grid:\n  factor: 4")
+        self.assertEqual(caption.of_case(resolved, several.entries(resolved)), "shock_ellipse, h = 1/40, neo hookean, rho_bar = 0.01")
+        own = resolved.replace("name: shock_ellipse", "name: mine")
+        self.assertEqual(caption.of_case(own, several.entries(own)), "mine, h = 1/40, neo hookean")
 
 
 class Cells(unittest.TestCase):

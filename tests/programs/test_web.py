@@ -240,7 +240,8 @@ class Page(WebTest):
         shown = "[...currentFrame().pictures.values()].map((p) => p.from + ' ' + p.quantity).sort().join()"
         self.assertTrue(until(lambda: self.browser.value(shown) == "fluid pressure,solid speed"))
         self.assertTrue(until(lambda: self.coloured("picture") > 1000), "no field is drawn")
-        self.assertEqual(self.browser.value("currentFrame().step"), 30)
+        self.assertTrue(until(lambda: self.browser.value("currentFrame().step") == 30))
+        self.assertTrue(until(lambda: self.browser.value("live.frames[0].step") < 30), "what was written before the page was opened is not shown")
         self.choose("gas-quantity", "schlieren")  # another picture of the same step
         self.assertTrue(until(lambda: self.browser.value(shown) == "fluid schlieren,solid speed"))
         self.choose("gas-quantity", "pressure")
@@ -255,7 +256,7 @@ class Page(WebTest):
         self.browser.value("document.querySelector('[data-command=resume]').click()")
         self.assertTrue(until(lambda: self.browser.value("live.frames.length") > 5), "no new moments")
         self.assertEqual(self.browser.value("rangeOf(live.drawn[0])[1]"), 77)  # colours hold
-        self.browser.value("document.getElementById('moment').value = 0; document.getElementById('moment').oninput()")
+        self.browser.value("document.getElementById('moment').value = live.frames.findIndex((f) => f.step === 30); document.getElementById('moment').oninput()")
         self.assertEqual(self.browser.value("currentFrame().step"), 30)
         count = self.browser.value("live.frames.length")
         self.assertTrue(until(lambda: self.browser.value("live.frames.length") > count), "nothing is kept while one looks back")
@@ -267,6 +268,34 @@ class Page(WebTest):
         limits = "proposal({limited_by: 'fluid'}, '%s', {role: 'fluid', dt_bid: 0.5}).textContent"
         self.assertEqual([self.browser.value(limits % name) for name in ("fluid", "other")], ["0.5 limits", "0.5"])
         self.assertTrue(until(lambda: self.coloured("bids") > 300), "no proposals are drawn")
+        self.assertEqual(self.browser.problems, [])
+
+    def test_one_cursor_reads_all_plots_and_a_zoom_holds_for_all(self):
+        self.begin()
+        self.browser.show(self.url)
+        self.shows("status", "running")
+        self.assertTrue(until(lambda: (self.browser.value("(memory.history['solid.gap'] || []).length") or 0) > 5))
+        self.assertTrue(until(lambda: self.browser.value("[...plots.values()].filter(({plot}) => plot.axis === 't').length") >= 5))
+        words = self.browser.value("(() => { const [canvas] = [...plots].find(([, one]) => one.plot.title.startsWith('gap')); canvas.focus(); "
+                                   "canvas.dispatchEvent(new KeyboardEvent('keydown', { key: 'ArrowLeft' })); return document.getElementById('said').textContent; })()")
+        self.assertRegex(words, r"^gap, log, t = \S+: \S+$")
+        at = self.browser.value("axes.t.at")
+        self.browser.value("setSpan('t', [0, axes.t.at])")
+        self.assertEqual(self.browser.value("[...new Set([...plots.values()].filter(({plot}) => plot.axis === 't').map(({drawn}) => drawn.across[1]))]"), [at])
+        labels = self.browser.value("[...document.querySelectorAll('main canvas')].filter((c) => !c.getAttribute('aria-label') && !c.getAttribute('aria-hidden')).length")
+        self.assertEqual(labels, 0, "a canvas says nothing to those who do not see it")
+        self.assertEqual(self.browser.problems, [])
+
+    def test_run_that_is_over_is_shown_from_its_folder(self):
+        run = self.complete("sod_tube", "--set", "grid.factor=2", "--set", "output.times=[0.05, 0.1]", "--set", "expect={}")
+        self.serve(run, "--replay", str(run.directory))
+        self.browser.show(self.url)
+        self.shows("status", "ended")
+        self.assertTrue(until(lambda: self.browser.value("live.frames.map((f) => f.t).join()") == "0.05,0.1,0.2"))
+        self.choose("gas-quantity", "density")
+        self.assertTrue(until(lambda: self.browser.value("live.frames.every((f) => f.pictures.get('fluid').quantity === 'density')")))
+        self.assertAlmostEqual(self.browser.value("live.frames[2].pictures.get('fluid').high"), 1, places=2)
+        self.shows("facts", "fluid")    # who limited the steps
         self.assertEqual(self.browser.problems, [])
 
     def choose(self, element, value):

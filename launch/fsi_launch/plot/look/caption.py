@@ -1,4 +1,5 @@
-"""What a picture of one run says above all else: the case, its grid, the laws, and the parameters that are not as the case ships."""
+"""What a picture of one run says above all else: the case, its grid, the laws, and the parameters that are not as the case ships (of a
+case of one's own nobody knows which of its parameters matter)."""
 
 import re
 
@@ -23,13 +24,12 @@ def _parameters(text):
 
 
 def _own_parameters(name, text):
-    """Those of a run that differ from the case it was made from, or all of a case that is none of configs/."""
+    """Those of a run that differ from the case of configs/ it was made from."""
     shipped = paths.ROOT / "configs" / f"{name}.yaml"
-    own = _parameters(text)
     if not shipped.is_file():
-        return dict(list(own.items())[:MOST])
+        return {}
     usual = _parameters(shipped.read_text(encoding="utf-8"))
-    return {key: value for key, value in own.items() if key in usual and usual[key] != value}
+    return {key: value for key, value in _parameters(text).items() if key in usual and usual[key] != value}
 
 
 def of_case(text, entries):

@@ -14,6 +14,7 @@ from fsi_launch.plot.reading.scales import Scales
 
 MOST_TIMES = 12        # pictures of fields; of a longer series, times evenly spread
 CONTOURS = 16          # lines, where they are asked for; an even number keeps off the zero of signed fields
+SLOW = 0.05            # solids that move at less than this part of the gas's speed have a scale of their own: one would hide their waves
 ROUND_OFF = 1e-12      # variation, part of the values, that is no variation
 
 
@@ -194,17 +195,21 @@ def _kinds_of_panels(gas, solids, floor):
     return everything[1:] if along else everything
 
 
+def _size(limits):
+    low, high, constant = limits
+    return abs(constant) if constant is not None else max(abs(low), abs(high))
+
+
 def _panels_of(gas, solids, look):
     """The panels for all these outputs of the gas and of the solids."""
     found = []
     for title, of_gas, of_solid in _kinds_of_panels(gas, solids, look.scales.floor(SPEED.unit)):
         floor = look.scales.floor((of_gas or of_solid).unit)
-        if of_gas is of_solid:
-            both = _range((gas, solids), (of_gas, of_solid), floor)
-            found.append(Panel(title, of_gas, of_solid, both, both))
-        else:
-            found.append(Panel(title, of_gas, of_solid, _range((gas, []), (of_gas, None), floor) if of_gas else None,
-                               _range(([], solids), (None, of_solid), floor) if of_solid else None))
+        gas_range = _range((gas, []), (of_gas, None), floor) if of_gas else None
+        solid_range = _range(([], solids), (None, of_solid), floor) if of_solid else None
+        if of_gas is of_solid and _size(solid_range) >= SLOW * _size(gas_range):
+            gas_range = solid_range = _range((gas, solids), (of_gas, of_solid), floor)
+        found.append(Panel(title, of_gas, of_solid, gas_range, solid_range))
     return found
 
 
