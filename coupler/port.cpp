@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <span>
 #include <string_view>
+#include <utility>
 
 #include "common/core/log.hpp"
 #include "common/program/picture.hpp"
@@ -172,7 +173,7 @@ void CoupledRun::complete_checkpoint() {
 /// While everybody waits for the answer to what was gathered. A pause waits here; a checkpoint, also that
 /// before an end, is one of the step that the answer leads to.
 void CoupledRun::obey_requests() {
-  bool checkpoint = due_.due(at_.step + 1);
+  bool checkpoint = due_.due(at_.step + 1), told = false;
   if (setup_.pause_at == at_.step) {
     paused_ = true;
     log_info(fmt::format("paused after {} steps", at_.step));
@@ -190,6 +191,7 @@ void CoupledRun::obey_requests() {
     if (asked_to_end()) end_ = "ended on request (SIGTERM)";
     checkpoint = checkpoint || stop_ || !end_.empty();
     if (!paused_ || checkpoint) break;
+    if (at_.step > 0 && !std::exchange(told, true)) publish();  // nothing further will be heard of this step
     session_.idle(0.1);
     clock_.lap(io::Work::waiting);
   }
@@ -244,7 +246,11 @@ wire::Picture CoupledRun::outline() const {
 void CoupledRun::show() {
   const AgreedStep& next = coupler_.next();
   progress_.show(coupler_.step_number(), coupler_.t(), next.plan.dt, next.limited_by);
-  if (!session_.telemetry_due() && !coupler_.finished()) return;
+  if (session_.telemetry_due() || coupler_.finished()) publish();
+}
+
+void CoupledRun::publish() {
+  const AgreedStep& next = coupler_.next();
   wire::Telemetry telemetry;
   telemetry.state = coupler_.finished() ? "done" : "computing";
   telemetry.step = coupler_.step_number();

@@ -31,6 +31,8 @@ class CoupledRun {
   void complete_checkpoint();
   void record();
   void show();
+  /// Telemetry of the last exchange.
+  void publish();
   wire::Picture outline() const;
   void archive(Archive& archive);
 

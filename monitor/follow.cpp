@@ -215,7 +215,8 @@ class PicturesForBrowsers {
     if (!more_ && wishes == wished_ && since(looked_) < files_s) return;
     looked_ = Clock::now();
     const wire::Telemetry* leader = state_.leader();
-    const double until = leader == nullptr || state_.over() ? HUGE_VAL : leader->t;
+    const bool all = leader == nullptr || state_.over() || !source_.files_lie_ahead();
+    const double until = all ? HUGE_VAL : leader->t;
     const std::vector<wire::Picture> past = files_.next(wishes, until);
     for (const wire::Picture& picture : past) server_.show_past(picture);
     more_ = !past.empty();

@@ -25,6 +25,8 @@ class Source {
   virtual void watch(const std::vector<std::string>& /*wishes*/) {}
   /// Pictures heard with the last `listen`.
   virtual std::vector<wire::Picture> pictures() { return {}; }
+  /// The run's files may hold what is still to come here: a recording that is played.
+  virtual bool files_lie_ahead() const { return false; }
   /// Sends a request ("pause", "resume", "checkpoint", "stop"). Returns what became of it, for people.
   virtual std::string request(const std::string& command) = 0;
   /// The requests that `request` understands, with their keys, for people.

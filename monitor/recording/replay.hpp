@@ -21,6 +21,7 @@ class Replay : public Source {
   void listen(RunState& state, double seconds) override;
   /// Seconds since the recording began.
   double now() const override;
+  bool files_lie_ahead() const override { return true; }
   /// "pause" and "resume" hold and continue the replay.
   std::string request(const std::string& command) override;
   std::string controls() const override { return "replay: p pause  r resume  "; }

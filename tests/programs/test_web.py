@@ -241,6 +241,7 @@ class Page(WebTest):
         self.assertTrue(until(lambda: self.browser.value(shown) == "fluid pressure,solid speed"))
         self.assertTrue(until(lambda: self.coloured("picture") > 1000), "no field is drawn")
         self.assertTrue(until(lambda: self.browser.value("currentFrame().step") == 30))
+        self.assertTrue(until(lambda: self.browser.value("memory.state.step") >= 29), "the numbers are not those of the step it stands at")
         self.assertTrue(until(lambda: self.browser.value("live.frames[0].step") < 30), "what was written before the page was opened is not shown")
         self.choose("gas-quantity", "schlieren")  # another picture of the same step
         self.assertTrue(until(lambda: self.browser.value(shown) == "fluid schlieren,solid speed"))

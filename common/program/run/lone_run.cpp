@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "common/bus/sessions/solo_session.hpp"
 #include "common/core/time/time_schedule.hpp"
 #include "common/program/run/checkpoints.hpp"
@@ -63,9 +65,9 @@ class LoneRun {
   }
 
   void advance() {
-    const TimeStepBid bid = solver_.compute_time_step();
+    bid_ = solver_.compute_time_step();
     clock_.lap(io::Work::time_step);
-    const PlannedStep step = schedule_.plan(at_.t, bid.dt, bid.reason);
+    const PlannedStep step = schedule_.plan(at_.t, bid_.dt, bid_.reason);
     limited_by_ = name_of(step.limit, part_.participant);
     ++part_.limited_by[limited_by_];
     solver_.advance(at_.t, step.dt, 1, {});
@@ -79,7 +81,7 @@ class LoneRun {
     write(step.output);
     clock_.lap(io::Work::output);
     progress_.show(part_.steps, at_.t, at_.dt, limited_by_);
-    if (session_.telemetry_due() || step.end) publish(bid);
+    if (session_.telemetry_due() || step.end) publish(bid_);
     if (session_.picture_due()) session_.show(draw_of(part_, solver_, at_), at_.step, step.end);
     clock_.lap(io::Work::messages);
     end_ = step.end;
@@ -100,7 +102,7 @@ class LoneRun {
 
   /// Obeys requests from outside; false when the run shall stop.
   bool go_on() {
-    bool stop = false;
+    bool stop = false, told = false;
     if (due_.due(at_.step)) save();
     if (setup_.pause_at == at_.step) {
       paused_ = true;
@@ -115,6 +117,8 @@ class LoneRun {
       }
       if (stop || asked_to_end()) break;
       if (!paused_) continue;
+      if (at_.step > begun_at_ && !std::exchange(told, true))
+        publish(bid_);  // else nobody hears of this step
       session_.idle(0.1);
       session_.show_missing(draw_of(part_, solver_, at_), at_.step);
       watch_.begin_step();
@@ -151,6 +155,7 @@ class LoneRun {
   CheckpointClock due_;
   io::Standing at_;
   std::uint64_t begun_at_ = 0;  ///< step
+  TimeStepBid bid_;             ///< of the last step
   std::string limited_by_;      ///< of the last step: the solver, or a setting
   LastState last_;
   WorkClock clock_;
