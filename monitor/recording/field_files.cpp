@@ -4,6 +4,7 @@
 #include <deque>
 #include <filesystem>
 #include <optional>
+#include <utility>
 
 #include "common/core/failure.hpp"
 #include "common/core/field.hpp"
@@ -43,11 +44,11 @@ class Output {
     if (shape.size() != 2 || !std::ranges::all_of(planes, [&](const auto& one) { return group.has(one); }))
       return;
     const Layout layout(static_cast<int>(shape[1]), static_cast<int>(shape[0]));
-    Field& x = fields_.emplace_back(layout, 2);
-    fill(x, 0, group.read("x1"));
-    fill(x, 1, group.read("x2"));
+    const bool deforms = group.has("x1_bar") && group.has("x2_bar");
+    const Field& x = positions(layout, group, deforms ? "_bar" : "");
     Field& values = fields_.emplace_back(layout, static_cast<int>(planes.size()));
-    io::GridOutput grid{.grid = name, .x = std::as_const(x).view(), .u = {}, .fields = {}};
+    io::GridOutput grid{.grid = name, .x = x.view(), .u = {}, .fields = {}};
+    if (deforms) grid.u = displacements(layout, group, x).view();
     for (std::size_t k = 0; k < planes.size(); ++k) {
       fill(values, static_cast<int>(k), group.read(planes[k]));
       grid.fields.push_back(
@@ -58,6 +59,25 @@ class Output {
         grid.kinds.push_back(static_cast<std::uint8_t>(kind));
     }
     grids_.push_back(std::move(grid));
+  }
+
+  const Field& positions(const Layout& layout, const io::Hdf5& group, const std::string& of) {
+    Field& x = fields_.emplace_back(layout, 2);
+    fill(x, 0, group.read("x1" + of));
+    fill(x, 1, group.read("x2" + of));
+    return x;
+  }
+
+  /// Of a solid: at points that are not used they say nothing, so that pictures take those beside them.
+  const Field& displacements(const Layout& layout, const io::Hdf5& group, const Field& rest) {
+    const Field& now = positions(layout, group, "");
+    Field& u = fields_.emplace_back(layout, 2);
+    for (const int c : {0, 1}) {
+      for (int j = 0; j < layout.n2; ++j) {
+        for (int i = 0; i < layout.n1; ++i) u(c, i, j) = now(c, i, j) - rest(c, i, j);
+      }
+    }
+    return u;
   }
 
   std::deque<Field> fields_;

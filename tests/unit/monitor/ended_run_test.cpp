@@ -10,6 +10,7 @@
 #include <fstream>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/core/failure.hpp"
@@ -76,6 +77,40 @@ TEST_F(Folder, ItsFieldsArePicturesOnceEachAndNotBeforeTheirTime) {
   EXPECT_EQ(rest[0].grids[0].level, expected->grids[0].level);
   EXPECT_EQ(rest[0].grids[0].x, expected->grids[0].x);
   EXPECT_EQ(rest[0].role, rest[0].from == "beam" ? "solid" : "fluid");
+}
+
+TEST_F(Folder, ASolidIsDrawnWhereItsUsedPointsAre) {
+  constexpr int n1 = 600, n2 = 40;  // so many that not every point is a sample
+  Field x(Layout(n1, n2), 2), u(Layout(n1, n2), 2), v(Layout(n1, n2), 2);
+  io::GridOutput solid{.grid = "core",
+                       .x = std::as_const(x).view(),
+                       .u = std::as_const(u).view(),
+                       .fields = {{.name = "v1", .field = std::as_const(v).view(), .plane = 0},
+                                  {.name = "v2", .field = std::as_const(v).view(), .plane = 1}}};
+  for (int j = 0; j < n2; ++j) {
+    for (int i = 0; i < n1; ++i) {
+      x(0, i, j) = i;
+      x(1, i, j) = j;
+      const bool used = i % 50 < 40;
+      u(0, i, j) = used ? 0.25 : 1000;
+      v(0, i, j) = i;
+      solid.kinds.push_back(used ? 1 : 0);
+    }
+  }
+  io::GridWriter writer(path_.string(), "solid_wall");
+  writer.write(0, 0, std::vector{solid});
+  const auto expected = picture_of(std::vector{solid}, "speed");
+  ASSERT_TRUE(expected);
+  ASSERT_LT(expected->grids[0].n1, static_cast<std::uint32_t>(n1));
+  FieldFiles files(path_.string());
+  bool found = false;
+  for (const wire::Picture& one : files.next({"solid.speed"}, 0)) {
+    if (one.from != "wall") continue;
+    found = true;
+    EXPECT_EQ(one.grids[0].level, expected->grids[0].level);
+    EXPECT_EQ(one.grids[0].x, expected->grids[0].x);
+  }
+  EXPECT_TRUE(found);
 }
 
 TEST_F(Folder, WhatIsDamagedOrGoneIsPassedOver) {
