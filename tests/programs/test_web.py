@@ -299,6 +299,14 @@ class Page(WebTest):
         self.shows("facts", "fluid")    # who limited the steps
         self.assertEqual(self.browser.problems, [])
 
+    def test_histories_of_a_run_that_is_over_are_those_of_its_tables(self):
+        run = self.complete("elastic_piston", "--set", "grid.factor=2", "--set", "expect={}")
+        self.serve(run, "--replay", str(run.directory))
+        self.browser.show(self.url)
+        drawn = "Math.max(0, ...[...plots.values()].filter(({plot}) => plot.title.startsWith('gap')).map(({plot}) => plot.curves[0].x.length))"
+        self.assertTrue(until(lambda: self.browser.value(drawn) == run.summary()["steps"] + 1), "not all that the table holds is drawn")
+        self.assertEqual(self.browser.problems, [])
+
     def choose(self, element, value):
         self.browser.value(f"document.getElementById('{element}').value = '{value}'; document.getElementById('{element}').onchange()")
 

@@ -55,6 +55,7 @@ async function fetchPast() {
   memory.limiters = past.limiters;
   memory.timeline = Object.fromEntries(Object.entries(past.timeline).map(([name, line]) => [name, line.map(([ago, share]) => [now - ago, share])]));
   memory.last = {};
+  memory.stale = true;
 }
 
 function connect() {
@@ -166,7 +167,7 @@ function showProfiles(side) {
   };
   const none = { axis: "s", x: "s", curves: [], nothing: "no interface" };
   const title = (name) => (minus && side ? `${name} minus projected` : name);
-  const draw = (canvas, name, sets) => drawPlot($(canvas), side ? { title: title(name), axis: "s", x: "s", robust: true, curves: curves(...sets), nothing: "none: this solid has no stress of its own" } : { title: name, ...none });
+  const draw = (canvas, name, sets) => drawPlot($(canvas), side ? { title: title(name), axis: "s", x: "s", robust: true, curves: curves(...sets), nothing: side.s.length ? "none: this solid has no stress of its own" : "was not recorded" } : { title: name, ...none });
   draw("pressure", "pressure p", side && [side.p_predicted, side.p_predicted_solid, side.p_projected]);
   draw("velocity", "normal velocity v_n", side && [side.v_predicted_gas, side.v_predicted, side.v_projected]);
   const free = side && side.w_tangential.map(() => 0); // the gas has no viscosity: the projection takes it away

@@ -233,7 +233,7 @@ function drawShapes(canvas, shapes, range) {
   if (!across || !up) {
     pen.fillStyle = theme.dim;
     pen.textAlign = "center";
-    pen.fillText("this run has no interface, or none was heard yet", width / 2, height / 2);
+    pen.fillText("no interface was heard", width / 2, height / 2);
     return;
   }
   const margin = 34;

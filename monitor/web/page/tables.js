@@ -30,7 +30,7 @@ function health(program) {
 
 // Who limits the step stands out.
 function proposal(state, name, program) {
-  if (program.role === "coupler") return "\u2013";
+  if (program.role === "coupler" || (program.dt_bid === null && over(state))) return "\u2013";
   const text = program.dt_bid === null ? "no limit" : short(program.dt_bid), limits = name === state.limited_by;
   const bids = Object.values(state.participants || {}).map((one) => one.dt_bid).filter((bid) => bid !== null && isFinite(bid));
   const fill = make("i", { className: limits ? "limits" : "" }), part = program.dt_bid === null ? 1 : program.dt_bid / Math.max(...bids, program.dt_bid);
