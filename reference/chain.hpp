@@ -5,6 +5,8 @@
 #include <map>
 #include <span>
 #include <string>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include "common/core/failure.hpp"
@@ -55,6 +57,23 @@ auto run_while_sound(const std::vector<double>& times, const Make& make) {
     run.broke = broke.what();
   }
   return run;
+}
+
+/// The same of `Chain` with the law that the problem names.
+template <template <solid::Law> class Chain, class Problem>
+auto run_with_law(const Problem& problem, int points) {
+  return std::visit(
+      [&]<class L>(const L& law) {
+        return run_while_sound(problem.times, [&] { return Chain<L>(problem, law, points); });
+      },
+      law_named(problem.law, problem.lambda, problem.mu, problem.own));
+}
+
+/// All outputs of a run. @throws NumbersBroke where one was not reached
+template <class Output>
+std::vector<Output> whole(Run<Output> run) {
+  if (!run.broke.empty()) throw NumbersBroke(run.broke);
+  return std::move(run.outputs);
 }
 
 /// What the springs do before the first one.

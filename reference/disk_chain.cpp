@@ -354,17 +354,11 @@ DiskOutput Rings<L>::output() const {
 }  // namespace
 
 DiskRun solve_disk_while_sound(const DiskProblem& problem, int points) {
-  return std::visit(
-      [&]<class L>(const L& law) {
-        return run_while_sound(problem.times, [&] { return Rings<L>(problem, law, points); });
-      },
-      law_named(problem.law, problem.lambda, problem.mu, problem.own));
+  return run_with_law<Rings>(problem, points);
 }
 
 std::vector<DiskOutput> solve_disk(const DiskProblem& problem, int points) {
-  DiskRun run = solve_disk_while_sound(problem, points);
-  if (!run.broke.empty()) throw NumbersBroke(run.broke);
-  return std::move(run.outputs);
+  return whole(solve_disk_while_sound(problem, points));
 }
 
 Difference compare(const DiskOutput& fine, const DiskOutput& coarse) {

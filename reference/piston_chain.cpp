@@ -224,17 +224,11 @@ PistonOutput Chain<L>::output() const {
 }  // namespace
 
 PistonRun solve_piston_while_sound(const PistonProblem& problem, int points) {
-  return std::visit(
-      [&]<class L>(const L& law) {
-        return run_while_sound(problem.times, [&] { return Chain<L>(problem, law, points); });
-      },
-      law_named(problem.law, problem.lambda, problem.mu, problem.own));
+  return run_with_law<Chain>(problem, points);
 }
 
 std::vector<PistonOutput> solve_piston(const PistonProblem& problem, int points) {
-  PistonRun run = solve_piston_while_sound(problem, points);
-  if (!run.broke.empty()) throw NumbersBroke(run.broke);
-  return std::move(run.outputs);
+  return whole(solve_piston_while_sound(problem, points));
 }
 
 Difference compare(const std::vector<PistonOutput>& fine, const std::vector<PistonOutput>& coarse) {
