@@ -45,13 +45,12 @@ class SolidComponent {
   void choose(const ChosenSolution& solution);
   /// Null where there is none.
   const ChosenSolution* chosen() const { return chosen_ ? &*chosen_ : nullptr; }
-  /// Paper eq. (35) to paper eq. (38) beside the present state, which gets half of the step's source of a
+  /// Paper eq. (35) to paper eq. (41) beside the present state, which gets half of the step's source of a
   /// chosen solution. @throws NumbersBroke naming grid and point
-  void predict(double t, double dt);
+  void predict(double t, double dt, Look look);
   /// The present state without that half of the source (to round-off), when a grid of the body broke.
   void give_back();
-  /// Paper eq. (39) to paper eq. (41): what was predicted becomes
-  /// the state at t + dt, boundary conditions not applied.
+  /// What was predicted becomes the state at t + dt, boundary conditions not applied.
   void complete(double t, double dt);
   void apply_boundary(double t, std::span<const InterfaceValues> projected) {
     boundary_.apply(q_.view(), t, projected);
@@ -59,7 +58,8 @@ class SolidComponent {
   /// Ghost points beside interpolated points, after these have new values.
   void refresh_ghosts(double t) { boundary_.refresh_ghosts(q_.view(), t); }
   /// Wave speeds and health of the present state.
-  void measure() { measured_ = sweep(0.0); }
+  void measure() { measured_ = sweep(0.0, Look::all); }
+  /// Of the last sweep; the waves are those of the last one that looked at them.
   const SweepResult& measured() const { return measured_; }
   /// Ghost points of all steps so far that took the acoustic matrix of the body beside them.
   double settled() const { return settled_; }
@@ -73,11 +73,11 @@ class SolidComponent {
 
  private:
   std::string breakdown_at(int i, int j, double dt) const;
-  SweepResult sweep(double dt);
-  template <class Row>
-  SweepResult sweep_with(double dt);
+  SweepResult sweep(double dt, Look look);
   template <class Row, class Gradient>
-  void dissipate(double dt);
+  SweepResult sweep_with(double dt, Look look);
+  template <class Row, class Gradient>
+  void dissipate(double dt, RowRun run);
   void evaluate_force(double t);
   void evaluate_source(double t);
   void add_source(double weight);
@@ -227,8 +227,8 @@ void SolidComponent<L>::add_relaxation_offset(double t, double dt) {
 }
 
 template <Law L>
-template <class Row>
-SweepResult SolidComponent<L>::sweep_with(double dt) {
+template <class Row, class Gradient>
+SweepResult SolidComponent<L>::sweep_with(double dt, Look look) {
   const SweepData data = {
       .points = &points_,
       .q = q_.view(),
@@ -237,46 +237,50 @@ SweepResult SolidComponent<L>::sweep_with(double dt) {
       .work = work_.view(),
       .rho = options_.rho,
       .dt = dt,
+      .look = look,
       .measures_spread = options_.relaxation.active() || options_.tangential_stress.active()};
+  const auto dissipation = [&](RowRun run) { dissipate<Row, Gradient>(dt, run); };
   if (options_.limiter == Limiter::minmod)
-    return GodunovSweep<L, Row, Limiter::minmod>(data, metrics_, law_).run();
-  return GodunovSweep<L, Row, Limiter::none>(data, metrics_, law_).run();
+    return GodunovSweep<L, Row, Limiter::minmod>(data, metrics_, law_).run(dissipation);
+  return GodunovSweep<L, Row, Limiter::none>(data, metrics_, law_).run(dissipation);
 }
 
 template <Law L>
-SweepResult SolidComponent<L>::sweep(double dt) {
-  return metrics_.cartesian() ? sweep_with<CartesianRow>(dt) : sweep_with<MappedRow>(dt);
+SweepResult SolidComponent<L>::sweep(double dt, Look look) {
+  return metrics_.cartesian() ? sweep_with<CartesianRow, CartesianGradient4>(dt, look)
+                              : sweep_with<MappedRow, MappedGradient4>(dt, look);
 }
 
+/// Points whose step was made, while their rows are in cache.
 template <Law L>
 template <class Row, class Gradient>
-void SolidComponent<L>::dissipate(double dt) {
+void SolidComponent<L>::dissipate(double dt, RowRun run) {
   const ConstFieldView q = q_.view();
+  const FieldView next = next_.view();
   const double beta_P = options_.tangential_stress.at(dt), beta_u = options_.displacement.at(dt),
                beta_r = options_.relaxation.at(dt), bulk = options_.bulk_diffusion * dt;
-  const FieldView next = next_.view();
-  for (int j = 0; j < layout().n2; ++j) {
-    for (const auto& [begin, end] : points_.discretised(j)) {
-      const RowRun run = {j, begin, end};
-      if (beta_P != 0) add_tangential_stress_dissipation<Row>(q, next, metrics_, beta_P, run);
-      if (beta_u != 0) add_displacement_dissipation(q, next, beta_u, run);
-      if (beta_r != 0) add_relaxation(q, next, Gradient(grid_.x(), metrics_, j), law_, beta_r, run);
-      if (bulk != 0) add_bulk_diffusion(q, next, bulk, run);
-    }
-  }
-  if (beta_u != 0) boundary_.correct_displacement_dissipation(q, next, beta_u);
+  if (beta_P != 0) add_tangential_stress_dissipation<Row>(q, next, metrics_, beta_P, run);
+  if (beta_u != 0) add_displacement_dissipation(q, next, beta_u, run);
+  if (beta_r != 0) add_relaxation(q, next, Gradient(grid_.x(), metrics_, run.j), law_, beta_r, run);
+  if (bulk != 0) add_bulk_diffusion(q, next, bulk, run);
 }
 
 template <Law L>
-void SolidComponent<L>::predict(double t, double dt) {
+void SolidComponent<L>::predict(double t, double dt, Look look) {
   evaluate_force(t + 0.5 * dt);
   if (chosen_) {
     if (!has_source_) evaluate_source(t);
     added_ = 0.5 * dt;
     add_source(added_);
   }
-  measured_ = sweep(dt);
-  settled_ += measured_.settled;
+  SweepResult met = sweep(dt, look);
+  settled_ += met.settled;
+  if (look == Look::soundness) {
+    met.rate_squared = measured_.rate_squared;
+    met.spread_squared = measured_.spread_squared;
+    met.min_phi_s = measured_.min_phi_s;
+  }
+  measured_ = met;
   if (measured_.broken > 0) throw breakdown(dt);
 }
 
@@ -288,11 +292,8 @@ void SolidComponent<L>::give_back() {
 
 template <Law L>
 void SolidComponent<L>::complete(double t, double dt) {
-  if (metrics_.cartesian()) {
-    dissipate<CartesianRow, CartesianGradient4>(dt);
-  } else {
-    dissipate<MappedRow, MappedGradient4>(dt);
-  }
+  const double beta_u = options_.displacement.at(dt);
+  if (beta_u != 0) boundary_.correct_displacement_dissipation(q_.view(), next_.view(), beta_u);
   if (chosen_) add_relaxation_offset(t + 0.5 * dt, dt);
   std::swap(q_, next_);
   added_ = 0;
@@ -304,9 +305,12 @@ void SolidComponent<L>::complete(double t, double dt) {
 template <Law L>
 Tensor2 SolidComponent<L>::deformation_gradient(int i, int j) const {
   const ConstFieldView q = q_.view();
+  const std::ptrdiff_t here = layout().at(i, j);
   const auto difference = [&](int k, int direction) {
     const int at = direction == 0 ? i : j, n = direction == 0 ? layout().n1 : layout().n2;
-    const auto value = [&](int m) { return direction == 0 ? q(k, m, j) : q(k, i, m); };
+    const std::ptrdiff_t step = direction == 0 ? 1 : layout().stride;
+    const double* values = q.plane(k) + here;
+    const auto value = [=](int m) { return values[(m - at) * step]; };
     if (grid_.periodic(direction) && (at == 0 || at == n - 1)) return 0.5 * (value(1) - value(n - 2));
     if (at == 0) return 0.5 * (4.0 * (value(1) - value(0)) - (value(2) - value(0)));
     if (at == n - 1) return -0.5 * (4.0 * (value(n - 2) - value(n - 1)) - (value(n - 3) - value(n - 1)));

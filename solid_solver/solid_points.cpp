@@ -37,6 +37,8 @@ void SolidPoints::find_neighbours(const Layout& layout) {
     subtract(needed, row(j), rest);
     beside_.append(rest);
     beside_.end_row();
+    predicted_.append(needed);
+    predicted_.end_row();
   }
 }
 

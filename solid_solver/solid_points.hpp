@@ -28,6 +28,8 @@ class SolidPoints {
   const grid::RowSets& valid() const { return valid_; }
   /// Points beside discretised ones, -1 <= j <= n2: predicted, but not advanced.
   std::span<const grid::Interval> beside(int j) const { return beside_.row(j + 1); }
+  /// Both together, -1 <= j <= n2.
+  std::span<const grid::Interval> predicted(int j) const { return predicted_.row(j + 1); }
   /// Faces between rows j - 1 and j with a discretised point on one side, 0 <= j <= n2.
   std::span<const grid::Interval> faces(int j) const { return faces_.row(j); }
 
@@ -36,7 +38,7 @@ class SolidPoints {
   std::size_t count() const { return valid_.points(); }
 
  private:
-  grid::RowSets discretised_, valid_, beside_, faces_;
+  grid::RowSets discretised_, valid_, beside_, predicted_, faces_;
 
   void find_neighbours(const Layout& layout);
 };

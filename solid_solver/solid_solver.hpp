@@ -119,12 +119,13 @@ class SolidSolver {
     if (decay < dt) return {.dt = decay, .reason = "upwinding and relaxation of the stress in the solid"};
     return {.dt = dt, .reason = waves > damping ? "waves in the solid" : "dissipation in the solid"};
   }
-  /// Predicted state at t + dt at all discretised points; no boundary or interface condition is applied.
+  /// Predicted state at t + dt at all discretised points; no boundary or interface condition is applied. Looks at
+  /// the waves where `compute_time_step` is to know them: in all steps but those that others follow at once.
   /// @throws NumbersBroke at det F <= 0 or where the system is no longer hyperbolic; all grids then keep the
   /// state at t
-  void advance_solid(double t, double dt) {
+  void advance_solid(double t, double dt, Look look = Look::all) {
     try {
-      for (SolidComponent<L>& component : components_) component.predict(t, dt);
+      for (SolidComponent<L>& component : components_) component.predict(t, dt, look);
     } catch (NumbersBroke& failure) {
       for (SolidComponent<L>& component : components_) component.give_back();
       failure.know({.t = t});

@@ -1,5 +1,7 @@
 #include "solid_solver/boundary/ghost_lines.hpp"
 
+#include <type_traits>
+
 namespace fsi::solid {
 
 SideIndex::SideIndex(const Layout& layout, Side side) {
@@ -51,13 +53,28 @@ SideMetrics side_metrics(const ReferenceMetrics& metrics, const Layout& layout, 
   return s;
 }
 
+namespace {
+
+/// `along`: how far apart the points of the side lie, where the compiler is to know.
+template <class Along>
+void extrapolate_line(double* ghost, std::ptrdiff_t inward, Along along, int n, Limiter limiter) {
+#pragma omp simd
+  for (int k = 0; k < n; ++k) {
+    double* to = ghost + k * along;
+    *to = extrapolated(to[inward], to[2 * inward], to[3 * inward], limiter);
+  }
+}
+
+}  // namespace
+
 void extrapolate(FieldView q, const SideIndex& side, const GhostRange& range, Limiter limiter) {
   for (int p = range.first_plane; p <= range.last_plane; ++p) {
-    double* values = q.plane(p);
-    for (int k = range.begin; k < range.end; ++k) {
-      values[side.at(k, range.m)] =
-          extrapolated(values[side.at(k, range.m + 1)], values[side.at(k, range.m + 2)],
-                       values[side.at(k, range.m + 3)], limiter);
+    double* ghost = q.plane(p) + side.at(range.begin, range.m);
+    const int n = range.end - range.begin;
+    if (side.along == 1) {
+      extrapolate_line(ghost, side.inward, std::integral_constant<std::ptrdiff_t, 1>(), n, limiter);
+    } else {
+      extrapolate_line(ghost, side.inward, side.along, n, limiter);
     }
   }
 }
@@ -87,24 +104,6 @@ void copy_period(FieldView q, const SideIndex& side, const GhostRange& range) {
       values[side.at(k, range.m)] = values[side.at(k, side.lines - 1 + range.m)];
     }
   }
-}
-
-SolidState load(ConstFieldView q, std::ptrdiff_t at) {
-  return {.u = {q.plane(plane::u1)[at], q.plane(plane::u2)[at]},
-          .v = {q.plane(plane::v1)[at], q.plane(plane::v2)[at]},
-          .P = {q.plane(plane::P11)[at], q.plane(plane::P12)[at], q.plane(plane::P21)[at],
-                q.plane(plane::P22)[at]}};
-}
-
-void store(FieldView q, std::ptrdiff_t at, const SolidState& state) {
-  q.plane(plane::u1)[at] = state.u.x();
-  q.plane(plane::u2)[at] = state.u.y();
-  q.plane(plane::v1)[at] = state.v.x();
-  q.plane(plane::v2)[at] = state.v.y();
-  q.plane(plane::P11)[at] = state.P.a11;
-  q.plane(plane::P12)[at] = state.P.a12;
-  q.plane(plane::P21)[at] = state.P.a21;
-  q.plane(plane::P22)[at] = state.P.a22;
 }
 
 }  // namespace fsi::solid

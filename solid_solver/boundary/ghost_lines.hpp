@@ -45,11 +45,10 @@ SideMetrics side_metrics(const ReferenceMetrics& metrics, const Layout& layout, 
 /// it turns into a constant where the second difference is not small against the first ones.
 inline double extrapolated(double q0, double q1, double q2, Limiter limiter) {
   const double third_order = q2 + 3.0 * (q0 - q1);
-  if (limiter == Limiter::none) return third_order;
   const double first = std::abs(q0 - q1) + std::abs(q1 - q2), second = std::abs((q0 - q1) - (q1 - q2));
-  if (second <= 0.5 * first) return third_order;
-  const double weight = std::fmin(1.0, 2.0 * (second / first - 0.5));
-  return q0 + (1.0 - weight) * (third_order - q0);
+  const double beyond = 2.0 * (second / first - 0.5), weight = beyond < 1.0 ? beyond : 1.0;
+  const double limited = q0 + (1.0 - weight) * (third_order - q0);
+  return (limiter == Limiter::none) | (second <= 0.5 * first) ? third_order : limited;
 }
 
 /// Planes first .. last of ghost line m < 0 by extrapolation from the three lines inside it, points k = begin
@@ -68,9 +67,23 @@ void reflect(FieldView q, const SideIndex& side, const GhostRange& range, const 
 void copy_period(FieldView q, const SideIndex& side, const GhostRange& range);
 
 /// The state at an address.
-SolidState load(ConstFieldView q, std::ptrdiff_t at);
+inline SolidState load(ConstFieldView q, std::ptrdiff_t at) {
+  return {.u = {q.plane(plane::u1)[at], q.plane(plane::u2)[at]},
+          .v = {q.plane(plane::v1)[at], q.plane(plane::v2)[at]},
+          .P = {q.plane(plane::P11)[at], q.plane(plane::P12)[at], q.plane(plane::P21)[at],
+                q.plane(plane::P22)[at]}};
+}
 /// a + weight * b.
 SolidState sum_of(const SolidState& a, double weight, const SolidState& b);
-void store(FieldView q, std::ptrdiff_t at, const SolidState& state);
+inline void store(FieldView q, std::ptrdiff_t at, const SolidState& state) {
+  q.plane(plane::u1)[at] = state.u.x();
+  q.plane(plane::u2)[at] = state.u.y();
+  q.plane(plane::v1)[at] = state.v.x();
+  q.plane(plane::v2)[at] = state.v.y();
+  q.plane(plane::P11)[at] = state.P.a11;
+  q.plane(plane::P12)[at] = state.P.a12;
+  q.plane(plane::P21)[at] = state.P.a21;
+  q.plane(plane::P22)[at] = state.P.a22;
+}
 
 }  // namespace fsi::solid

@@ -17,6 +17,7 @@ struct SolidInterface {
   std::vector<double> w;            ///< traction eta n0^T P per unit current area, 2 n
   std::vector<double> Z;            ///< impedance matrix Z11, Z12, Z22, 3 n
   std::vector<std::uint8_t> fixed;  ///< how free the points are, n values of wire::Freedom
+  std::vector<double> rows = {};    ///< work memory: F and the reference normals, 6 n
   double z_p = 0;  ///< rho c_p of the rest state, for the simplified projection [pressure/velocity]
 };
 

@@ -14,6 +14,7 @@
 #include "solid_solver/boundary/ghost_lines.hpp"
 #include "solid_solver/boundary/interface.hpp"
 #include "solid_solver/boundary/traction_ghost.hpp"
+#include "solid_solver/kernels/side_rows.hpp"
 #include "solid_solver/solid_points.hpp"
 
 namespace fsi::solid {
@@ -74,19 +75,23 @@ class SolidBoundary {
   std::optional<Vec2> wall_of(Side side, int k) const;
   /// Outward unit normal of the reference body.
   Vec2 normal(Side side, int k) const { return at(side, k).n0; }
+  /// Geometry of point k of a side.
+  const SideMetrics& at(Side side, int k) const { return metrics_[index(side)][static_cast<std::size_t>(k)]; }
   /// The load of a side follows the deformation: its area and its normal are the present ones.
   bool follows(Side side) const { return boundaries_[index(side)].load == LoadConfiguration::current; }
 
  private:
   static std::size_t index(Side side) { return static_cast<std::size_t>(side); }
   Layout layout() const { return grid_.x.layout; }
-  SideMetrics at(Side side, int k) const { return side_metrics(*grid_.metrics, layout(), side, k); }
+  const SideIndex& line_of(Side side) const { return lines_[index(side)]; }
   bool loaded(Side side) const { return kind(side) == Kind::traction || kind(side) == Kind::interface; }
   bool mirrored(Side side) const;
   /// Discretised points of a side.
   std::span<const int> points(Side side) const { return advanced_[index(side)]; }
   bool advanced(Side side, int k) const;
   void find_points(Side side);
+  void lay_out_rows(Side side);
+  SideRows rows_of(Side side) { return {rows_[index(side)].view()}; }
   static bool end_of(const SideIndex& line, int k) { return k == 0 || k == line.n - 1; }
   Vec2 position(std::ptrdiff_t at) const { return {grid_.x.plane(0)[at], grid_.x.plane(1)[at]}; }
   /// False at a corner, unless the neighbour's ghost points are
@@ -119,7 +124,7 @@ class SolidBoundary {
   Stiffness stiffness(ConstFieldView q, Side side, int k) const;
   Mat2 impedance(const Stiffness& K, Side side, int k) const;
   void follow_characteristics(FieldView q, Side side, double t) const;
-  void slide_along_interface(FieldView q, const InterfaceValues& values) const;
+  void slide_along_interface(FieldView q, const InterfaceValues& values);
   void set_corner_stress(FieldView q) const;
   struct SidePoint {
     Side side;
@@ -128,8 +133,13 @@ class SolidBoundary {
   void share_change_at_corner(ConstFieldView q, SolidState& s, const SidePoint& one,
                               const SidePoint& other) const;
   void extend_stress_to_corners(FieldView q, Side side, double t) const;
-  void match_side(FieldView q, Side side, double t) const;
-  void match_point(FieldView q, Side side, int k, double t) const;
+  void match_loaded_side(FieldView q, Side side, double t);
+  void begin_match(ConstFieldView q, Side side, double t);
+  void set_matched_ghosts(FieldView q, Side side, double t);
+  void match_velocity(FieldView q, Side side, int k, double t, const BoundaryStrain& strain,
+                      const Vec2& du) const;
+  BoundaryStrain strain_along(ConstFieldView q, Side side, int k) const;
+  void match_slip_side(FieldView q, Side side, double t) const;
   Tensor2 with_sharper_tangent(ConstFieldView q, Side side, int k, const Tensor2& F) const;
   /// Ghost points beyond this end of a side are images of inner ones.
   bool imaged(Side side, int end) const;
@@ -144,11 +154,14 @@ class SolidBoundary {
   static constexpr Tensor2 identity = {1.0, 0.0, 0.0, 1.0};
 
   BoundaryGrid grid_;
+  std::array<SideIndex, 4> lines_;
   L law_;
   double rho_;
   Boundaries boundaries_;
   std::array<Kind, 4> kinds_{};
   std::array<std::vector<int>, 4> advanced_, interpolated_;  ///< points of the sides
+  std::array<std::vector<SideMetrics>, 4> metrics_;
+  std::array<Field, 4> rows_;  ///< of the discretised points of loaded sides, for loops over them
   Limiter limiter_;
   double time_scale_;
   const ChosenSolution* chosen_ = nullptr;

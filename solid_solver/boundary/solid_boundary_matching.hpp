@@ -16,10 +16,10 @@ void SolidBoundary<L>::apply(FieldView q, double t, std::span<const InterfaceVal
   fill_line(q, t, {.first_plane = plane::v1, .last_plane = plane::P22, .m = -1});
   // A loaded side takes the difference along it at a slip wall from the ghost point below the wall.
   for (const Side side : all_sides) {
-    if (kind(side) == Kind::slip) match_side(q, side, t);
+    if (kind(side) == Kind::slip) match_slip_side(q, side, t);
   }
   for (const Side side : all_sides) {
-    if (loaded(side)) match_side(q, side, t);
+    if (loaded(side)) match_loaded_side(q, side, t);
   }
   match_corners(q, t);
   for (const Side side : all_sides) extend_stress_to_corners(q, side, t);
@@ -36,7 +36,7 @@ void SolidBoundary<L>::correct_displacement_dissipation(ConstFieldView q, FieldV
   const double factor = 0.5 * beta;
   for (const Side side : all_sides) {
     if (!loaded(side)) continue;
-    const SideIndex line(layout(), side);
+    const SideIndex& line = line_of(side);
     for (const int k : points(side)) {
       for (int p = plane::u1; p <= plane::u2; ++p) {
         const double* values = q.plane(p);
@@ -50,53 +50,111 @@ void SolidBoundary<L>::correct_displacement_dissipation(ConstFieldView q, FieldV
 /// Derivatives of u or v (first = plane::u1, plane::v1) at a boundary point from its four neighbours.
 template <Law L>
 Tensor2 SolidBoundary<L>::gradient(ConstFieldView q, Side side, int k, int first) const {
-  const SideIndex line(layout(), side);
-  const SideMetrics m = at(side, k);
+  const SideIndex& line = line_of(side);
+  const SideMetrics& m = at(side, k);
   const Tensor2 along = plus_dyad({}, difference_along(q, line, first, k), m.along);
   return plus_dyad(along, difference_across(q, line, first, k, m.sign), m.across);
 }
 
 template <Law L>
-void SolidBoundary<L>::match_side(FieldView q, Side side, double t) const {
-  const SideIndex line(layout(), side);
+void SolidBoundary<L>::match_slip_side(FieldView q, Side side, double t) const {
+  const SideIndex& line = line_of(side);
   for (const int k : points(side)) {
-    const bool slip_at_load = kind(side) == Kind::slip && end_of(line, k) && loaded(neighbour(side, k != 0));
-    if (!inner(side, k) && !slip_at_load) continue;
-    if (loaded(side)) {
-      match_point(q, side, k, t);
-    } else {
-      match_slip_point(q, side, k, t);
-    }
+    const bool slip_at_load = end_of(line, k) && loaded(neighbour(side, k != 0));
+    if (inner(side, k) || slip_at_load) match_slip_point(q, side, k, t);
+  }
+}
+
+/// Ghost points of a loaded side, then the tangential stress, which is that of P(F). All points at once: what is set
+/// at one of them, none of the others reads.
+template <Law L>
+void SolidBoundary<L>::match_loaded_side(FieldView q, Side side, double t) {
+  const SideIndex& line = line_of(side);
+  const SideRows rows = rows_of(side);
+  begin_match(q, side, t);
+  match_tractions(law_, rows);
+  set_matched_ghosts(q, side, t);
+  find_stresses(law_, rows);
+  const std::span<const int> list = points(side);
+  for (std::size_t m = 0; m < list.size(); ++m) {
+    const int k = list[m];
+    if (!inner(side, k)) continue;
+    const SideMetrics& s = at(side, k);
+    const std::ptrdiff_t a = line.at(k, 0);
+    const Tensor2 P = plus(rows.P().at(static_cast<int>(m)), chosen_offset(a, t));
+    SolidState state = load(q, a);
+    state.P = plus_dyad(state.P, s.t0, traction_of(P, s.t0) - traction_of(state.P, s.t0));
+    store(q, a, state);
   }
 }
 
 template <Law L>
-void SolidBoundary<L>::match_point(FieldView q, Side side, int k, double t) const {
-  const SideIndex line(layout(), side);
-  const SideMetrics m = at(side, k);
-  SolidState s = load(q, line.at(k, 0));
-  const BoundaryStrain strain = {.F = plus_dyad(identity, difference_along(q, line, plane::u1, k), m.along),
-                                 .across = m.across,
-                                 .n0 = m.n0,
-                                 .sign = m.sign};
-  const std::ptrdiff_t a = line.at(k, 0);
-  const Tensor2 offset = chosen_offset(a, t);
-  const auto du = match_traction(law_, strain, traction_of(minus(s.P, offset), m.n0),
-                                 difference_across(q, line, plane::u1, k, m.sign));
-  if (!du) broke(side, k, t);
-  set_ghost(q, line, k, plane::u1, 2.0 * m.sign * *du);
-  if (kind(side) == Kind::traction) {
-    const Tensor2 along = plus_dyad({}, difference_along(q, line, plane::v1, k), m.along);
-    const Vec2 rate =
-        T_rate_[index(side)][static_cast<std::size_t>(k)] - traction_of(chosen_source(a, t), m.n0);
-    const Vec2 dv = match_traction_rate(law_, strain, *du, along, rate);
-    set_ghost(q, line, k, plane::v1, 2.0 * m.sign * dv);
+BoundaryStrain SolidBoundary<L>::strain_along(ConstFieldView q, Side side, int k) const {
+  const SideMetrics& m = at(side, k);
+  return {.F = plus_dyad(identity, difference_along(q, line_of(side), plane::u1, k), m.along),
+          .across = m.across,
+          .n0 = m.n0,
+          .sign = m.sign};
+}
+
+/// Rows for match_tractions: it begins with the extrapolated derivatives across.
+template <Law L>
+void SolidBoundary<L>::begin_match(ConstFieldView q, Side side, double t) {
+  const SideIndex& line = line_of(side);
+  const SideRows rows = rows_of(side);
+  const std::span<const int> list = points(side);
+  for (std::size_t m = 0; m < list.size(); ++m) {
+    const int k = list[m];
+    const SideMetrics& s = at(side, k);
+    const std::ptrdiff_t a = line.at(k, 0);
+    const Tensor2 F = strain_along(q, side, k).F;
+    const Vec2 d = difference_across(q, line, plane::u1, k, s.sign);
+    const Vec2 T = traction_of(minus(load(q, a).P, chosen_offset(a, t)), s.n0);
+    rows.F().set(static_cast<int>(m), F.a11, F.a12, F.a21, F.a22);
+    rows[SideRows::next1][m] = d.x();
+    rows[SideRows::next2][m] = d.y();
+    rows[SideRows::T1][m] = T.x();
+    rows[SideRows::T2][m] = T.y();
+    rows[SideRows::open][m] = inner(side, k) ? 1.0 : 0.0;
   }
-  const Tensor2 F = with_sharper_tangent(q, side, k, plus_dyad(strain.F, *du, m.across));
-  const Tensor2 P = plus(law_.P(F), offset);
-  const Vec2 change = traction_of(P, m.t0) - traction_of(s.P, m.t0);
-  s.P = plus_dyad(s.P, m.t0, change);
-  store(q, line.at(k, 0), s);
+}
+
+/// Ghost u from the derivatives that were found, ghost v where the traction is a given function; the rows F then
+/// hold all of F.
+template <Law L>
+void SolidBoundary<L>::set_matched_ghosts(FieldView q, Side side, double t) {
+  const SideIndex& line = line_of(side);
+  const SideRows rows = rows_of(side);
+  const std::span<const int> list = points(side);
+  for (std::size_t m = 0; m < list.size(); ++m) {
+    const int k = list[m];
+    if (!inner(side, k)) continue;
+    const SideMetrics& s = at(side, k);
+    const BoundaryStrain strain = {
+        .F = rows.F().at(static_cast<int>(m)), .across = s.across, .n0 = s.n0, .sign = s.sign};
+    std::optional<Vec2> du = Vec2(rows[SideRows::d1][m], rows[SideRows::d2][m]);
+    if (rows[SideRows::open][m] != 0) {
+      const Vec2 T(rows[SideRows::T1][m], rows[SideRows::T2][m]);
+      du = match_traction(law_, strain, T, difference_across(q, line, plane::u1, k, s.sign));
+    }
+    if (!du) broke(side, k, t);
+    set_ghost(q, line, k, plane::u1, 2.0 * s.sign * *du);
+    if (kind(side) == Kind::traction) match_velocity(q, side, k, t, strain, *du);
+    const Tensor2 F = with_sharper_tangent(q, side, k, plus_dyad(strain.F, *du, s.across));
+    rows.F().set(static_cast<int>(m), F.a11, F.a12, F.a21, F.a22);
+  }
+}
+
+/// Ghost v from the rate of the traction.
+template <Law L>
+void SolidBoundary<L>::match_velocity(FieldView q, Side side, int k, double t, const BoundaryStrain& strain,
+                                      const Vec2& du) const {
+  const SideIndex& line = line_of(side);
+  const SideMetrics& m = at(side, k);
+  const Tensor2 along = plus_dyad({}, difference_along(q, line, plane::v1, k), m.along);
+  const Vec2 rate =
+      T_rate_[index(side)][static_cast<std::size_t>(k)] - traction_of(chosen_source(line.at(k, 0), t), m.n0);
+  set_ghost(q, line, k, plane::v1, 2.0 * m.sign * match_traction_rate(law_, strain, du, along, rate));
 }
 
 /// F with its stretch along a closed or mirrored interface from fourth-order differences, of the reference
@@ -105,7 +163,7 @@ void SolidBoundary<L>::match_point(FieldView q, Side side, int k, double t) cons
 /// lower order only beside them would cost the rate.
 template <Law L>
 Tensor2 SolidBoundary<L>::with_sharper_tangent(ConstFieldView q, Side side, int k, const Tensor2& F) const {
-  const SideIndex line(layout(), side);
+  const SideIndex& line = line_of(side);
   if (kind(side) != Kind::interface || !imaged(side, 0) || !imaged(side, line.n - 1)) return F;
   const auto difference = [&](ConstFieldView field, int first) -> Vec2 {
     const auto value = [&](int at) {
@@ -122,12 +180,9 @@ Tensor2 SolidBoundary<L>::with_sharper_tangent(ConstFieldView q, Side side, int 
 /// The shear of P(F) vanishes: ghost u and v are moved along the side, their normal parts stay extrapolated.
 template <Law L>
 void SolidBoundary<L>::match_slip_point(FieldView q, Side side, int k, double t) const {
-  const SideIndex line(layout(), side);
-  const SideMetrics m = at(side, k);
-  const BoundaryStrain strain = {.F = plus_dyad(identity, difference_along(q, line, plane::u1, k), m.along),
-                                 .across = m.across,
-                                 .n0 = m.n0,
-                                 .sign = m.sign};
+  const SideIndex& line = line_of(side);
+  const SideMetrics& m = at(side, k);
+  const BoundaryStrain strain = strain_along(q, side, k);
   const std::ptrdiff_t a = line.at(k, 0);
   const double shear = m.t0.dot(traction_of(minus(chosen(a, t).P, chosen_offset(a, t)), m.n0));
   const auto du = match_shear(law_, strain, shear, difference_across(q, line, plane::u1, k, m.sign));
@@ -145,14 +200,14 @@ void SolidBoundary<L>::match_slip_point(FieldView q, Side side, int k, double t)
 template <Law L>
 void SolidBoundary<L>::match_corners(FieldView q, double t) const {
   for (const Side side : {Side::left, Side::right}) {
-    const SideIndex line(layout(), side);
+    const SideIndex& line = line_of(side);
     for (const int k : {0, line.n - 1}) {
       if (!advanced(side, k)) continue;
       const Side other = neighbour(side, k != 0);
       if (!loaded(side) || !loaded(other)) continue;
-      const SideIndex other_line(layout(), other);
+      const SideIndex& other_line = line_of(other);
       const int k_other = at_upper_end(side) ? other_line.n - 1 : 0;
-      const SideMetrics m = at(side, k), m_other = at(other, k_other);
+      const SideMetrics &m = at(side, k), &m_other = at(other, k_other);
       const std::ptrdiff_t a = line.at(k, 0);
       const Tensor2 P = minus(load(q, a).P, chosen_offset(a, t));
       const Tensor2 start = gradient(q, side, k, plane::u1);
@@ -176,12 +231,12 @@ void SolidBoundary<L>::match_corners(FieldView q, double t) const {
 template <Law L>
 void SolidBoundary<L>::set_corner_ghosts(FieldView q, Side side, int k, int first,
                                          const Tensor2& gradient) const {
-  const SideIndex line(layout(), side);
+  const SideIndex& line = line_of(side);
   const Side other = neighbour(side, k != 0);
-  const SideIndex other_line(layout(), other);
+  const SideIndex& other_line = line_of(other);
   const int k_other = at_upper_end(side) ? other_line.n - 1 : 0;
   for (const auto& [of, at_k, points] : {std::tuple(side, k, line), std::tuple(other, k_other, other_line)}) {
-    const SideMetrics m = at(of, at_k);
+    const SideMetrics& m = at(of, at_k);
     // Dual of grad r: the step in reference space over one index across the side.
     const Vec2 step =
         Vec2(m.along.y(), -m.along.x()) / (m.across.x() * m.along.y() - m.across.y() * m.along.x());

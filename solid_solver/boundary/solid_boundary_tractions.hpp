@@ -36,7 +36,7 @@ void SolidBoundary<L>::set_tractions(FieldView q, double t, std::span<const Inte
 /// present T until projected values come.
 template <Law L>
 void SolidBoundary<L>::find_traction(ConstFieldView q, Side side, double t) {
-  const SideIndex line(layout(), side);
+  const SideIndex& line = line_of(side);
   const VectorFunction& tau = boundaries_[index(side)].vector;
   const double delta = 1e-3 * time_scale_;
   for (const int k : points(side)) {
@@ -65,7 +65,7 @@ void SolidBoundary<L>::find_traction(ConstFieldView q, Side side, double t) {
 template <Law L>
 double SolidBoundary<L>::stretch_along(ConstFieldView q, Side side, int k) const {
   if (!follows(side)) return 1.0;
-  const SideIndex line(layout(), side);
+  const SideIndex& line = line_of(side);
   const auto stretch = [&](int at_k) {
     const Vec2 along = difference_along(grid_.x, line, 0, at_k);
     return (along + difference_along(q, line, plane::u1, at_k)).norm() / along.norm();
@@ -79,7 +79,7 @@ double SolidBoundary<L>::stretch_along(ConstFieldView q, Side side, int k) const
 /// T = (w_n / eta) n, or w_n n0 for loads on the reference configuration; besides the chosen traction.
 template <Law L>
 void SolidBoundary<L>::find_projected_traction(ConstFieldView q, double t, const InterfaceValues& values) {
-  const SideIndex line(layout(), values.side);
+  const SideIndex& line = line_of(values.side);
   const auto n = static_cast<std::size_t>(line.n);
   for (std::size_t k = 0; k < n; ++k) {
     const double eta = 1.0 / stretch_along(q, values.side, static_cast<int>(k));
@@ -111,11 +111,11 @@ Mat2 SolidBoundary<L>::impedance(const Stiffness& K, Side side, int k) const {
 /// change the traction alone: with the rest, ripples grow where they meet an interface behind a strong shock.
 template <Law L>
 void SolidBoundary<L>::follow_characteristics(FieldView q, Side side, double t) const {
-  const SideIndex line(layout(), side);
+  const SideIndex& line = line_of(side);
   for (const int k : points(side)) {
     if (!inner(side, k)) continue;
     const std::ptrdiff_t a = line.at(k, 0);
-    const SideMetrics m = at(side, k);
+    const SideMetrics& m = at(side, k);
     SolidState s = load(q, a);
     const Stiffness K = stiffness(q, side, k);
     const Mat2 Z = impedance(K, side, k);
@@ -144,21 +144,29 @@ void SolidBoundary<L>::follow_characteristics(FieldView q, Side side, double t) 
 /// gives n . v, and the shear that the prediction left changes t . v. Differs from the paper, which leaves t
 /// . v as predicted; nothing damps it then, and with the relaxation (41) ripples of it grow from round-off.
 template <Law L>
-void SolidBoundary<L>::slide_along_interface(FieldView q, const InterfaceValues& values) const {
+void SolidBoundary<L>::slide_along_interface(FieldView q, const InterfaceValues& values) {
   const Side side = values.side;
-  const SideIndex line(layout(), side);
+  const SideIndex& line = line_of(side);
+  const SideRows rows = rows_of(side);
   const auto n = static_cast<std::size_t>(line.n);
-  for (const int point : points(side)) {
-    const Kind other = kind(neighbour(side, point != 0));
-    if (end_of(line, point) && other != Kind::periodic) continue;
-    const auto k = static_cast<std::size_t>(point);
-    const std::ptrdiff_t a = line.at(point, 0);
+  const std::span<const int> list = points(side);
+  for (std::size_t m = 0; m < list.size(); ++m) {
+    const Tensor2 F = plus(identity, gradient(q, side, list[m], plane::u1));
+    rows.F().set(static_cast<int>(m), F.a11, F.a12, F.a21, F.a22);
+  }
+  find_impedances(law_, rows, rho_);
+  const double *Z11 = rows[SideRows::B11], *Z12 = rows[SideRows::B12], *Z22 = rows[SideRows::B22];
+  for (std::size_t m = 0; m < list.size(); ++m) {
+    const Kind other = kind(neighbour(side, list[m] != 0));
+    if (end_of(line, list[m]) && other != Kind::periodic) continue;
+    const auto k = static_cast<std::size_t>(list[m]);
+    const std::ptrdiff_t a = line.at(list[m], 0);
     SolidState s = load(q, a);
-    const Mat2 Z = impedance(stiffness(q, side, point), side, point);
+    const Mat2 Z = matrix({Z11[m], Z12[m], Z22[m]});
     if (!Z.allFinite()) continue;
     const Vec2 t(-values.n[n + k], values.n[k]);
     const Vec2 missing =
-        T_[index(side)][k] - traction_of(s.P, normal(side, point)) - Z * v_change_[index(side)][k];
+        T_[index(side)][k] - traction_of(s.P, normal(side, list[m])) - Z * v_change_[index(side)][k];
     s.v += t * (t.dot(missing) / t.dot(Z * t));
     store(q, a, s);
   }
@@ -168,16 +176,16 @@ void SolidBoundary<L>::slide_along_interface(FieldView q, const InterfaceValues&
 template <Law L>
 Vec2 SolidBoundary<L>::side_normal_at_end(Side side, int k) const {
   const Side other = neighbour(side, k != 0);
-  return at(other, at_upper_end(side) ? SideIndex(layout(), other).n - 1 : 0).n0;
+  return at(other, at_upper_end(side) ? line_of(other).n - 1 : 0).n0;
 }
 
 /// n0^T P := T on loaded sides, no shear on slip and symmetry sides; the rest of P stays.
 template <Law L>
 void SolidBoundary<L>::set_normal_stress(FieldView q, Side side, double t) const {
-  const SideIndex line(layout(), side);
+  const SideIndex& line = line_of(side);
   for (const int k : points(side)) {
     const std::ptrdiff_t a = line.at(k, 0);
-    const SideMetrics m = at(side, k);
+    const SideMetrics& m = at(side, k);
     SolidState s = load(q, a);
     Vec2 change = T_[index(side)][static_cast<std::size_t>(k)] - traction_of(s.P, m.n0);
     const Tensor2 exact = chosen(a, t).P;
@@ -198,11 +206,11 @@ void SolidBoundary<L>::set_normal_stress(FieldView q, Side side, double t) const
 template <Law L>
 void SolidBoundary<L>::set_corner_stress(FieldView q) const {
   for (const Side side : {Side::left, Side::right}) {
-    const SideIndex line(layout(), side);
+    const SideIndex& line = line_of(side);
     for (const int k : {0, line.n - 1}) {
       if (!advanced(side, k)) continue;
       const Side other = neighbour(side, k != 0);
-      const int k_other = at_upper_end(side) ? SideIndex(layout(), other).n - 1 : 0;
+      const int k_other = at_upper_end(side) ? line_of(other).n - 1 : 0;
       const std::ptrdiff_t a = line.at(k, 0);
       SolidState s = load(q, a);
       if (loaded(side) && loaded(other)) {
@@ -240,7 +248,7 @@ void SolidBoundary<L>::share_change_at_corner(ConstFieldView q, SolidState& s, c
 /// a given traction still holds, and so does slip. Differences of u are only of first order there.
 template <Law L>
 void SolidBoundary<L>::extend_stress_to_corners(FieldView q, Side side, double t) const {
-  const SideIndex line(layout(), side);
+  const SideIndex& line = line_of(side);
   for (const int k : {0, line.n - 1}) {
     if (!advanced(side, k)) continue;
     const Kind other = kind(neighbour(side, k != 0));

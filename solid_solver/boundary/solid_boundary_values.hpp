@@ -12,11 +12,17 @@ template <Law L>
 SolidBoundary<L>::SolidBoundary(BoundaryGrid grid, const L& law, double rho, Boundaries boundaries,
                                 Limiter limiter, double time_scale)
     : grid_(std::move(grid)),
+      lines_{SideIndex(layout(), Side::left), SideIndex(layout(), Side::right),
+             SideIndex(layout(), Side::bottom), SideIndex(layout(), Side::top)},
       law_(law),
       rho_(rho),
       boundaries_(std::move(boundaries)),
       limiter_(limiter),
       time_scale_(time_scale) {
+  for (const Side side : all_sides) {
+    for (int k = 0; k < line_of(side).n; ++k)
+      metrics_[index(side)].push_back(side_metrics(*grid_.metrics, layout(), side, k));
+  }
   for (const Side side : all_sides) {
     Kind& own = kinds_[index(side)];
     own = boundaries_[index(side)].kind;
@@ -26,8 +32,9 @@ SolidBoundary<L>::SolidBoundary(BoundaryGrid grid, const L& law, double rho, Bou
       throw UserMistake(
           fmt::format("grid \"{}\": side {} is a dirichlet side without a state", grid_.name, name_of(side)));
     }
-    const SideIndex line(layout(), side);
+    const SideIndex& line = line_of(side);
     find_points(side);
+    if (loaded(side)) lay_out_rows(side);
     T_[index(side)].assign(static_cast<std::size_t>(line.n), Vec2::Zero());
     T_rate_[index(side)] = v_change_[index(side)] = T_[index(side)];
   }
@@ -41,7 +48,7 @@ SolidBoundary<L>::SolidBoundary(BoundaryGrid grid, const L& law, double rho, Bou
 
 template <Law L>
 void SolidBoundary<L>::find_points(Side side) {
-  const SideIndex line(layout(), side);
+  const SideIndex& line = line_of(side);
   for (int k = 0; k < line.n; ++k) {
     const GridPoint p = grid_point(layout(), side, k);
     if (grid_.points->is_discretised(p.i, p.j)) {
@@ -49,6 +56,22 @@ void SolidBoundary<L>::find_points(Side side) {
     } else if (grid_.points->is_valid(p.i, p.j)) {
       interpolated_[index(side)].push_back(k);
     }
+  }
+}
+
+template <Law L>
+void SolidBoundary<L>::lay_out_rows(Side side) {
+  const std::span<const int> list = points(side);
+  rows_[index(side)] = Field(Layout(static_cast<int>(list.size()), SideRows::count), 1);
+  const SideRows rows = rows_of(side);
+  for (std::size_t m = 0; m < list.size(); ++m) {
+    const SideMetrics& s = at(side, list[m]);
+    rows[SideRows::normal1][m] = s.n0.x();
+    rows[SideRows::normal2][m] = s.n0.y();
+    rows[SideRows::across1][m] = s.across.x();
+    rows[SideRows::across2][m] = s.across.y();
+    rows[SideRows::size][m] = s.across.norm();
+    rows[SideRows::scale][m] = s.sign / s.across.norm();
   }
 }
 
@@ -67,7 +90,7 @@ bool SolidBoundary<L>::reads_interpolated_points() const {
 
 template <Law L>
 bool SolidBoundary<L>::mirrored(Side side) const {
-  const SideIndex line(layout(), side);
+  const SideIndex& line = line_of(side);
   double defect = 0, size = 0;
   const Vec2 n = at(side, 0).n0;
   const Vec2 origin = position(line.at(0, 0));
@@ -84,7 +107,7 @@ bool SolidBoundary<L>::mirrored(Side side) const {
 template <Law L>
 std::optional<typename SolidBoundary<L>::Motion> SolidBoundary<L>::given_motion(Side side, int k,
                                                                                 double t) const {
-  const SideIndex line(layout(), side);
+  const SideIndex& line = line_of(side);
   if (!end_of(line, k)) return std::nullopt;
   const Side other = neighbour(side, k != 0);
   const Vec2 x = position(line.at(k, 0));
@@ -96,7 +119,7 @@ std::optional<typename SolidBoundary<L>::Motion> SolidBoundary<L>::given_motion(
 
 template <Law L>
 std::optional<Vec2> SolidBoundary<L>::wall_of(Side side, int k) const {
-  const SideIndex line(layout(), side);
+  const SideIndex& line = line_of(side);
   if (!end_of(line, k)) return std::nullopt;
   const Kind other = kind(neighbour(side, k != 0));
   if (other != Kind::slip && other != Kind::symmetry) return std::nullopt;
@@ -111,7 +134,7 @@ bool SolidBoundary<L>::imaged(Side side, int end) const {
 
 template <Law L>
 bool SolidBoundary<L>::inner(Side side, int k) const {
-  const SideIndex line(layout(), side);
+  const SideIndex& line = line_of(side);
   if (!end_of(line, k) || imaged(side, k)) return true;
   return loaded(side) && kind(neighbour(side, k != 0)) == Kind::slip;
 }
@@ -156,7 +179,7 @@ Tensor2 SolidBoundary<L>::chosen_strain_rate(std::ptrdiff_t at, double t) const 
 
 template <Law L>
 void SolidBoundary<L>::project_velocity(FieldView q, double t, const InterfaceValues& values) {
-  const SideIndex line(layout(), values.side);
+  const SideIndex& line = line_of(values.side);
   const auto n = static_cast<std::size_t>(line.n);
   for (std::size_t k = 0; k < n; ++k) {
     const std::ptrdiff_t a = line.at(static_cast<int>(k), 0);
@@ -182,7 +205,7 @@ void SolidBoundary<L>::set_motion(FieldView q, double t, std::span<const Interfa
   for (const Side side : all_sides) {
     if (kind(side) == Kind::displacement) set_given_motion(q, side, t);
     if (kind(side) == Kind::periodic && at_upper_end(side)) {
-      const SideIndex line(layout(), side);
+      const SideIndex& line = line_of(side);
       copy_period(q, line, {.m = 0, .begin = 0, .end = line.n});
     }
   }
@@ -203,7 +226,7 @@ typename SolidBoundary<L>::Motion SolidBoundary<L>::displacement_of(Side side, c
 
 template <Law L>
 void SolidBoundary<L>::set_given_motion(FieldView q, Side side, double t) {
-  const SideIndex line(layout(), side);
+  const SideIndex& line = line_of(side);
   for (const int k : points(side)) {
     const std::ptrdiff_t a = line.at(k, 0);
     const auto [u, v] = displacement_of(side, position(a), t);
@@ -221,7 +244,7 @@ void SolidBoundary<L>::set_given_motion(FieldView q, Side side, double t) {
 template <Law L>
 void SolidBoundary<L>::remove_normal_motion(FieldView q, Side side, double t) {
   constexpr double parallel = 1e-6;
-  const SideIndex line(layout(), side);
+  const SideIndex& line = line_of(side);
   for (const int k : points(side)) {
     const std::ptrdiff_t a = line.at(k, 0);
     const Vec2 n = at(side, k).n0;
@@ -232,7 +255,7 @@ void SolidBoundary<L>::remove_normal_motion(FieldView q, Side side, double t) {
     s.v -= n * n.dot(s.v);
     const Side other = neighbour(side, k != 0);
     if (end_of(line, k) && (kind(other) == Kind::slip || kind(other) == Kind::symmetry)) {
-      const Vec2 m = at(other, at_upper_end(side) ? SideIndex(layout(), other).n - 1 : 0).n0;
+      const Vec2 m = at(other, at_upper_end(side) ? line_of(other).n - 1 : 0).n0;
       if (std::abs(n.x() * m.y() - n.y() * m.x()) > parallel) s.u = s.v = Vec2::Zero();
     }
     store(q, a, sum_of(s, 1.0, exact));
@@ -241,7 +264,7 @@ void SolidBoundary<L>::remove_normal_motion(FieldView q, Side side, double t) {
 
 template <Law L>
 void SolidBoundary<L>::set_exact(FieldView q, Side side, double t, int m) const {
-  const SideIndex line(layout(), side);
+  const SideIndex& line = line_of(side);
   const int beyond = m < 0 ? Layout::ghosts : 0;
   for (int k = -beyond; k < line.n + beyond; ++k) {
     const GridPoint p = grid_point(layout(), side, std::clamp(k, 0, line.n - 1));
@@ -254,7 +277,7 @@ void SolidBoundary<L>::set_exact(FieldView q, Side side, double t, int m) const 
 
 template <Law L>
 void SolidBoundary<L>::mirror(FieldView q, Side side, double t, const GhostRange& range) const {
-  const SideIndex line(layout(), side);
+  const SideIndex& line = line_of(side);
   const Vec2 n0 = at(side, 0).n0;
   if (chosen_ == nullptr) return reflect(q, line, range, n0);
   for (int k = range.begin; k < range.end; ++k) {
@@ -266,7 +289,7 @@ void SolidBoundary<L>::mirror(FieldView q, Side side, double t, const GhostRange
 
 template <Law L>
 void SolidBoundary<L>::fill_side(FieldView q, Side side, double t, const GhostRange& range) const {
-  const SideIndex line(layout(), side);
+  const SideIndex& line = line_of(side);
   switch (kind(side)) {
     case Kind::none:
       break;
@@ -290,7 +313,7 @@ void SolidBoundary<L>::fill_line(FieldView q, double t, const GhostRange& range)
   for (const Side side : all_sides) {
     GhostRange own = range;
     own.begin = 0;
-    own.end = SideIndex(layout(), side).n;
+    own.end = line_of(side).n;
     fill_side(q, side, t, own);
   }
 }
@@ -302,14 +325,14 @@ void SolidBoundary<L>::fill_frame(FieldView q, double t) const {
   constexpr int g = Layout::ghosts;
   for (const Side side : {Side::bottom, Side::top}) {
     if (kind(side) == Kind::none) continue;
-    const SideIndex line(layout(), side);
+    const SideIndex& line = line_of(side);
     for (int m = -1; m >= -g; --m) {
       extrapolate(q, line, {.m = m, .begin = -g, .end = 0}, limiter_);
       extrapolate(q, line, {.m = m, .begin = line.n, .end = line.n + g}, limiter_);
     }
   }
   for (const Side side : all_sides) {
-    const SideIndex line(layout(), side);
+    const SideIndex& line = line_of(side);
     if (kind(side) != Kind::periodic && kind(side) != Kind::symmetry && kind(side) != Kind::dirichlet)
       continue;
     for (int m = -1; m >= -g; --m) {
@@ -330,7 +353,7 @@ void SolidBoundary<L>::refresh_ghosts(FieldView q, double t) const {
   }
   for (const Side side : all_sides) {
     if (kind(side) != Kind::periodic) continue;
-    const int n = SideIndex(layout(), side).n;
+    const int n = line_of(side).n;
     for (int m = -1; m >= -Layout::ghosts; --m) {
       fill_side(q, side, t, {.m = m, .begin = -Layout::ghosts, .end = n + Layout::ghosts});
     }

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "solid_solver/kernels/impedance.hpp"
+#include "solid_solver/kernels/side_rows.hpp"
 #include "solid_solver/kernels/state.hpp"
 
 namespace fsi::solid {
@@ -76,7 +77,6 @@ inline Vec2 unstrained_across(const BoundaryStrain& at) {
 template <Law L>
 std::optional<Vec2> match_traction(const L& law, const BoundaryStrain& at, const Vec2& T, Vec2 d) {
   constexpr int most_iterations = 30;
-  constexpr double strain_tolerance = 1e-13;
   constexpr int most_halvings = 40;
   const double size = at.across.norm();
   TractionMiss now = traction_miss(law, at, T, d);
@@ -86,7 +86,7 @@ std::optional<Vec2> match_traction(const L& law, const BoundaryStrain& at, const
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
     Vec2 step = now.B.inverse() * now.miss * (at.sign / size);
     if (!step.allFinite()) return std::nullopt;
-    if (step.norm() * size < strain_tolerance) return d + step;
+    if (step.norm() * size < newton_tolerance) return d + step;
     TractionMiss next = traction_miss(law, at, T, d + step);
     int halvings = 0;
     while (!(next.bears_waves && next.miss.norm() < now.miss.norm()) && ++halvings < most_halvings) {
@@ -94,7 +94,7 @@ std::optional<Vec2> match_traction(const L& law, const BoundaryStrain& at, const
       next = traction_miss(law, at, T, d + step);
     }
     if (halvings == most_halvings) {  // as near as rounding lets it come, or as the law does
-      if (now.miss.norm() < strain_tolerance * now.B.norm()) return d;
+      if (now.miss.norm() < newton_tolerance * now.B.norm()) return d;
       return std::nullopt;
     }
     d += step;
@@ -117,7 +117,6 @@ Vec2 match_traction_rate(const L& law, const BoundaryStrain& at, const Vec2& d, 
 template <Law L>
 std::optional<Vec2> match_shear(const L& law, const BoundaryStrain& at, double shear, Vec2 d) {
   constexpr int most_iterations = 30;
-  constexpr double strain_tolerance = 1e-13;
   const double size = at.across.norm();
   const Vec2 t0(-at.n0.y(), at.n0.x());
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
@@ -127,7 +126,7 @@ std::optional<Vec2> match_shear(const L& law, const BoundaryStrain& at, double s
     const double step = (shear - t0.dot(traction_of(law.P(F), at.n0))) * at.sign / (stiffness * size);
     d += step * t0;
     if (!d.allFinite()) return std::nullopt;
-    if (std::abs(step) * size < strain_tolerance) return d;
+    if (std::abs(step) * size < newton_tolerance) return d;
   }
   return std::nullopt;
 }

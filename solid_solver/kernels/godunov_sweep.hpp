@@ -3,8 +3,8 @@
 ///
 /// Row j goes through four loops, each a pass over whole runs of points of structure-of-arrays rows that stay
 /// in cache: `predict` (F, K, slopes, states at t + dt/2), `solve_faces2` (faces between rows j - 1 and j),
-/// `update` (row j - 1, whose four faces are now known) and `solve_faces1` (faces inside row j). One
-/// Riemann problem per face.
+/// `update` (row j - 1, whose four faces are now known), what dissipation and relaxation add to it, and
+/// `solve_faces1` (faces inside row j). One Riemann problem per face.
 
 #include <limits>
 #include <utility>
@@ -14,7 +14,14 @@
 
 namespace fsi::solid {
 
-/// Extremes over the points of a sweep, for the next time step and the health of the numbers.
+/// What a sweep looks for besides making its step.
+enum class Look {
+  soundness,  ///< whether det F > 0 and all waves are real
+  all         ///< wave speeds as well, for the next time step
+};
+
+/// Extremes over the points of a sweep, for the next time step and the health of the numbers. Those of the waves
+/// are there where the sweep looked for all.
 struct SweepResult {
   double rate_squared = 0;  ///< largest (sum over directions of c_p |grad r|)^2 [1/time^2]
   /// Largest (difference of the two directions' c_p |grad r|)^2 + 4 |X|^2 (shared_upwinding) [1/time^2]; 0
@@ -42,17 +49,18 @@ struct SweepResult {
 inline constexpr double mean_velocity_share = 0.8;
 
 /// Rows of work space a sweep needs.
-inline constexpr int sweep_work_rows = 62;
+inline constexpr int sweep_work_rows = 68;
 
 /// Fields and numbers of one sweep.
 struct SweepData {
   const SolidPoints* points = nullptr;
-  ConstFieldView q;             ///< unknowns at t, both ghost lines set
-  FieldView next;               ///< unknowns at t + dt; ghosts are not set
-  ConstFieldView force;         ///< body force at t + dt/2, two planes or none
-  FieldView work;               ///< work rows: layout (n1, sweep_work_rows), one plane, zero at birth
-  double rho = 1;               ///< [mass/volume]
-  double dt = 0;                ///< [time]
+  ConstFieldView q;      ///< unknowns at t, both ghost lines set
+  FieldView next;        ///< unknowns at t + dt; ghosts are not set
+  ConstFieldView force;  ///< body force at t + dt/2, two planes or none
+  FieldView work;        ///< work rows: layout (n1, sweep_work_rows), one plane, zero at birth
+  double rho = 1;        ///< [mass/volume]
+  double dt = 0;         ///< [time]
+  Look look = Look::all;
   bool measures_spread = true;  ///< SweepResult::spread_squared; only relaxation and (39) need it
 };
 
@@ -62,17 +70,25 @@ class GodunovSweep {
   GodunovSweep(const SweepData& data, const ReferenceMetrics& metrics, const L& law)
       : d_(data), metrics_(metrics), law_(law) {}
 
-  SweepResult run() const;
+  /// `after` is called for each run of points, RowRun, whose step was made; all of their row and the rows
+  /// beside it keep the state at t.
+  template <class AfterRow>
+  SweepResult run(const AfterRow& after) const;
+  SweepResult run() const {
+    return run([](RowRun) {});
+  }
 
  private:
   // Functions of their own: inlined into run() they would be too much for the compiler to inline what their
   // loops call, and no loop with a call in it vectorises.
-  [[gnu::noinline]] SweepResult predict(RowRun run) const;
+  [[gnu::noinline]] void predict(RowRun run) const;
+  [[gnu::noinline]] SweepResult waves(RowRun run) const;
   [[gnu::noinline]] double spread_squared(RowRun run) const;
   [[gnu::noinline]] double settle(RowRun run) const;
   [[gnu::noinline]] void solve_faces1(RowRun run) const;
   [[gnu::noinline]] void solve_faces2(RowRun run) const;
-  [[gnu::noinline]] void update(RowRun run) const;
+  [[gnu::noinline]] SweepResult update(RowRun run) const;
+  void look_at_waves(RowRun run, SweepResult& result) const;
 
   // Work rows; those of a row number exist for the present and the last row.
   double* work(int row) const { return d_.work.row(0, row); }
@@ -93,6 +109,10 @@ class GodunovSweep {
     return {work(k),     work(k + 1), work(k + 2), work(k + 3), work(k + 4),
             work(k + 5), work(k + 6), work(k + 7), work(k + 8), work(k + 9)};
   }
+  /// Velocity of the points at t + dt/2.
+  double* centre(int c, int j) const { return work(62 + 2 * c + (j & 1)); }
+  /// det F, but no number where waves are not real.
+  double* soundness(int j) const { return work(66 + (j & 1)); }
   const double* force(int c, int j) const { return d_.force.planes > 0 ? d_.force.row(c, j) : work(61); }
 
   const SweepData& d_;
@@ -101,27 +121,26 @@ class GodunovSweep {
 };
 
 template <Law L, class Row, Limiter limiter>
-SweepResult GodunovSweep<L, Row, limiter>::run() const {
+template <class AfterRow>
+SweepResult GodunovSweep<L, Row, limiter>::run(const AfterRow& after) const {
   const int n2 = d_.q.layout.n2;
   const SolidPoints& points = *d_.points;
   SweepResult result;
   for (int j = -1; j <= n2; ++j) {
-    for (const auto& [begin, end] : points.beside(j)) {
-      predict({j, begin, end});
-      result.settled += settle({j, begin, end});
-    }
-    if (j >= 0 && j < n2) {
-      for (const auto& [begin, end] : points.discretised(j)) {
-        result.add(predict({j, begin, end}));
-        if (!d_.measures_spread) continue;
-        result.spread_squared = std::max(result.spread_squared, spread_squared({j, begin, end}));
-      }
+    for (const auto& [begin, end] : points.predicted(j)) predict({j, begin, end});
+    for (const auto& [begin, end] : points.beside(j)) result.settled += settle({j, begin, end});
+    if (d_.look == Look::all && j >= 0 && j < n2) {
+      for (const auto& [begin, end] : points.discretised(j)) look_at_waves({j, begin, end}, result);
     }
     if (j >= 0) {
       for (const auto& [begin, end] : points.faces(j)) solve_faces2({j, begin, end});
     }
     if (j >= 1) {
-      for (const auto& [begin, end] : points.discretised(j - 1)) update({j - 1, begin, end});
+      for (const auto& [begin, end] : points.discretised(j - 1)) {
+        const RowRun run = {j - 1, begin, end};
+        result.add(update(run));
+        after(run);
+      }
     }
     if (j >= 0 && j < n2) {
       for (const auto& [begin, end] : points.discretised(j)) solve_faces1({j, begin, end});
@@ -130,12 +149,18 @@ SweepResult GodunovSweep<L, Row, limiter>::run() const {
   return result;
 }
 
+template <Law L, class Row, Limiter limiter>
+void GodunovSweep<L, Row, limiter>::look_at_waves(RowRun run, SweepResult& result) const {
+  result.add(waves(run));
+  if (d_.measures_spread) result.spread_squared = std::max(result.spread_squared, spread_squared(run));
+}
+
 /// K at t + dt/2 from F of u + dt/2 v; slopes of v and P; states of the four faces and of the centre at t +
 /// dt/2, the last giving its share of u, paper eq. (37). Differs from the paper: the acoustic matrix of a
 /// face is the mean of those of its two points, which the time step needs anyway, instead of one from an F
 /// differenced about the face. It multiplies a jump of O(h^3) in smooth flow.
 template <Law L, class Row, Limiter limiter>
-SweepResult GodunovSweep<L, Row, limiter>::predict(RowRun run) const {
+void GodunovSweep<L, Row, limiter>::predict(RowRun run) const {
   const int j = run.j;
   const Row row(metrics_, j);
   const StateRows q(d_.q, j);
@@ -143,11 +168,10 @@ SweepResult GodunovSweep<L, Row, limiter>::predict(RowRun run) const {
   const AcousticRows along1 = acoustic1(), along2 = acoustic2(j);
   const StiffnessRows stiff = stiffness(j);
   const double *b1 = force(0, j), *b2 = force(1, j);
-  double *next1 = d_.next.row(plane::u1, j), *next2 = d_.next.row(plane::u2, j);
+  double *centre1 = centre(0, j), *centre2 = centre(1, j), *sound = soundness(j);
   const L law = law_;
-  const double dt = d_.dt, dt_rho = dt / d_.rho, dt_u = (1.0 - mean_velocity_share) * dt;
-  double rate = 0, min_J = std::numeric_limits<double>::infinity(), min_phi = min_J, broken = 0;
-#pragma omp simd reduction(max : rate) reduction(min : min_J, min_phi) reduction(+ : broken)
+  const double dt = d_.dt, dt_rho = dt / d_.rho;
+#pragma omp simd
   for (int i = run.begin; i < run.end; ++i) {
     const Tensor2 F = deformation_gradient(row, q, i, 0.5 * dt);
     const Stiffness K = law.K(F);
@@ -156,14 +180,9 @@ SweepResult GodunovSweep<L, Row, limiter>::predict(RowRun run) const {
     along1.set(i, A1);
     along2.set(i, A2);
 
-    const double J = determinant(F), scale = row.inverse_jacobian(i) * row.inverse_jacobian(i);
-    const Pair phi1 = wave_eigenvalues(A1), phi2 = wave_eigenvalues(A2);
-    const double fastest = scale * (phi1.x + phi2.x + 2.0 * std::sqrt(phi1.x * phi2.x));
-    const double slowest = scale * (phi1.y < phi2.y ? phi1.y : phi2.y);
-    rate = rate < fastest ? fastest : rate;
-    min_J = J < min_J ? J : min_J;
-    min_phi = slowest < min_phi ? slowest : min_phi;
-    broken += (J > 0.0 ? 0.0 : 1.0) + (slowest > 0.0 ? 0.0 : 1.0);
+    const double J = determinant(F);
+    sound[i] =
+        J > 0.0 && !(bears_waves(A1) && bears_waves(A2)) ? std::numeric_limits<double>::quiet_NaN() : J;
 
     const Pair s1 = q.v1.template half_slopes<limiter>(i), s2 = q.v2.template half_slopes<limiter>(i);
     const Pair s11 = q.P11.template half_slopes<limiter>(i), s12 = q.P12.template half_slopes<limiter>(i);
@@ -176,8 +195,8 @@ SweepResult GodunovSweep<L, Row, limiter>::predict(RowRun run) const {
         q.v2[i] + dt_rho * (row.gradient(i, s12.x, s12.y).x + row.gradient(i, s22.x, s22.y).y + 0.5 * b2[i]);
     const Tensor2 P = {q.P11[i] + dt * dP.a11, q.P12[i] + dt * dP.a12, q.P21[i] + dt * dP.a21,
                        q.P22[i] + dt * dP.a22};
-    next1[i] = q.u1[i] + dt_u * v1;
-    next2[i] = q.u2[i] + dt_u * v2;
+    centre1[i] = v1;
+    centre2[i] = v2;
     to_east.set(i, v1 + s1.x, v2 + s2.x,
                 row.force_east(i, {P.a11 + s11.x, P.a12 + s12.x, P.a21 + s21.x, P.a22 + s22.x}));
     to_west.set(i, v1 - s1.x, v2 - s2.x,
@@ -187,7 +206,24 @@ SweepResult GodunovSweep<L, Row, limiter>::predict(RowRun run) const {
     to_south.set(i, v1 - s1.y, v2 - s2.y,
                  row.force_south(i, {P.a11 - s11.y, P.a12 - s12.y, P.a21 - s21.y, P.a22 - s22.y}));
   }
-  return {.rate_squared = rate / d_.rho, .min_det_F = min_J, .min_phi_s = min_phi, .broken = broken};
+}
+
+/// What `predict` left in the rows of run.j; for SweepResult::rate_squared and min_phi_s.
+template <Law L, class Row, Limiter limiter>
+SweepResult GodunovSweep<L, Row, limiter>::waves(RowRun run) const {
+  const Row row(metrics_, run.j);
+  const AcousticRows along1 = acoustic1(), along2 = acoustic2(run.j);
+  double rate = 0, min_phi = std::numeric_limits<double>::infinity();
+#pragma omp simd reduction(max : rate) reduction(min : min_phi)
+  for (int i = run.begin; i < run.end; ++i) {
+    const double scale = row.inverse_jacobian(i) * row.inverse_jacobian(i);
+    const Pair phi1 = wave_eigenvalues(along1.at(i)), phi2 = wave_eigenvalues(along2.at(i));
+    const double fastest = scale * (phi1.x + phi2.x + 2.0 * std::sqrt(phi1.x * phi2.x));
+    const double slowest = scale * (phi1.y < phi2.y ? phi1.y : phi2.y);
+    rate = rate < fastest ? fastest : rate;
+    min_phi = slowest < min_phi ? slowest : min_phi;
+  }
+  return {.rate_squared = rate / d_.rho, .min_phi_s = min_phi};
 }
 
 /// What `predict` left in the rows of run.j; for SweepResult::spread_squared.
@@ -217,9 +253,6 @@ template <Law L, class Row, Limiter limiter>
 double GodunovSweep<L, Row, limiter>::settle(RowRun run) const {
   const int j = run.j;
   double settled = 0;
-  const auto bears_waves = [](const SymmetricTensor2& A) {
-    return A.a11 > 0.0 && A.a11 * A.a22 - A.a12 * A.a12 > 0.0;  // false for what is no number
-  };
   for (int i = run.begin; i < run.end; ++i) {
     const AcousticRows along1 = acoustic1(), along2 = acoustic2(j);
     if (bears_waves(along1.at(i)) && bears_waves(along2.at(i))) continue;
@@ -277,7 +310,7 @@ void GodunovSweep<L, Row, limiter>::solve_faces2(RowRun run) const {
 /// velocities with the point's own K and grad r, exactly zero for a uniform velocity; paper eq. (37): what
 /// the mean of the old and the new velocity brings to the displacement.
 template <Law L, class Row, Limiter limiter>
-void GodunovSweep<L, Row, limiter>::update(RowRun run) const {
+SweepResult GodunovSweep<L, Row, limiter>::update(RowRun run) const {
   const int j = run.j;
   const Row row(metrics_, j);
   const FaceRows along1 = faces1(), low = faces2(j), high = faces2(j + 1);
@@ -290,8 +323,12 @@ void GodunovSweep<L, Row, limiter>::update(RowRun run) const {
   double *next_v1 = d_.next.row(plane::v1, j), *next_v2 = d_.next.row(plane::v2, j);
   double *next_P11 = d_.next.row(plane::P11, j), *next_P12 = d_.next.row(plane::P12, j),
          *next_P21 = d_.next.row(plane::P21, j), *next_P22 = d_.next.row(plane::P22, j);
-  const double dt = d_.dt, dt_rho = dt / d_.rho, dt_u = 0.5 * mean_velocity_share * dt;
-#pragma omp simd
+  const double *u1 = d_.q.row(plane::u1, j), *u2 = d_.q.row(plane::u2, j);
+  const double *centre1 = centre(0, j), *centre2 = centre(1, j), *sound = soundness(j);
+  const double dt = d_.dt, dt_rho = dt / d_.rho, dt_mean = 0.5 * mean_velocity_share * dt,
+               dt_centre = (1.0 - mean_velocity_share) * dt;
+  double min_J = std::numeric_limits<double>::infinity(), broken = 0;
+#pragma omp simd reduction(min : min_J) reduction(+ : broken)
   for (int i = run.begin; i < run.end; ++i) {
     const double per_area = row.inverse_area(i);
     const double f1 = (along1.f1[i + 1] - along1.f1[i]) + (high.f1[i] - low.f1[i]);
@@ -300,8 +337,8 @@ void GodunovSweep<L, Row, limiter>::update(RowRun run) const {
     const double w2 = v2[i] + dt_rho * (per_area * f2 + b2[i]);
     next_v1[i] = w1;
     next_v2[i] = w2;
-    next_u1[i] += dt_u * (v1[i] + w1);
-    next_u2[i] += dt_u * (v2[i] + w2);
+    next_u1[i] = (u1[i] + dt_centre * centre1[i]) + dt_mean * (v1[i] + w1);
+    next_u2[i] = (u2[i] + dt_centre * centre2[i]) + dt_mean * (v2[i] + w2);
     const Pair L1 = row.gradient(i, along1.v1[i + 1] - along1.v1[i], high.v1[i] - low.v1[i]);
     const Pair L2 = row.gradient(i, along1.v2[i + 1] - along1.v2[i], high.v2[i] - low.v2[i]);
     const Tensor2 dP = contract(stiff.at(i), {L1.x, L1.y, L2.x, L2.y});
@@ -309,7 +346,10 @@ void GodunovSweep<L, Row, limiter>::update(RowRun run) const {
     next_P12[i] = P12[i] + dt * dP.a12;
     next_P21[i] = P21[i] + dt * dP.a21;
     next_P22[i] = P22[i] + dt * dP.a22;
+    min_J = sound[i] < min_J ? sound[i] : min_J;
+    broken += sound[i] > 0.0 ? 0.0 : 1.0;
   }
+  return {.min_det_F = min_J, .broken = broken};
 }
 
 }  // namespace fsi::solid

@@ -133,6 +133,11 @@ struct StiffnessRows {
   return {mean + radius, mean - radius};
 }
 
+/// Whether all waves are real: A is positive definite. False for what is no number.
+[[gnu::always_inline]] inline bool bears_waves(const SymmetricTensor2& A) {
+  return (A.a11 > 0.0) & (A.a11 * A.a22 - A.a12 * A.a12 > 0.0);
+}
+
 /// Upwinding makes the stress decay at the rates of M = sum over directions of K Z^-1 n^T / h, paper eq. (36)
 /// with the face velocities of paper eq. (34). The non-zero eigenvalues of M are those of the block matrix
 /// ((Z1, X), (X^T, Z2)) with X = Z1^-1/2 N Z2^-1/2; this is |X|^2 = tr(Z1^-1 N Z2^-1 N^T), with Z = (A + d I)

@@ -40,12 +40,6 @@ inline double cross(const Vec2& a, const Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-/// Reference area / current area of a boundary element with reference normal n0, paper eq. (13): the tangent
-/// is stretched by |F t0|, and J^-1 n^T F n0 = 1 / |F t0| in the plane.
-inline double area_ratio(const Tensor2& F, const Vec2& n0) {
-  return 1.0 / std::hypot(F.a12 * n0.x() - F.a11 * n0.y(), F.a22 * n0.x() - F.a21 * n0.y());
-}
-
 /// Areas of the points of a grid that stands alone: trapezoidal rule in index space, second order.
 template <Law L>
 Field trapezoidal_areas(const SolidComponent<L>& component) {
@@ -127,7 +121,7 @@ SideLoad load_on_side(const SolidComponent<L>& component, Side side) {
   const ConstFieldView x = component.grid().x();
   SideLoad load_of_side;
   for (int k = 0; k < line.n; ++k) {
-    const SideMetrics m = side_metrics(component.metrics(), layout, side, k);
+    const SideMetrics& m = component.boundary().at(side, k);
     const SolidState s = load(component.q(), line.at(k, 0));
     const Vec2 position = Vec2(x.plane(0)[line.at(k, 0)], x.plane(1)[line.at(k, 0)]) + s.u;
     const Vec2 force = (k == 0 || k == line.n - 1 ? 0.5 : 1.0) * m.spacing * traction_of(s.P, m.n0);
@@ -146,6 +140,51 @@ struct InterfaceMoment {
 /// A side and a wall whose normals have a smaller cosine than this meet at right angles.
 inline constexpr double right_angle = 1e-3;
 
+/// What a solid shows of a point of an interface: of a body with a chosen solution the difference to it, at a point
+/// that also lies on a side whose motion is given that motion, and without what would leave a wall along which
+/// the point slides.
+template <Law L>
+SolidState shown_state(const SolidComponent<L>& component, const InterfaceMoment& moment, Side side, int k) {
+  const GridPoint p = grid_point(component.layout(), side, k);
+  const ConstFieldView x = component.grid().x();
+  const ChosenSolution* chosen = component.chosen();
+  SolidState s = load(component.q(), component.layout().at(p.i, p.j));
+  const auto given = component.boundary().given_motion(side, k, moment.t);
+  if (given) s.u = given->u, s.v = given->v;
+  if (chosen != nullptr) s = sum_of(s, -1.0, chosen->state(x(0, p.i, p.j), x(1, p.i, p.j), moment.t));
+  const auto wall = component.boundary().wall_of(side, k);
+  if (wall && !given) s.u -= *wall * wall->dot(s.u), s.v -= *wall * wall->dot(s.v);
+  return s;
+}
+
+/// How free a point is, of wire::Freedom.
+template <Law L>
+std::uint8_t freedom_of(const SolidComponent<L>& component, double t, Side side, int k) {
+  const SolidBoundary<L>& boundary = component.boundary();
+  if (boundary.given_motion(side, k, t)) return wire::Freedom::fixed;
+  const auto wall = boundary.wall_of(side, k);
+  const bool slides = wall && std::abs(wall->dot(boundary.normal(side, k))) < right_angle;
+  return slides ? wire::Freedom::slides : wire::Freedom::free;
+}
+
+/// @throws NumbersBroke at the first point whose traction is no number
+template <Law L>
+void check_tractions(const SolidComponent<L>& component, double t, Side side, std::span<const double> w) {
+  const std::size_t n = w.size() / 2;
+  const ConstFieldView x = component.grid().x();
+  for (std::size_t k = 0; k < n; ++k) {
+    if (std::isfinite(w[k]) && std::isfinite(w[n + k])) continue;
+    const GridPoint p = grid_point(component.layout(), side, static_cast<int>(k));
+    throw NumbersBroke(fmt::format("the stress is not a number any more, det F = {:.3g}",
+                                   determinant(component.deformation_gradient(p.i, p.j))),
+                       {.t = t,
+                        .grid = component.grid().name(),
+                        .point = {p.i, p.j},
+                        .position = {x(0, p.i, p.j), x(1, p.i, p.j)},
+                        .of_reference = true});
+  }
+}
+
 /// Fills `state` for the points of a side; of a body with a chosen solution, the differences to it. Uses no
 /// ghost points, so that it may be called on a predicted state; a point that also lies on a side whose motion
 /// is given has that motion, not the predicted one, and one that slides along a wall does not leave it.
@@ -153,50 +192,44 @@ inline constexpr double right_angle = 1e-3;
 template <Law L>
 void gather_interface(const SolidComponent<L>& component, const L& law, const InterfaceMoment& moment,
                       Side side, SolidInterface& state) {
-  const double rho = moment.rho;
-  const ChosenSolution* chosen = component.chosen();
-  const Layout layout = component.layout();
-  const SideIndex line(layout, side);
   const ConstFieldView x = component.grid().x();
-  const auto n = static_cast<std::size_t>(line.n);
+  const int points = SideIndex(component.layout(), side).n;
+  const auto n = static_cast<std::size_t>(points);
   for (std::vector<double>* two : {&state.x, &state.v, &state.w}) two->resize(2 * n);
   state.Z.resize(3 * n);
   state.fixed.resize(n);
-  state.z_p = std::sqrt(rho * (law.lambda + 2.0 * law.mu));
+  state.rows.resize(6 * n);
+  state.z_p = std::sqrt(moment.rho * (law.lambda + 2.0 * law.mu));
+  double *r = state.rows.data(), *w = state.w.data(), *Z = state.Z.data();
+  const InterfaceRows rows = {.F = {r, r + n, r + 2 * n, r + 3 * n},
+                              .normal1 = r + 4 * n,
+                              .normal2 = r + 5 * n,
+                              .w1 = w,
+                              .w2 = w + n,
+                              .Z11 = Z,
+                              .Z12 = Z + n,
+                              .Z22 = Z + 2 * n,
+                              .n = points,
+                              .follows = component.boundary().follows(side)};
   for (std::size_t k = 0; k < n; ++k) {
     const int point = static_cast<int>(k);
-    const GridPoint p = grid_point(layout, side, point);
-    const Vec2 n0 = side_metrics(component.metrics(), layout, side, point).n0;
-    SolidState s = load(component.q(), line.at(point, 0));
-    const auto given = component.boundary().given_motion(side, point, moment.t);
-    if (given) s.u = given->u, s.v = given->v;
-    if (chosen != nullptr) s = sum_of(s, -1.0, chosen->state(x(0, p.i, p.j), x(1, p.i, p.j), moment.t));
-    const auto wall = component.boundary().wall_of(side, point);
-    if (wall && !given) s.u -= *wall * wall->dot(s.u), s.v -= *wall * wall->dot(s.v);
+    const GridPoint p = grid_point(component.layout(), side, point);
+    const Vec2 n0 = component.boundary().normal(side, point);
+    const SolidState s = shown_state(component, moment, side, point);
     const Tensor2 F = component.deformation_gradient(p.i, p.j);
-    const double eta = component.boundary().follows(side) ? area_ratio(F, n0) : 1.0;
-    const SymmetricTensor2 Z = impedance_matrix(law.K(F), n0, rho, eta);
-    const Vec2 w = eta * traction_of(s.P, n0);
-    if (!w.allFinite()) {
-      throw NumbersBroke(fmt::format("the stress is not a number any more, det F = {:.3g}", determinant(F)),
-                         {.t = moment.t,
-                          .grid = component.grid().name(),
-                          .point = {p.i, p.j},
-                          .position = {x(0, p.i, p.j), x(1, p.i, p.j)},
-                          .of_reference = true});
-    }
+    rows.F.set(point, F.a11, F.a12, F.a21, F.a22);
+    const Vec2 T = traction_of(s.P, n0);
     for (std::size_t c = 0; c < 2; ++c) {
       const auto axis = static_cast<int>(c);
+      r[(4 + c) * n + k] = n0[axis];
+      w[c * n + k] = T[axis];
       state.x[c * n + k] = x(axis, p.i, p.j) + s.u[axis];
       state.v[c * n + k] = s.v[axis];
-      state.w[c * n + k] = w[axis];
     }
-    state.Z[k] = Z.a11;
-    state.Z[n + k] = Z.a12;
-    state.Z[2 * n + k] = Z.a22;
-    const bool slides = wall && std::abs(wall->dot(n0)) < right_angle;
-    state.fixed[k] = given ? wire::Freedom::fixed : slides ? wire::Freedom::slides : wire::Freedom::free;
+    state.fixed[k] = freedom_of(component, moment.t, side, point);
   }
+  show_interface(law, rows, moment.rho);
+  check_tractions(component, moment.t, side, state.w);
 }
 
 }  // namespace fsi::solid

@@ -100,8 +100,9 @@ class SolidParticipant final : public Participant {
     const double dt_sub = dt / substeps;
     for (int k = 0; k < substeps; ++k) {
       const double t_k = t + k * dt_sub;
-      solver_.advance_solid(t_k, dt_sub);
-      if (k + 1 == substeps) break;
+      const bool last = k + 1 == substeps;
+      solver_.advance_solid(t_k, dt_sub, last ? Look::all : Look::soundness);
+      if (last) break;
       lap(io::Work::advance);
       close_substep(t_k + dt_sub, projected);
       lap(io::Work::boundary);
