@@ -259,9 +259,14 @@ void SolidComponent<L>::dissipate(double dt, RowRun run) {
   const FieldView next = next_.view();
   const double beta_P = options_.tangential_stress.at(dt), beta_u = options_.displacement.at(dt),
                beta_r = options_.relaxation.at(dt), bulk = options_.bulk_diffusion * dt;
-  if (beta_P != 0) add_tangential_stress_dissipation<Row>(q, next, metrics_, beta_P, run);
-  if (beta_u != 0) add_displacement_dissipation(q, next, beta_u, run);
-  if (beta_r != 0) add_relaxation(q, next, Gradient(grid_.x(), metrics_, run.j), law_, beta_r, run);
+  const Gradient gradient(grid_.x(), metrics_, run.j);
+  if (beta_P != 0 && beta_u != 0 && beta_r != 0) {
+    add_all_dissipation(q, next, Row(metrics_, run.j), gradient, law_, {beta_P, beta_u, beta_r}, run);
+  } else {
+    if (beta_P != 0) add_tangential_stress_dissipation<Row>(q, next, metrics_, beta_P, run);
+    if (beta_u != 0) add_displacement_dissipation(q, next, beta_u, run);
+    if (beta_r != 0) add_relaxation(q, next, gradient, law_, beta_r, run);
+  }
   if (bulk != 0) add_bulk_diffusion(q, next, bulk, run);
 }
 

@@ -265,7 +265,7 @@ Pose SolidSolver<L>::pose() const {
   if (!composite_) return pose_of(reference(), state());
   std::vector<PosePart> parts;
   for (int k = 0; k < grids(); ++k) {
-    parts.push_back({reference(k), state(k), areas_[static_cast<std::size_t>(k)].view()});
+    parts.push_back({reference(k), state(k), areas_[static_cast<std::size_t>(k)].view(), &valid(k)});
   }
   return pose_of(parts);
 }

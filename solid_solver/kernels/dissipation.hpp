@@ -72,30 +72,74 @@ class CartesianGradient4 {
   double i1_, i2_;
 };
 
-/// A run of points of paper eq. (39): damps the part of the stress
-/// that no wave carries along r1 or r2. beta = beta^P.
+/// Rows of the stress around row j, for five-point stencils.
+struct WideStress {
+  WideRow P11, P12, P21, P22;
+
+  WideStress(ConstFieldView q, int j)
+      : P11(q, plane::P11, j), P12(q, plane::P12, j), P21(q, plane::P21, j), P22(q, plane::P22, j) {}
+  [[gnu::always_inline]] Tensor2 here(int i) const {
+    return {P11.here[i], P12.here[i], P21.here[i], P22.here[i]};
+  }
+};
+
+/// Row j of the new stress.
+struct StressRow {
+  double *P11, *P12, *P21, *P22;
+
+  StressRow(FieldView next, int j)
+      : P11(next.row(plane::P11, j)),
+        P12(next.row(plane::P12, j)),
+        P21(next.row(plane::P21, j)),
+        P22(next.row(plane::P22, j)) {}
+  [[gnu::always_inline]] void subtract(int i, double a11, double a12, double a21, double a22) const {
+    P11[i] -= a11;
+    P12[i] -= a12;
+    P21[i] -= a21;
+    P22[i] -= a22;
+  }
+};
+
+/// Paper eq. (39) at a point: the part of D^(4) P that no wave carries along r1 or r2, times beta^P / 2.
+template <class Row>
+[[gnu::always_inline]] inline Tensor2 tangential_part(const Row& row, const WideStress& P, int i,
+                                                      double factor) {
+  const Pair t1 = row.tangent1(i), t2 = row.tangent2(i);
+  const Pair d11 = P.P11.fourth(i), d12 = P.P12.fourth(i), d21 = P.P21.fourth(i), d22 = P.P22.fourth(i);
+  const double along1_1 = factor * (t1.x * d11.x + t1.y * d21.x),
+               along1_2 = factor * (t1.x * d12.x + t1.y * d22.x);
+  const double along2_1 = factor * (t2.x * d11.y + t2.y * d21.y),
+               along2_2 = factor * (t2.x * d12.y + t2.y * d22.y);
+  return {.a11 = t1.x * along1_1 + t2.x * along2_1,
+          .a12 = t1.x * along1_2 + t2.x * along2_2,
+          .a21 = t1.y * along1_1 + t2.y * along2_1,
+          .a22 = t1.y * along1_2 + t2.y * along2_2};
+}
+
+/// Paper eq. (41) at a point: what P has beyond P(F), F from fourth-order differences, times beta^r.
+template <Law L>
+[[gnu::always_inline]] inline Tensor2 surplus(const L& law, const Tensor2& du, const Tensor2& P_now,
+                                              double beta) {
+  const Tensor2 P = law.P({1.0 + du.a11, du.a12, du.a21, 1.0 + du.a22});
+  return {.a11 = beta * (P_now.a11 - P.a11),
+          .a12 = beta * (P_now.a12 - P.a12),
+          .a21 = beta * (P_now.a21 - P.a21),
+          .a22 = beta * (P_now.a22 - P.a22)};
+}
+
+/// A run of points of paper eq. (39). beta = beta^P.
 template <class Row>
 [[gnu::noinline]] void add_tangential_stress_dissipation(ConstFieldView q, FieldView next,
                                                          const ReferenceMetrics& metrics, double beta,
                                                          RowRun run) {
   const Row row(metrics, run.j);
-  const WideRow P11(q, plane::P11, run.j), P12(q, plane::P12, run.j), P21(q, plane::P21, run.j),
-      P22(q, plane::P22, run.j);
-  double *next11 = next.row(plane::P11, run.j), *next12 = next.row(plane::P12, run.j),
-         *next21 = next.row(plane::P21, run.j), *next22 = next.row(plane::P22, run.j);
+  const WideStress P(q, run.j);
+  const StressRow to(next, run.j);
   const double factor = 0.5 * beta;
 #pragma omp simd
   for (int i = run.begin; i < run.end; ++i) {
-    const Pair t1 = row.tangent1(i), t2 = row.tangent2(i);
-    const Pair d11 = P11.fourth(i), d12 = P12.fourth(i), d21 = P21.fourth(i), d22 = P22.fourth(i);
-    const double along1_1 = factor * (t1.x * d11.x + t1.y * d21.x),
-                 along1_2 = factor * (t1.x * d12.x + t1.y * d22.x);
-    const double along2_1 = factor * (t2.x * d11.y + t2.y * d21.y),
-                 along2_2 = factor * (t2.x * d12.y + t2.y * d22.y);
-    next11[i] -= t1.x * along1_1 + t2.x * along2_1;
-    next12[i] -= t1.x * along1_2 + t2.x * along2_2;
-    next21[i] -= t1.y * along1_1 + t2.y * along2_1;
-    next22[i] -= t1.y * along1_2 + t2.y * along2_2;
+    const Tensor2 part = tangential_part(row, P, i, factor);
+    to.subtract(i, part.a11, part.a12, part.a21, part.a22);
   }
 }
 
@@ -114,24 +158,48 @@ template <class Row>
   }
 }
 
-/// A run of points of paper eq. (41), F from fourth-order differences. beta = beta^r.
+/// A run of points of paper eq. (41). beta = beta^r.
 template <class Gradient, Law L>
 [[gnu::noinline]] void add_relaxation(ConstFieldView q, FieldView next, const Gradient& gradient,
                                       const L& law_at, double beta, RowRun run) {
   const L law = law_at;
   const WideRow u1(q, plane::u1, run.j), u2(q, plane::u2, run.j);
-  const double *P11 = q.row(plane::P11, run.j), *P12 = q.row(plane::P12, run.j),
-               *P21 = q.row(plane::P21, run.j), *P22 = q.row(plane::P22, run.j);
-  double *next11 = next.row(plane::P11, run.j), *next12 = next.row(plane::P12, run.j),
-         *next21 = next.row(plane::P21, run.j), *next22 = next.row(plane::P22, run.j);
+  const WideStress P(q, run.j);
+  const StressRow to(next, run.j);
 #pragma omp simd
   for (int i = run.begin; i < run.end; ++i) {
-    const Tensor2 du = gradient(i, u1.first(i), u2.first(i));
-    const Tensor2 P = law.P({1.0 + du.a11, du.a12, du.a21, 1.0 + du.a22});
-    next11[i] -= beta * (P11[i] - P.a11);
-    next12[i] -= beta * (P12[i] - P.a12);
-    next21[i] -= beta * (P21[i] - P.a21);
-    next22[i] -= beta * (P22[i] - P.a22);
+    const Tensor2 part = surplus(law, gradient(i, u1.first(i), u2.first(i)), P.here(i), beta);
+    to.subtract(i, part.a11, part.a12, part.a21, part.a22);
+  }
+}
+
+/// Coefficients of paper eq. (39) to paper eq. (41) [-].
+struct DissipationBetas {
+  double P = 0, u = 0, r = 0;
+};
+
+/// A run of points of all three in one pass, which reads the stress and the displacement once.
+template <class Row, class Gradient, Law L>
+[[gnu::noinline]] void add_all_dissipation(ConstFieldView q, FieldView next, const Row& row,
+                                           const Gradient& gradient, const L& law_at, DissipationBetas betas,
+                                           RowRun run) {
+  const L law = law_at;
+  const WideRow u1(q, plane::u1, run.j), u2(q, plane::u2, run.j);
+  const WideStress P(q, run.j);
+  const StressRow to(next, run.j);
+  double *next_u1 = next.row(plane::u1, run.j), *next_u2 = next.row(plane::u2, run.j);
+  const double factor_P = 0.5 * betas.P, factor_u = 0.5 * betas.u, beta_r = betas.r;
+#pragma omp simd
+  for (int i = run.begin; i < run.end; ++i) {
+    const Pair d1 = u1.fourth(i), d2 = u2.fourth(i);
+    next_u1[i] -= factor_u * (d1.x + d1.y);
+    next_u2[i] -= factor_u * (d2.x + d2.y);
+    const Tensor2 one = tangential_part(row, P, i, factor_P);
+    const Tensor2 two = surplus(law, gradient(i, u1.first(i), u2.first(i)), P.here(i), beta_r);
+    to.P11[i] = (to.P11[i] - one.a11) - two.a11;
+    to.P12[i] = (to.P12[i] - one.a12) - two.a12;
+    to.P21[i] = (to.P21[i] - one.a21) - two.a21;
+    to.P22[i] = (to.P22[i] - one.a22) - two.a22;
   }
 }
 

@@ -48,9 +48,11 @@ Sums sums_of(ConstFieldView x, ConstFieldView q) {
 void add_points(const PosePart& part, const Vec2& origin, Sums& sums) {
   const ConstFieldView x = part.reference, q = part.state;
   for (int j = 0; j < x.layout.n2; ++j) {
-    for (int i = 0; i < x.layout.n1; ++i) {
-      sums.add(part.areas(0, i, j), Vec2(x(0, i, j), x(1, i, j)) - origin, {q(0, i, j), q(1, i, j)},
-               {q(2, i, j), q(3, i, j)});
+    for (const auto& [begin, end] : part.points->row(j)) {
+      for (int i = begin; i < end; ++i) {
+        sums.add(part.areas(0, i, j), Vec2(x(0, i, j), x(1, i, j)) - origin, {q(0, i, j), q(1, i, j)},
+                 {q(2, i, j), q(3, i, j)});
+      }
     }
   }
 }

@@ -5,6 +5,7 @@
 
 #include "common/core/field.hpp"
 #include "common/core/types.hpp"
+#include "common/grid/intervals.hpp"
 
 namespace fsi::solid {
 
@@ -17,9 +18,11 @@ struct Pose {
 /// `reference`: planes x_bar1, x_bar2; `state`: planes u1, u2, v1, v2 first. Homogeneous density.
 Pose pose_of(ConstFieldView reference, ConstFieldView state);
 
-/// One grid of a composite one: as above, and `areas` that its points stand for (grid::area_weights).
+/// One grid of a composite one: as above, the `areas` that its points stand for (grid::area_weights), and which
+/// points these are.
 struct PosePart {
   ConstFieldView reference, state, areas;
+  const grid::RowSets* points = nullptr;
 };
 
 /// The same of a body that several grids cover.
