@@ -13,9 +13,10 @@ import subprocess
 import unittest
 from pathlib import Path
 
-SOLID = (*(f"solid::GodunovSweep<.*::{loop}\\(" for loop in ("predict", "solve_faces1", "solve_faces2", "update")),
-         "solid::add_relaxation<", "solid::add_tangential_stress_dissipation<", "solid::add_displacement_dissipation\\(",
-         "solid::add_bulk_diffusion\\(")
+SOLID = (*(f"solid::GodunovSweep<.*::{loop}\\(" for loop in ("predict", "waves", "solve_faces1", "solve_faces2", "update")),
+         *(f"solid::{loop}<" for loop in ("find_misses", "find_stresses", "find_impedances", "show_interface")),
+         "solid::take_newton_steps\\(", "solid::add_all_dissipation<", "solid::add_relaxation<",
+         "solid::add_tangential_stress_dissipation<", "solid::add_displacement_dissipation\\(", "solid::add_bulk_diffusion\\(")
 GAS = (*(f"fluid::{loop}<" for loop in ("predict_row", "flux_row", "update_row", "viscosity_row")), "::cartesian_rates<",
        "::mapped_rates<", "fluid::conserved_row\\(", "fluid::add_viscous_flux_row\\(",
        *(f"fluid::{loop}\\(" for loop in ("metric_row", "corner_row", "face_row_1", "face_row_2", "volume_row")))
