@@ -15,7 +15,7 @@ fsi_library(fsi_solid_sdk DEPENDS fsi_grid fsi_program_shell)
 set_target_properties(fsi_solid_sdk PROPERTIES EXPORT_NAME solid)
 target_compile_features(fsi_settings INTERFACE cxx_std_20)
 target_include_directories(fsi_settings INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/amp_fsi>)
-install(TARGETS fsi_solid_sdk fsi_settings fsi_core fsi_case fsi_grid fsi_exact fsi_interface fsi_io fsi_bus fsi_idl
+install(TARGETS fsi_solid_sdk fsi_settings fsi_core fsi_case fsi_grid fsi_exact fsi_interface fsi_io fsi_ranks fsi_bus fsi_idl
     fsi_picture fsi_program_shell
   EXPORT amp_fsi ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT sdk)
 

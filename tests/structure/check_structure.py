@@ -122,6 +122,8 @@ def forbidden(path, target, generated):
         return "grids know no bus, no case and no file"
     if not where.startswith("common/bus/") and (Path(target).name in generated or target.startswith(("dds/", "ddsc/"))):
         return "only common/bus knows DDS and the types generated from idl/"
+    if not where.startswith("common/ranks/mpi/") and target == "mpi.h":
+        return "only the module of common/ranks/mpi knows MPI: programs work without it"
     if not where.startswith("common/io/") and re.match(r"(hdf5|H5)\w*\.h|highfive/", target):
         return "only common/io knows HDF5"
     if target.startswith("yaml-cpp/") and not where.startswith(("common/case/", "common/core/input/config.")):

@@ -122,6 +122,10 @@ class Includes(Copy):
         self.assert_allows("includes", "common/io/part.cpp", "#include <hdf5.h>")
         self.assert_bites("includes", "common/io/part.cpp", "#include <yaml-cpp/yaml.h>")
 
+    def test_mpi_has_one_home(self):
+        self.assert_bites("includes", "fluid_solver/gas_solver.cpp", "#include <mpi.h>")
+        self.assert_allows("includes", "common/ranks/mpi/mpi_ranks.cpp", "#include <mpi.h>")
+
 
 class Kernels(Copy):
     def test_of_the_gas_know_common_core_and_each_other(self):
