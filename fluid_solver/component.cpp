@@ -113,6 +113,7 @@ void Component::gather_runs() {
   for (int j = 0; j < n2; ++j) {
     std::vector<Range>& row = row_runs_[static_cast<std::size_t>(j)];
     row.clear();
+    if (!rows_.owns(j)) continue;
     for (const grid::Interval& run : discretised_.row(j)) row.push_back({run.begin, run.end});
   }
   runs_.assign(row_runs_);
@@ -155,7 +156,7 @@ double Component::fill_row(int j, const StateField& initial, double t) {
 
 void Component::start(double t) {
   measure_rows();
-  if (grid_.moves()) measure_initial_motion(t, 0.1 / fastest_point().rate);
+  if (grid_.moves()) measure_initial_motion(t, 0.1 / fastest_points().point().rate);
 }
 
 void Component::measure_rows() {
@@ -207,26 +208,33 @@ void Component::force(const StateField& exact) {
 
 /// The second half of a step's source, at its end; kept for the next step, which begins with it.
 void Component::add_source(double t, double dt) {
-  forcing_->evaluate(grid_.x(), t, source_.view());
-  forcing_->add(source_.view(), 0.5 * dt, state_.view());
+  forcing_->evaluate(grid_.x(), t, source_.view(), rows_);
+  forcing_->add(source_.view(), 0.5 * dt, state_.view(), rows_);
   has_source_ = true;
 }
 
 /// Shocks are looked for at these points only, in the state that made them fall back.
 void Component::count_fallbacks() {
-  const ShockField field{
-      .q = state_.view(), .valid = valid_, .periodic = {grid_.periodic(0), grid_.periodic(1)}};
+  const ShockField field = shock_field();
   for (const PointIndex& point : fallbacks_) {
     counters_.first_order += 1;
-    if (!inside_shock(field, point.i, point.j)) counters_.first_order_outside_shocks += 1;
+    if (!sees_all(field, rows_, point.j)) {
+      far_fallbacks_.push_back(point);
+    } else if (!inside_shock(field, point.i, point.j)) {
+      counters_.first_order_outside_shocks += 1;
+    }
   }
   fallbacks_.clear();
 }
 
+ShockField Component::shock_field() const {
+  return {.q = state_.view(), .valid = valid_, .periodic = {grid_.periodic(0), grid_.periodic(1)}};
+}
+
 void Component::advance(double t, double dt) {
   if (forcing_) {
-    if (!has_source_) forcing_->evaluate(grid_.x_old(), t - dt, source_.view());
-    forcing_->add(source_.view(), 0.5 * dt, state_.view());
+    if (!has_source_) forcing_->evaluate(grid_.x_old(), t - dt, source_.view(), rows_);
+    forcing_->add(source_.view(), 0.5 * dt, state_.view(), rows_);
   }
   for (std::vector<double>& edge : edges_) std::ranges::fill(edge, 0.0);
   const SweepTask task{.q = state_.view(),
@@ -238,8 +246,12 @@ void Component::advance(double t, double dt) {
                        .imposed = &imposed_};
   const SweepOutput output{
       workspace_, row_rates_, fallbacks_, {edges_[0], edges_[1], edges_[2], edges_[3]}, &noted_};
-  const bool thin = sweep(task, scheme_, output) > 0;
+  const bool thin_here = sweep(task, scheme_, output) > 0;
   count_fallbacks();
+  // Somewhere there are fallbacks that others must judge, or thin points.
+  const double somewhere = rows_.ranks->largest(thin_here ? 2 : far_fallbacks_.empty() ? 0 : 1);
+  const bool thin = somewhere > 1;
+  if (somewhere > 0) count_far_fallbacks();
   std::vector<int> changed_rows;
   if (thin) changed_rows = keep_positive(task, output);
   std::swap(state_, next_);
@@ -264,7 +276,7 @@ std::vector<int> Component::keep_positive(const SweepTask& task, const SweepOutp
                                              : period ? Beyond::period
                                                       : Beyond::other;
   }
-  Positivity done = fluid::keep_positive(task, scheme_, output, beyond);
+  Positivity done = fluid::keep_positive(task, scheme_, {output, beyond, *rows_.ranks});
   counters_.positive_fluxes += static_cast<double>(done.thin.size());
   counters_.floors += static_cast<double>(done.floors);
   return std::move(done.rows);
@@ -273,15 +285,20 @@ std::vector<int> Component::keep_positive(const SweepTask& task, const SweepOutp
 void Component::check_numbers(double t) const {
   const Layout& shape = grid_.layout();
   const ConstFieldView q = state_.view(), x = grid_.x();
-  for (int j = 0; j < shape.n2; ++j) {
-    for (int i = 0; i < shape.n1; ++i) {
+  std::vector<double> broken;  // the first point that is: i, j, rho, p
+  for (int j = 0; j < shape.n2 && broken.empty(); ++j) {
+    for (int i = 0; rows_.owns(j) && i < shape.n1 && broken.empty(); ++i) {
       const double rho = q(0, i, j), p = q(3, i, j);
       if ((rho > 0 && std::fabs(p) < 1e300) || !discretised_.contains(i, j)) continue;
-      throw NumbersBroke(
-          fmt::format("rho = {:.3g}, p = {:.3g}; try {}", rho, p, remedy_of(scheme_)),
-          {.t = t, .grid = grid_.name(), .point = {i, j}, .position = {x(0, i, j), x(1, i, j)}});
+      broken = {static_cast<double>(i), static_cast<double>(j), rho, p};
     }
   }
+  const std::vector<double> of_all = rows_.ranks->together(broken);  // in the order of rows
+  if (of_all.empty()) return;
+  const auto i = static_cast<int>(of_all[0]), j = static_cast<int>(of_all[1]);
+  throw NumbersBroke(
+      fmt::format("rho = {:.3g}, p = {:.3g}; try {}", of_all[2], of_all[3], remedy_of(scheme_)),
+      {.t = t, .grid = grid_.name(), .point = {i, j}, .position = {x(0, i, j), x(1, i, j)}});
 }
 
 double* Component::step_rates(int j, Range range) const {
@@ -290,10 +307,10 @@ double* Component::step_rates(int j, Range range) const {
   return rate;
 }
 
-FastestPoint Component::fastest_point() const {
+FastestPoints Component::fastest_points() const {
   const int n1 = grid_.layout().n1, n2 = grid_.layout().n2;
-  FastestPoint fastest;
-  const auto compare = [&](int j, Range part) {
+  FastestPoints found;
+  const auto compare = [&](FastestPoint& fastest, int look, int j, Range part) {
     for (const Range& run : runs_.advanced(j)) {
       const Range range{std::max(run.first, part.first), std::min(run.last, part.last)};
       if (range.first >= range.last) continue;
@@ -301,21 +318,27 @@ FastestPoint Component::fastest_point() const {
       const double most = largest(rate, range);
       if (most <= fastest.rate) continue;
       const double* point = std::max_element(rate + range.first, rate + range.last);
-      fastest = {.rate = *point, .i = static_cast<int>(point - rate), .j = j};
+      fastest = {.rate = *point, .i = static_cast<int>(point - rate), .j = j, .look = look};
     }
   };
   if (scheme_.viscosity.any()) {  // it needs the neighbours' new states: the sweep cannot know it
-    for (int j = 0; j < n2; ++j) compare(j, {0, n1});
-    return fastest;
+    for (int j = 0; j < n2; ++j) compare(found.rest, 0, j, {0, n1});
+    return found;
   }
-  const auto inner = std::max_element(row_rates_.begin() + 1, row_rates_.end() - 1);
-  compare(static_cast<int>(inner - row_rates_.begin()), {1, n1 - 1});
-  for (const int j : {0, n2 - 1}) compare(j, {0, n1});
+  const auto own = row_rates_.begin() + std::max(rows_.all ? 0 : rows_.own.first, 1),
+             end = row_rates_.begin() + std::min(rows_.all ? n2 : rows_.own.end, n2 - 1);
+  if (own < end) {
+    const auto inner = std::max_element(own, end);
+    found.row_rate = *inner;
+    compare(found.inner, 0, static_cast<int>(inner - row_rates_.begin()), {1, n1 - 1});
+  }
+  compare(found.rest, 1, 0, {0, n1});
+  compare(found.rest, 2, n2 - 1, {0, n1});
   for (int j = 1; j < n2 - 1; ++j) {
-    compare(j, {0, 1});
-    compare(j, {n1 - 1, n1});
+    compare(found.rest, 3, j, {0, 1});
+    compare(found.rest, 3, j, {n1 - 1, n1});
   }
-  return fastest;
+  return found;
 }
 
 }  // namespace fsi::fluid

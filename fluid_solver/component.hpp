@@ -17,6 +17,8 @@
 #include "fluid_solver/forcing.hpp"
 #include "fluid_solver/gas_options.hpp"
 #include "fluid_solver/kernels/sweep.hpp"
+#include "fluid_solver/measures/shocks.hpp"
+#include "fluid_solver/ranks/rank_rows.hpp"
 
 namespace fsi::fluid {
 
@@ -36,6 +38,16 @@ struct InterfaceValues {
 struct FastestPoint {
   double rate = 0;  ///< [1/time]
   int i = 0, j = 0;
+  int look =
+      0;  ///< number of the look over the grid that found it: of equal rates, that of the first one counts
+};
+
+/// What the fastest point of a grid is chosen from.
+struct FastestPoints {
+  FastestPoint inner;    ///< of the inner points, in the row whose rates were largest when it was swept
+  double row_rate = -1;  ///< the largest of them then [1/time]; below 0: the row was not chosen so
+  FastestPoint rest;
+  const FastestPoint& point() const { return rest.rate > inner.rate ? rest : inner; }
 };
 
 /// Counted since the start.
@@ -66,6 +78,11 @@ class Component {
   void forget_unused_points();
   /// Which points of a side are near valid ones; empty: all count.
   std::span<const std::uint8_t> live(Side side) const { return live_[static_cast<std::size_t>(side)]; }
+  /// From now on only rows of one's own are advanced, and only those one has are worth looking at.
+  void take_rows(RankRows rows);
+  const RankRows& rows() const { return rows_; }
+  /// What moves with a row when it gets another owner.
+  std::vector<FieldView> moving_fields();
   const grid::RowSets& discretised() const { return discretised_; }
   const grid::RowSets& valid() const { return valid_; }
 
@@ -87,6 +104,8 @@ class Component {
   /// Faces whose fluxes each step keeps, and those whose fluxes are given to it; see GasLevels.
   FaceFluxes& noted() { return noted_; }
   FaceFluxes& imposed() { return imposed_; }
+  /// Of a side, by those who own its rows.
+  std::span<double> edge(Side side) { return edges_[static_cast<std::size_t>(side)]; }
   /// Area of a cell of a Cartesian grid.
   double cell_area() const { return spacing_->dx * spacing_->dy; }
   /// True on a rectangular grid at rest with equal spacings along the axes.
@@ -104,8 +123,10 @@ class Component {
   void move(double t_new, double dt, std::span<const grid::SideCommand> commands);
   /// One step: state() becomes the predicted state at t, with ghosts out of date. @throws NumbersBroke
   void advance(double t, double dt);
-  /// Largest |Lambda| of (44), real part weighted as in (45).
-  FastestPoint fastest_point() const;
+  /// True where the wave rates of a row depend on the new state in the rows next to it.
+  bool rates_need_neighbours() const { return scheme_.viscosity.any(); }
+  /// Largest |Lambda| of (44), real part weighted as in (45). In rows of one's own.
+  FastestPoints fastest_points() const;
   /// Boundary conditions hold: the step is complete.
   void complete() { moved_ = advanced_ = false; }
   /// Positions and state when the last step was complete, also after one that broke.
@@ -113,6 +134,11 @@ class Component {
   ConstFieldView last_state() const { return advanced_ ? next_.view() : state_.view(); }
   /// Everything the next steps depend on.
   void archive(Archive& archive);
+  /// What is spread over the ranks, for rank 0 to put together: largest rates of rows, counters.
+  std::vector<double> scattered() const;
+  void gather_scattered(std::span<const double> all_ranks);
+  /// What others count is counted by them.
+  void forget_counters() { counters_ = {}; }
 
  private:
   grid::MovingGrid grid_;
@@ -123,6 +149,7 @@ class Component {
   grid::RowSets discretised_, valid_;
   bool sparse_ = false;
   std::array<std::vector<std::uint8_t>, 4> live_;
+  RankRows rows_;
   SweepRuns runs_;
   std::vector<std::vector<Range>> row_runs_;  ///< work memory
   mutable Workspace workspace_;               ///< scratch, no part of the state
@@ -135,7 +162,8 @@ class Component {
   Counters counters_;
   std::array<std::vector<double>, 4> edges_;
   FaceFluxes noted_, imposed_;
-  std::vector<PointIndex> fallbacks_;  ///< work memory: points of one sweep
+  std::vector<PointIndex> fallbacks_;      ///< work memory: points of one sweep
+  std::vector<PointIndex> far_fallbacks_;  ///< of these, those that other ranks must judge as well
   std::optional<Forcing> forcing_;
   Field source_;             ///< of the forcing, at the time and on the grid of the state
   bool has_source_ = false;  ///< it was evaluated
@@ -149,7 +177,9 @@ class Component {
   /// 1 / dt of (45) at the points of a row, in the workspace.
   double* step_rates(int j, Range range) const;
   void add_source(double t, double dt);
+  ShockField shock_field() const;
   void count_fallbacks();
+  void count_far_fallbacks();
   /// @returns the rows that were changed
   std::vector<int> keep_positive(const SweepTask& task, const SweepOutput& output);
   void measure_row(int j);

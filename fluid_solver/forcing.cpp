@@ -9,9 +9,10 @@ namespace {
 constexpr double delta = 1e-5;
 
 template <class Action>
-void each_point(const Layout& layout, const Action& action) {
+void each_point(const Layout& layout, const RankRows& rows, const Action& action) {
   constexpr int g = Layout::ghosts;
   for (int j = -g; j < layout.n2 + g; ++j) {
+    if (!rows.has(j)) continue;
     for (int i = -g; i < layout.n1 + g; ++i) action(SidePoints::Index{i, j});
   }
 }
@@ -48,14 +49,14 @@ StateVector Forcing::source(double x, double y, double t) const {
   return (in_t + in_x + in_y) / (2 * delta);
 }
 
-void Forcing::evaluate(ConstFieldView x, double t, FieldView source_field) const {
-  each_point(x.layout, [&](SidePoints::Index at) {
+void Forcing::evaluate(ConstFieldView x, double t, FieldView source_field, const RankRows& rows) const {
+  each_point(x.layout, rows, [&](SidePoints::Index at) {
     store(source_field, at, source(x(0, at.i, at.j), x(1, at.i, at.j), t));
   });
 }
 
-void Forcing::add(ConstFieldView source_field, double weight, FieldView q) const {
-  each_point(q.layout, [&](SidePoints::Index at) {
+void Forcing::add(ConstFieldView source_field, double weight, FieldView q, const RankRows& rows) const {
+  each_point(q.layout, rows, [&](SidePoints::Index at) {
     const StateVector U = conserved(load(q, at), gamma_) + weight * load(source_field, at);
     store(q, at, primitive(U, gamma_));
   });

@@ -10,6 +10,7 @@
 
 #include "common/core/field.hpp"
 #include "fluid_solver/gas_options.hpp"
+#include "fluid_solver/ranks/rank_rows.hpp"
 #include "fluid_solver/state_vector.hpp"
 
 namespace fsi::fluid {
@@ -22,10 +23,10 @@ class Forcing {
   const StateField& exact() const { return exact_; }
   /// dq/dt + df_j/dx_j of the exact state, q = (rho, rho v1, rho v2, rho E). paper eq. (1)
   StateVector source(double x, double y, double t) const;
-  /// The same at all points and ghost points x.
-  void evaluate(ConstFieldView x, double t, FieldView source) const;
-  /// q := q + weight * source in conserved variables; q holds rho, v1, v2, p.
-  void add(ConstFieldView source, double weight, FieldView q) const;
+  /// The same at all points and ghost points x, in the rows one has.
+  void evaluate(ConstFieldView x, double t, FieldView source, const RankRows& rows) const;
+  /// q := q + weight * source in conserved variables; q holds rho, v1, v2, p. In the rows one has.
+  void add(ConstFieldView source, double weight, FieldView q, const RankRows& rows) const;
 
  private:
   StateField exact_;

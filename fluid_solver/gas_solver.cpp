@@ -137,25 +137,34 @@ void GasSolver::assign_initial_conditions(const StateField& initial) {
 }
 
 TimeStep GasSolver::compute_time_step() const {
-  const Component* slowest = nullptr;
-  FastestPoint fastest;
-  for (const Component& component : components_) {
-    const FastestPoint here = component.fastest_point();
-    if (slowest != nullptr && here.rate <= fastest.rate) continue;
-    slowest = &component;
-    fastest = here;
-  }
-  const ConstFieldView q = slowest->state(), x = slowest->grid().x();
+  const auto [fastest, at, q, health] = share_.alone() ? seen_here() : seen_;
+  const grid::MovingGrid& slowest = grid(at);
   const int i = fastest.i, j = fastest.j;
-  const double a = std::sqrt(options_.gamma * q(3, i, j) / q(0, i, j));
+  const double a = std::sqrt(options_.gamma * q.p / q.rho);
   return {.dt = options_.cfl / fastest.rate,
           .reason = fmt::format(
               "gas: grid \"{}\", point ({}, {}) at ({:.4g}, {:.4g}), |v| = {:.3g}, a = {:.3g}",
-              slowest->grid().name(), i, j, x(0, i, j), x(1, i, j), std::hypot(q(1, i, j), q(2, i, j)), a)};
+              slowest.name(), i, j, slowest.x()(0, i, j), slowest.x()(1, i, j), std::hypot(q.v1, q.v2), a)};
+}
+
+/// The fastest point in rows of one's own; without health.
+GasSolver::Seen GasSolver::seen_here() const {
+  Seen seen;
+  for (int k = 0; k < grids(); ++k) {
+    const FastestPoint here = component(k).fastest_points().point();
+    if (k > 0 && here.rate <= seen.fastest.rate) continue;
+    seen.fastest = here;
+    seen.grid = k;
+  }
+  const ConstFieldView q = state(seen.grid);
+  const int i = seen.fastest.i, j = seen.fastest.j;
+  seen.state = {.rho = q(0, i, j), .v1 = q(1, i, j), .v2 = q(2, i, j), .p = q(3, i, j)};
+  return seen;
 }
 
 void GasSolver::move_grids(double t_new, double dt, std::span<const grid::SideCommand> commands) {
   bool moved = false;
+  share_out_anew();
   if (near_) leave_room_between_curves(t_new, commands);
   for (std::size_t k = 0; k < components_.size(); ++k) {
     Component& component = components_[k];
@@ -184,8 +193,12 @@ void GasSolver::update_overlapping_grid(double t_new) {
   for (int k = 1; k < composite_->grids(); ++k) positions_.push_back({grid(k).x(), grid(k).x_old()});
   composite_->update(positions_, t_new);
   use_points();
-  composite_->fill_exposed(gather_fields());
-  keep_interpolated_positive(composite_->exposed());
+  share_.plan(cut_grids(), &*composite_);
+  share_.plan_exposed(*composite_);
+  share_.bring_exposed(gather_fields());
+  const std::span<const grid::InterpolationList> exposed = share_.mine_exposed(composite_->exposed());
+  composite_->fill_exposed(gather_fields(), exposed);
+  keep_interpolated_positive(exposed);
 }
 
 void GasSolver::advance_fluid(double t, double dt) {
@@ -199,8 +212,8 @@ void GasSolver::advance_fluid(double t, double dt) {
 
 void GasSolver::keep_interpolated_positive(std::span<const grid::InterpolationList> lists) {
   for (const grid::InterpolationList& list : lists) {
-    const std::size_t points = keep_positive(list, fields_);
-    components_[static_cast<std::size_t>(list.target_grid)].count_positive_values(points);
+    Component& target = components_[static_cast<std::size_t>(list.target_grid)];
+    target.count_positive_values(keep_positive(list, fields_, target.rows()));
   }
 }
 
@@ -242,9 +255,11 @@ void GasSolver::apply_fluid_bcs(double t, std::span<const InterfaceValues> inter
       if (l > 0) set_ghosts(components_[levels_->component(l)], background);
     }
   }
+  bring_advanced();
   if (composite_) {
-    composite_->interpolate(gather_fields());
-    keep_interpolated_positive(composite_->interpolation());
+    const std::span<const grid::InterpolationList> lists = share_.mine(composite_->interpolation());
+    composite_->interpolate(gather_fields(), lists);
+    keep_interpolated_positive(lists);
   }
   each([&](Component& component, const BoundaryTask& task) {
     if (!levels_ || !levels_->is_coarse(component, components_)) set_ghosts(component, task);

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -20,6 +21,7 @@
 #include "fluid_solver/component.hpp"
 #include "fluid_solver/gas_options.hpp"
 #include "fluid_solver/levels/gas_levels.hpp"
+#include "fluid_solver/ranks/share.hpp"
 
 namespace fsi::fluid {
 
@@ -146,6 +148,25 @@ class GasSolver {
   std::size_t points() const;
   double time() const { return t_; }
 
+  // Several ranks: each has a solver, all call the same functions with the same arguments, and what a function says
+  // of state is known on rank 0, after the one of these that brings it there.
+
+  /// From now on the ranks share the work out. The solver has its initial state, which all ranks have in full.
+  void share(std::shared_ptr<Ranks> ranks, const RecutOptions& options);
+  const Share& shared() const { return share_; }
+  /// Time step, health and the state along interfaces.
+  void look();
+  /// The state in some strips, and what the last step carried through the sides' faces.
+  void fetch(std::span<const Strip> strips);
+  /// The state at all points.
+  void collect();
+  /// Everything that archive saves, or that last_state shows.
+  void collect_all();
+  /// After archive has loaded a state on every rank: counters are rank 0's.
+  void loaded();
+  /// The cell that probe takes its values from.
+  std::vector<Strip> probe_strips(double x, double y) const;
+
   /// Everything the next steps depend on, the grids included, under fixed names: to be written, or
   /// overwritten in place. How the grids overlap is found again from where they are.
   void archive(Archive& archive);
@@ -161,7 +182,26 @@ class GasSolver {
   std::vector<grid::SideCommand> commands_;     ///< work memory: those of one grid
   std::vector<grid::GridPositions> positions_;  ///< work memory
   double t_;
+  Share share_;
+  std::vector<CutGrid> cut_grids_;  ///< work memory
 
+  /// What rank 0 has been told by look.
+  struct Seen {
+    FastestPoint fastest;
+    int grid = 0;
+    State state;
+    Health health;
+  };
+  Seen seen_;
+
+  Seen seen_here() const;
+  void see(std::span<const double> of_all, double cell_quality);
+  void gather_edges();
+  Health health_here() const;
+  void take_rows();
+  void share_out_anew();
+  void bring_advanced();
+  std::span<const CutGrid> cut_grids();
   const Component& component(int grid) const { return components_[static_cast<std::size_t>(grid)]; }
   std::span<const FieldView> gather_fields();
   void connect_first(std::vector<grid::BodyFittedGrid> bodies);
@@ -173,5 +213,8 @@ class GasSolver {
   void update_overlapping_grid(double t_new);
   void keep_interpolated_positive(std::span<const grid::InterpolationList> lists);
 };
+
+/// Adds the points along a side of a grid.
+void add_side_strips(const Layout& layout, Side side, std::vector<Strip>& strips, int grid = 0);
 
 }  // namespace fsi::fluid

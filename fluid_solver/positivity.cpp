@@ -16,9 +16,12 @@ bool is_thin(const SweepTask& task, double p_floor, PointIndex point) {
 
 class Thinness {
  public:
-  Thinness(const SweepTask& task, const Scheme& scheme, const SweepOutput& output,
-           const std::array<Beyond, 4>& beyond)
-      : task_(task), scheme_(scheme), output_(output), beyond_(beyond) {}
+  Thinness(const SweepTask& task, const Scheme& scheme, const PositivityTask& positive)
+      : task_(task),
+        scheme_(scheme),
+        output_(positive.output),
+        beyond_(positive.beyond),
+        ranks_(positive.ranks) {}
 
   Positivity treat() {
     SweepRuns runs = task_.runs;
@@ -45,6 +48,7 @@ class Thinness {
   const Scheme& scheme_;
   const SweepOutput& output_;
   const std::array<Beyond, 4>& beyond_;
+  Ranks& ranks_;
   std::vector<PointIndex> guarded_;  ///< thin points and their images, sorted
   std::vector<PointIndex> unused_;   ///< fallbacks of the second sweep: counted in the first
   Positivity result_;
@@ -52,7 +56,7 @@ class Thinness {
   int n1() const { return task_.q.layout.n1; }
   int n2() const { return task_.q.layout.n2; }
 
-  /// Adds the thin points of some runs; true if there were new ones.
+  /// Adds the thin points of some runs; true if there were new ones, of whatever rank.
   bool find_thin(const SweepRuns& runs) {
     const std::size_t before = result_.thin.size();
     for (int j = 0; j < runs.rows(); ++j) {
@@ -65,8 +69,14 @@ class Thinness {
         }
       }
     }
-    if (result_.thin.size() == before) return false;
-    for (std::size_t k = before; k < result_.thin.size(); ++k) add_images(result_.thin[k]);
+    std::vector<double> mine;
+    for (std::size_t k = before; k < result_.thin.size(); ++k)
+      mine.insert(mine.end(),
+                  {static_cast<double>(result_.thin[k].i), static_cast<double>(result_.thin[k].j)});
+    const std::vector<double> found = ranks_.together(mine);
+    if (found.empty()) return false;
+    for (std::size_t k = 0; k < found.size(); k += 2)
+      add_images({static_cast<int>(found[k]), static_cast<int>(found[k + 1])});
     std::ranges::sort(guarded_);
     const auto doubles = std::ranges::unique(guarded_);
     guarded_.erase(doubles.begin(), doubles.end());
@@ -145,12 +155,12 @@ constexpr int density = 0, pressure = 3;
 
 }  // namespace
 
-Positivity keep_positive(const SweepTask& task, const Scheme& scheme, const SweepOutput& output,
-                         const std::array<Beyond, 4>& beyond) {
-  return Thinness(task, scheme, output, beyond).treat();
+Positivity keep_positive(const SweepTask& task, const Scheme& scheme, const PositivityTask& positive) {
+  return Thinness(task, scheme, positive).treat();
 }
 
-std::size_t keep_positive(const grid::InterpolationList& list, std::span<const FieldView> fields) {
+std::size_t keep_positive(const grid::InterpolationList& list, std::span<const FieldView> fields,
+                          const RankRows& rows) {
   const FieldView target = fields[static_cast<std::size_t>(list.target_grid)];
   const ConstFieldView donor = fields[static_cast<std::size_t>(list.donor_grid)];
   std::size_t lifted = 0;
@@ -163,7 +173,9 @@ std::size_t keep_positive(const grid::InterpolationList& list, std::span<const F
       value = donors.smallest(donor.plane(plane));
       thin = true;
     }
-    lifted += thin ? 1 : 0;
+    if (!thin) continue;
+    const int j = (list.target[k] - Layout::lead + Layout::ghosts) / target.layout.stride - Layout::ghosts;
+    lifted += rows.owns(j) ? 1 : 0;
   }
   return lifted;
 }

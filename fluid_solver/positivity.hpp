@@ -16,6 +16,7 @@
 
 #include "common/grid/overlap/interpolation.hpp"
 #include "fluid_solver/kernels/sweep.hpp"
+#include "fluid_solver/ranks/rank_rows.hpp"
 
 namespace fsi::fluid {
 
@@ -29,14 +30,21 @@ struct Positivity {
   std::size_t floors = 0;        ///< points whose pressure had to be lifted to the floor all the same
 };
 
-/// Treats the thin points of `task`, which has been swept. `beyond` in the order left, right, bottom, top.
-/// Points that are no numbers, or without density, stay what they are.
-Positivity keep_positive(const SweepTask& task, const Scheme& scheme, const SweepOutput& output,
-                         const std::array<Beyond, 4>& beyond);
+/// Where a step of a grid is made positive.
+struct PositivityTask {
+  const SweepOutput& output;
+  const std::array<Beyond, 4>& beyond;  ///< left, right, bottom, top
+  Ranks& ranks;                         ///< who sweep the grid together; all of them call
+};
+
+/// Treats the thin points of `task`, which has been swept. Points that are no numbers, or without density, stay
+/// what they are.
+Positivity keep_positive(const SweepTask& task, const Scheme& scheme, const PositivityTask& positive);
 
 /// Quadratic interpolation across a jump may leave too little as well: less than `thin_part` of the density
 /// or pressure in the middle of the stencil. Such a point gets the smallest value of its donors. Not
-/// conservative, as interpolation is not. @returns the number of points
-std::size_t keep_positive(const grid::InterpolationList& list, std::span<const FieldView> fields);
+/// conservative, as interpolation is not. @returns the number of points in rows of one's own
+std::size_t keep_positive(const grid::InterpolationList& list, std::span<const FieldView> fields,
+                          const RankRows& rows);
 
 }  // namespace fsi::fluid

@@ -1,5 +1,6 @@
 #include "common/program/program.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
@@ -20,6 +21,8 @@
 #include "common/core/input/suggest.hpp"
 #include "common/core/log.hpp"
 #include "common/io/atomic_file.hpp"
+#include "common/program/build_id.hpp"
+#include "common/ranks/peers.hpp"
 
 namespace fsi {
 
@@ -29,7 +32,7 @@ std::atomic<int> caught_signal{0};
 std::atomic<bool> loop_obeys_sigterm{false};
 
 void remember(int signal) {
-  if (caught_signal != SIGINT) caught_signal = signal;
+  if (caught_signal != SIGINT) caught_signal = signal == SIGUSR1 ? SIGTERM : signal;
 }
 
 void catch_signals() {
@@ -41,7 +44,8 @@ void catch_signals() {
   sigemptyset(&action.sa_mask);
   sigaction(SIGTERM, &action, nullptr);
   sigaction(SIGINT, &action, nullptr);
-  prctl(PR_SET_PDEATHSIG, SIGTERM);  // the launcher's death ends the run
+  sigaction(SIGUSR1, &action, nullptr);  // as SIGTERM, which mpirun would not pass on
+  prctl(PR_SET_PDEATHSIG, SIGTERM);      // the launcher's death ends the run
 }
 
 ExitCode note(const Failure& failure, io::Part& part) {
@@ -58,7 +62,12 @@ void leave_copy(const io::Part& part) {
       std::getenv("AMP_FSI_REPORT");  // NOLINT(concurrency-mt-unsafe): nobody sets it here
   if (descriptor == nullptr) return;
   const std::string text = io::to_json(part);
-  const auto written = ::write(std::atoi(descriptor), text.data(), text.size());  // NOLINT(cert-err34-c)
+  // A path where mpirun stands between the two, which passes no open files on.
+  const bool path = descriptor[0] == '/';
+  const int file =
+      path ? ::open(descriptor, O_WRONLY | O_CLOEXEC) : std::atoi(descriptor);  // NOLINT(cert-err34-c)
+  const auto written = ::write(file, text.data(), text.size());
+  if (path) ::close(file);
   if (written < 0) log_warning("the launcher cannot be told how this program ended");
 }
 
@@ -88,7 +97,7 @@ ExitCode leave_part(const Setup& setup, io::Part& part, ExitCode code) {
   part.peak_memory_mib = peak_memory();
   const double updates = static_cast<double>(part.points) * static_cast<double>(part.substeps);
   part.point_updates_per_s = part.compute_s > 0 ? updates / part.compute_s : 0;
-  leave_copy(part);
+  if (setup.ranks->first()) leave_copy(part);
   try {
     io::write_part(setup.run_dir, part);
   } catch (const Failure& failure) {
@@ -114,7 +123,8 @@ std::map<std::string, int> numbered(const std::string& list) {
 }
 
 /// False: help was asked for. @throws UserMistake
-bool read_command_line(int argc, char** argv, const std::string& role, Setup& setup, std::string& case_path) {
+bool read_command_line(int argc, char** argv, const std::string& role, Setup& setup, std::string& case_path,
+                       int& ranks) {
   CommandLine line(fmt::format("AMP-FSI {}: one program of a run; ./launch/fsi starts it", role));
   line.add_option("--case", case_path, "case file (YAML)").required();
   line.add_option("--run-dir", setup.run_dir, "folder of the results").required();
@@ -124,9 +134,51 @@ bool read_command_line(int argc, char** argv, const std::string& role, Setup& se
   line.add_option("--pause-at", setup.pause_at, "pause after so many steps");
   std::string pids;
   line.add_option("--pids", pids, "NAME=PID,..: processes of the other participants");
+  if (role == "fluid") {
+    line.add_option("--ranks", ranks, "processes that compute it together, started by mpirun");
+    line.add_option("--recut", setup.recut, "tests: they share out their work anew after so many steps");
+  }
   if (!line.parse(argc, argv)) return false;
   setup.pids = numbered(pids);
   return true;
+}
+
+/// This process becomes one of several that compute a participant. Others than the first leave signals to it, and
+/// have a log and a report of their own.
+void join_ranks(Setup& setup, io::Part& part, int size) {
+  if (size == 1) return;
+  setup.ranks = open_ranks(size);
+  const int rank = setup.ranks->rank();
+  if (rank > 0) {
+    part.participant = fmt::format("{}.rank{}", setup.name, rank);
+    for (const int number : {SIGTERM, SIGINT, SIGUSR1}) std::signal(number, SIG_IGN);
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+  }
+}
+
+/// Different programs, or processors for which libraries choose different code, would not get the same numbers.
+void check_same_build(const Setup& setup) {
+  const std::string mine = build_id() + " on " + processor_kind() + "\n";
+  std::istringstream all(as_text(setup.ranks->together(as_values(mine))));
+  std::string first, other;
+  std::getline(all, first);
+  for (int rank = 1; std::getline(all, other); ++rank) {
+    if (other == first) continue;
+    throw UserMistake(
+        fmt::format("rank {} of {} is program {}, rank 0 is {}: they would not get the same numbers; "
+                    "start the same build on processors of one kind (FSI_MARCH)",
+                    rank, setup.name, other, first));
+  }
+}
+
+/// Runs the body, while a rank that waits for others looks after them.
+void run_on_ranks(Setup& setup, const std::function<void()>& body) {
+  if (setup.ranks->alone()) return body();
+  check_same_build(setup);
+  RankPeers peers(*setup.ranks, setup.name,
+                  {.stopped_s = setup.problem.time.peer_timeout, .step_s = setup.problem.time.step_timeout});
+  setup.ranks->while_waiting([&peers](bool begins) { peers.look(begins); });
+  body();
 }
 
 }  // namespace
@@ -223,8 +275,9 @@ int run_program(int argc, char** argv, const std::string& default_name, const st
                 const std::function<void(const Setup&, io::Part&)>& body) {
   Setup setup{.problem = {}, .run_dir = ".", .run = "run", .name = default_name};
   std::string case_path;
+  int ranks = 1;
   try {
-    if (!read_command_line(argc, argv, role, setup, case_path)) return 0;
+    if (!read_command_line(argc, argv, role, setup, case_path, ranks)) return 0;
   } catch (const UserMistake& mistake) {
     fmt::print(stderr, "{}: {}\n", default_name, mistake.what());
     return static_cast<int>(mistake.code());
@@ -238,13 +291,16 @@ int run_program(int argc, char** argv, const std::string& default_name, const st
   part.status = "running";
   ExitCode code = run_body(
       [&] {
+        join_ranks(setup, part, ranks);
         io::make_directory(setup.run_dir + "/log");
-        open_log(setup.name, setup.run_dir, setup.restart.empty() ? LogFile::fresh : LogFile::continued);
+        open_log(part.participant, setup.run_dir,
+                 setup.restart.empty() ? LogFile::fresh : LogFile::continued);
         setup.problem = load_case(case_path);
-        body(setup, part);
+        run_on_ranks(setup, [&] { body(setup, part); });
       },
       part);
   if (code != ExitCode::done) log_error(part.reason);
+  if (code == ExitCode::done && !setup.ranks->first()) return 0;  // rank 0 reports for all
   code = leave_part(setup, part, code);
   return static_cast<int>(code);
 }

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -13,6 +14,7 @@
 #include "common/core/failure.hpp"
 #include "common/io/csv_writer.hpp"
 #include "common/io/part.hpp"
+#include "common/ranks/ranks.hpp"
 #include "common/wire/messages.hpp"
 
 namespace fsi {
@@ -27,6 +29,8 @@ struct Setup {
   std::string key = {};      ///< of the run, from the environment's AMP_FSI_KEY
   std::optional<std::uint64_t> pause_at = {};  ///< the run pauses after so many steps
   std::map<std::string, int> pids = {};        ///< coupler: the processes of the others, where they are known
+  std::shared_ptr<Ranks> ranks = one_rank();   ///< who computes this participant
+  int recut = 0;                               ///< tests: ranks share out their work anew after so many steps
 
   io::Opening opening() const { return restart.empty() ? io::Opening::fresh : io::Opening::continued; }
 };

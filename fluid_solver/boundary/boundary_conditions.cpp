@@ -66,7 +66,7 @@ class BoundaryConditions {
   ConstFieldView x_;
   Layout layout_;
 
-  SidePoints points_of(Side side) const { return {layout_, side, component_.live(side)}; }
+  SidePoints points_of(Side side) const { return {layout_, side, component_.live(side), &component_.rows()}; }
   bool limited() const { return task_.options.limiter != Limiter::none; }
 
   const Forcing* forcing() const { return component_.forcing(); }
@@ -80,6 +80,7 @@ class BoundaryConditions {
     const Vec2 n = straight_normal(x_, side);
     for (int m = 1; m <= Layout::ghosts; ++m) {
       for (int k = -reach; k < side.n() + reach; ++k) {
+        if (side.elsewhere(k)) continue;
         StateVector difference = load(q_, side.at(k, m)) - exact(position(x_, side, k, m));
         difference.segment<2>(1) -= 2 * n.dot(difference.segment<2>(1)) * n;
         store(q_, side.at(k, -m), exact(position(x_, side, k, -m)) + difference);
@@ -125,13 +126,10 @@ class BoundaryConditions {
     return wall;
   }
 
-  /// n.v := v_n^I, p := p_e - w_n^I, and the density that goes with the change of pressure.
-  void set_interface(const SidePoints& side) {
-    const InterfaceValues& values = values_of(side.side());
-    const auto n = static_cast<std::size_t>(side.n());
-    for (std::size_t k = 0; k < n; ++k) {
+  /// All ranks look at all points, so that all of them find the same one.
+  void check_interface(const SidePoints& side, const InterfaceValues& values) const {
+    for (std::size_t k = 0; k < static_cast<std::size_t>(side.n()); ++k) {
       const auto at = side.at(static_cast<int>(k), 0);
-      const Vec2 normal(values.n[k], values.n[n + k]);
       const double p_I = task_.options.p_e - values.w_n[k];
       if (!(p_I > 0 && std::isfinite(p_I) && std::isfinite(values.v_n[k]))) {
         throw NumbersBroke(
@@ -143,6 +141,19 @@ class BoundaryConditions {
              .point = {at.i, at.j},
              .position = {x_(0, at.i, at.j), x_(1, at.i, at.j)}});
       }
+    }
+  }
+
+  /// n.v := v_n^I, p := p_e - w_n^I, and the density that goes with the change of pressure.
+  void set_interface(const SidePoints& side) {
+    const InterfaceValues& values = values_of(side.side());
+    const auto n = static_cast<std::size_t>(side.n());
+    check_interface(side, values);
+    for (std::size_t k = 0; k < n; ++k) {
+      const auto at = side.at(static_cast<int>(k), 0);
+      if (side.elsewhere(static_cast<int>(k))) continue;
+      const Vec2 normal(values.n[k], values.n[n + k]);
+      const double p_I = task_.options.p_e - values.w_n[k];
       StateVector state = load(q_, at);
       const Vec2 v = state.segment<2>(1);
       state.segment<2>(1) = v + (values.v_n[k] - normal.dot(v)) * normal;
@@ -186,6 +197,7 @@ class BoundaryConditions {
   void set_symmetry(const SidePoints& side) {
     const Vec2 normal = straight_normal(x_, side);
     for (int k = 0; k < side.n(); ++k) {
+      if (side.elsewhere(k)) continue;
       StateVector state = load(q_, side.at(k, 0));
       double v_n = normal.dot(Vec2(state.segment<2>(1)));
       if (forcing() != nullptr) v_n -= normal.dot(Vec2(exact(position(x_, side, k, 0)).segment<2>(1)));
@@ -226,7 +238,9 @@ class BoundaryConditions {
   /// The last point is the first of the next period.
   void set_periodic(const SidePoints& side) {
     if (!at_upper_end(side.side())) return;
-    for (int k = 0; k < side.n(); ++k) store(q_, side.at(k, 0), load(q_, side.at(k, side.depth())));
+    for (int k = 0; k < side.n(); ++k) {
+      if (!side.elsewhere(k)) store(q_, side.at(k, 0), load(q_, side.at(k, side.depth())));
+    }
   }
 
   void ghosts(const SidePoints& side) {
@@ -266,6 +280,14 @@ void set_boundary_points(Component& component, const BoundaryTask& task) {
 
 void set_ghosts(Component& component, const BoundaryTask& task) {
   BoundaryConditions(component, task).set_ghosts();
+}
+
+void close_periods(Component& component) {
+  const FieldView q = component.state();
+  if (!std::holds_alternative<Periodic>(component.boundary(Side::top))) return;
+  if (!component.rows().has(q.layout.n2 - 1)) return;
+  const SidePoints top(q.layout, Side::top);
+  for (int k = 0; k < top.n(); ++k) store(q, top.at(k, 0), load(q, top.at(k, top.depth())));
 }
 
 void mirror_ghosts(Component& component, double t) {

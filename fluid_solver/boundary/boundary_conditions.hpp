@@ -28,6 +28,10 @@ struct BoundaryTask {
 /// @throws NumbersBroke where an interface pressure is not positive
 void set_boundary_points(Component& component, const BoundaryTask& task);
 
+/// The last row of a grid that is periodic across its rows is the first one again, once more: its owner may not
+/// have had that one before it was brought.
+void close_periods(Component& component);
+
 /// Ghosts and corners at time t.
 void set_ghosts(Component& component, const BoundaryTask& task);
 

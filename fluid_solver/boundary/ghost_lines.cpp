@@ -106,6 +106,7 @@ void symmetry_ghosts(FieldView q, ConstFieldView x, const SidePoints& side, int 
   const Vec2 n = straight_normal(x, side);
   for (int m = 1; m <= Layout::ghosts; ++m) {
     for (int k = first; k < last; ++k) {
+      if (side.elsewhere(k)) continue;
       StateVector value = load(q, side.at(k, m));
       value.segment<2>(1) -= 2 * n.dot(value.segment<2>(1)) * n;
       store(q, side.at(k, -m), value);
@@ -115,7 +116,9 @@ void symmetry_ghosts(FieldView q, ConstFieldView x, const SidePoints& side, int 
 
 void periodic_ghosts(FieldView q, const SidePoints& side, int first, int last) {
   for (int m = 1; m <= Layout::ghosts; ++m) {
-    for (int k = first; k < last; ++k) store(q, side.at(k, -m), load(q, side.at(k, side.depth() - m)));
+    for (int k = first; k < last; ++k) {
+      if (!side.elsewhere(k)) store(q, side.at(k, -m), load(q, side.at(k, side.depth() - m)));
+    }
   }
 }
 

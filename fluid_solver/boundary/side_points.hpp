@@ -8,6 +8,7 @@
 
 #include "common/core/field.hpp"
 #include "common/core/types.hpp"
+#include "fluid_solver/ranks/rank_rows.hpp"
 
 namespace fsi::fluid {
 
@@ -21,14 +22,19 @@ class SidePoints {
  public:
   SidePoints(const Layout& layout, Side side)
       : layout_(layout), side_(side), n_(direction_of(side) == 0 ? layout.n2 : layout.n1) {}
-  /// `live` says of each point whether its values and ghosts are needed; empty: all are.
-  SidePoints(const Layout& layout, Side side, std::span<const std::uint8_t> live) : SidePoints(layout, side) {
+  /// `live` says of each point whether its values and ghosts are needed; empty: all are. `rows`: those that this
+  /// rank has; null: all.
+  SidePoints(const Layout& layout, Side side, std::span<const std::uint8_t> live, const RankRows* rows)
+      : SidePoints(layout, side) {
     live_ = live;
+    rows_ = rows;
   }
 
   /// Of points beyond the ends that of the end.
   bool live(int k) const {
-    return live_.empty() || live_[static_cast<std::size_t>(k < 0 ? 0 : k < n_ ? k : n_ - 1)] != 0;
+    return !elsewhere(k) && (live_.empty() || live_[static_cast<std::size_t>(k < 0    ? 0
+                                                                             : k < n_ ? k
+                                                                                      : n_ - 1)] != 0);
   }
 
   struct Index {
@@ -47,6 +53,8 @@ class SidePoints {
     }
   }
   int n() const { return n_; }
+  /// Whether point k is in a row that another rank has.
+  bool elsewhere(int k) const { return rows_ != nullptr && !rows_->has(row(k)); }
   Side side() const { return side_; }
   /// Number of the last line away from the side.
   int depth() const { return (direction_of(side_) == 0 ? layout_.n1 : layout_.n2) - 1; }
@@ -61,6 +69,9 @@ class SidePoints {
   Side side_;
   int n_;
   std::span<const std::uint8_t> live_;
+  const RankRows* rows_ = nullptr;
+
+  int row(int k) const { return direction_of(side_) == 0 ? k : side_ == Side::bottom ? 0 : layout_.n2 - 1; }
 };
 
 /// Position of point k, m lines into the grid.

@@ -181,12 +181,18 @@ bool GasSolver::lets_pass(Side side) const {
 }
 
 Health GasSolver::health() const {
+  return share_.alone() ? health_here() : seen_.health;
+}
+
+/// In rows of one's own.
+Health GasSolver::health_here() const {
   constexpr double none = std::numeric_limits<double>::infinity();
   Health health{.min_rho = none, .min_p = none};
   double first_order = 0, outside_shocks = 0, positive_fluxes = 0, positive_values = 0, floors = 0;
   for (const Component& component : components_) {
     const ConstFieldView q = component.state();
     for (int j = 0; j < q.layout.n2; ++j) {
+      if (!component.rows().owns(j)) continue;
       const double *rho = q.row(0, j), *p = q.row(3, j);
       for (const grid::Interval& run : component.valid().row(j)) {
         health.min_rho = std::min(health.min_rho, smallest(rho, run));
@@ -226,6 +232,16 @@ GasErrors GasSolver::errors(const StateField& exact, double t) const {
     }
   }
   return errors;
+}
+
+std::vector<Strip> GasSolver::probe_strips(double x, double y) const {
+  std::vector<Strip> strips;
+  for (int k = 0; k < grids(); ++k) {
+    const std::optional<Place> place = find_cell(grid(k).x(), Vec2(x, y));
+    if (!place) continue;
+    for (const int j : {place->j, place->j + 1}) strips.push_back({k, j, place->i, place->i + 2});
+  }
+  return strips;
 }
 
 std::vector<std::uint8_t> GasSolver::kinds(int grid) const {

@@ -29,7 +29,13 @@ bool jumps(double p, double p_next) {
 }  // namespace
 
 bool inside_shock(const ShockField& field, int i, int j) {
+  return inside_shock(field, i, j, [](int) { return true; });
+}
+
+bool inside_shock(const ShockField& field, int i, int j, const std::function<bool(int)>& own) {
   for (int b = j - shock_reach; b <= j + shock_reach; ++b) {
+    const auto row = index_of(b, field.q.layout.n2, field.periodic[1]);
+    if (!row || !own(*row)) continue;
     for (int a = i - shock_reach; a <= i + shock_reach; ++a) {
       const double p = pressure(field, a, b);
       if (a < i + shock_reach && jumps(p, pressure(field, a + 1, b))) return true;
@@ -37,6 +43,15 @@ bool inside_shock(const ShockField& field, int i, int j) {
     }
   }
   return false;
+}
+
+bool sees_all(const ShockField& field, const RankRows& rows, int j) {
+  if (rows.all) return true;
+  const bool closed = field.periodic[1];
+  const int low = closed ? j - shock_reach : std::max(j - shock_reach, 0),
+            high = closed ? j + shock_reach : std::min(j + shock_reach, field.q.layout.n2 - 1);
+  constexpr int complete = RankRows::halo - 1;  // rows of the halo
+  return low >= rows.own.first - complete && high < rows.own.end + complete;
 }
 
 }  // namespace fsi::fluid

@@ -2,9 +2,11 @@
 /// Where the gas has a shock: for judging points that fell back to first order.
 
 #include <array>
+#include <functional>
 
 #include "common/core/field.hpp"
 #include "common/grid/intervals.hpp"
+#include "fluid_solver/ranks/rank_rows.hpp"
 
 namespace fsi::fluid {
 
@@ -25,5 +27,9 @@ struct ShockField {
 /// Whether within `shock_reach` cells of point (i, j), in both directions of its grid, two neighbours along a
 /// grid line that have a value belong to a shock.
 bool inside_shock(const ShockField& field, int i, int j);
+/// The same, looking at pairs along and above rows of one's own only: of several ranks, one will see it.
+bool inside_shock(const ShockField& field, int i, int j, const std::function<bool(int)>& own);
+/// Whether all that `inside_shock` looks at around a point of row j are values one has.
+bool sees_all(const ShockField& field, const RankRows& rows, int j);
 
 }  // namespace fsi::fluid

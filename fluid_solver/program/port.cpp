@@ -7,109 +7,14 @@
 #include <limits>
 #include <utility>
 
-#include "common/case/grids/composite_from_case.hpp"
 #include "common/grid/geometry/quality.hpp"
 #include "common/program/grid_from_case.hpp"
 #include "common/program/reference_from_case.hpp"
+#include "fluid_solver/program/from_case.hpp"
 
 namespace fsi::fluid {
 
 namespace {
-
-StateField field_of(const GasExpressions& state) {
-  return [state](double x, double y, double t) {
-    return State{
-        .rho = state.rho(x, y, t), .v1 = state.v1(x, y, t), .v2 = state.v2(x, y, t), .p = state.p(x, y, t)};
-  };
-}
-
-StateField field_of(std::shared_ptr<const exact::Solution> solution) {
-  return [solution = std::move(solution)](double x, double y, double t) {
-    const exact::GasState gas = solution->gas(x, y, t);
-    return State{.rho = gas.rho, .v1 = gas.v1, .v2 = gas.v2, .p = gas.p};
-  };
-}
-
-/// Data given by formulas, or by the reference solution.
-StateField data_of(bool from_reference, const std::optional<GasExpressions>& formulas,
-                   const std::shared_ptr<const exact::Solution>& reference, const std::string& what) {
-  if (from_reference && reference) return field_of(reference);
-  if (!from_reference && formulas) return field_of(*formulas);
-  throw UserMistake(fmt::format(
-      "fluid: {} has no data; write a state {{rho: .., v: [.., ..], p: ..}} or a reference", what));
-}
-
-Boundary boundary_of(const BoundarySpec& spec, Side side,
-                     const std::shared_ptr<const exact::Solution>& reference) {
-  const auto data = [&] {
-    return data_of(spec.from_reference, spec.state, reference, fmt::format("boundary {}", name_of(side)));
-  };
-  switch (spec.kind) {
-    case BoundaryKind::interface:
-      return Interface{};
-    case BoundaryKind::slip_wall:
-      return SlipWall{};
-    case BoundaryKind::symmetry:
-      return Symmetry{};
-    case BoundaryKind::imposed:
-      return Inflow{data()};
-    case BoundaryKind::outflow:
-      return Outflow{};
-    case BoundaryKind::inflow:
-    case BoundaryKind::far_field:
-      return FarField{data()};
-    case BoundaryKind::dirichlet:
-      return Dirichlet{data()};
-    case BoundaryKind::periodic:
-      return Periodic{};
-    case BoundaryKind::none:
-      return Idle{};
-    case BoundaryKind::traction:
-    case BoundaryKind::displacement:
-      break;
-  }
-  throw UserMistake(fmt::format("fluid: boundary {} has a condition for solids", name_of(side)));
-}
-
-GasOptions options_of(const Case& problem, const FluidSpec& spec) {
-  const GasScheme& scheme = spec.scheme;
-  const RefineSpec& refine = spec.refine;
-  return {.gamma = spec.gamma,
-          .p_e = spec.p_e,
-          .riemann = scheme.riemann,
-          .limiter = scheme.limiter,
-          .entropy_fix = scheme.entropy_fix,
-          .shock_viscosity = scheme.shock_viscosity,
-          .linear_diffusion = scheme.linear_diffusion,
-          .wave_curve = problem.interface.riemann == GasResponse::exact,
-          .refine = {refine.levels, refine.variable, refine.threshold, refine.buffer, refine.every},
-          .cfl = problem.time.cfl};
-}
-
-std::array<Boundary, 4> boundaries_of(const std::array<BoundarySpec, 4>& specs,
-                                      const std::shared_ptr<const exact::Solution>& reference) {
-  std::array<Boundary, 4> boundaries;
-  for (const Side side : all_sides) {
-    const auto k = static_cast<std::size_t>(side);
-    boundaries[k] = boundary_of(specs[k], side, reference);
-  }
-  return boundaries;
-}
-
-bool meets_a_solid(const std::array<BoundarySpec, 4>& specs) {
-  return std::ranges::find(specs, BoundaryKind::interface, &BoundarySpec::kind) != specs.end();
-}
-
-GasSolver solver_of(const Case& problem, const FluidSpec& spec,
-                    const std::shared_ptr<const exact::Solution>& reference) {
-  std::vector<GasPart> parts;
-  parts.push_back({grid::MovingGrid(grid_from_case(spec.grid, meets_a_solid(spec.boundary)), 0),
-                   boundaries_of(spec.boundary, reference)});
-  const std::vector<grid::GridDescription> fitted = grids_from_case(spec.body_fitted);
-  for (std::size_t k = 0; k < fitted.size(); ++k)
-    parts.push_back({grid::MovingGrid(fitted[k], 0), boundaries_of(spec.body_fitted[k].boundary, reference)});
-  return {std::move(parts), bodies_of(spec.body_fitted), options_of(problem, spec), 0};
-}
 
 /// Mean of |rho - exact| over the grid points: what is left to measure where the solution jumps.
 double mean_density_error(const GasSolver& solver, const StateField& exact, double t) {
@@ -132,7 +37,8 @@ FluidParticipant::FluidParticipant(const Setup& setup)
     : setup_(setup),
       spec_(fluid_of(setup)),
       reference_(reference_from_case(setup.problem, setup.run_dir)),
-      solver_(solver_of(setup.problem, spec_, reference_)),
+      solver_(gas_at_start(setup.problem, spec_, reference_)),
+      crew_(setup.ranks, solver_),
       fields_(setup.run_dir, fields_name(spec_)) {
   for (const Side side : all_sides) {
     const BoundarySpec& boundary = spec_.boundary[static_cast<std::size_t>(side)];
@@ -144,10 +50,7 @@ FluidParticipant::FluidParticipant(const Setup& setup)
     if (!fitted.solid.empty())
       interfaces_.push_back({static_cast<int>(k) + 1, fitted.side, name_of_interface(fitted.solid)});
   }
-  chosen_ = reference_ && setup.problem.reference.kind == "manufactured";
-  if (chosen_) solver_.force(field_of(reference_));
-  solver_.assign_initial_conditions(
-      data_of(spec_.initial_from_reference, spec_.initial, reference_, "initial"));
+  chosen_ = is_chosen(setup.problem, reference_);
   initial_totals_ = solver_.totals();
   open_budget();
   watch_ripples();
@@ -161,6 +64,7 @@ FluidParticipant::FluidParticipant(const Setup& setup)
   }
   if (!probes_.empty())
     probe_table_.emplace(setup.run_dir + "/parts/probes_" + spec_.name + ".csv", columns, setup.opening());
+  solver_.share(setup.ranks, {.every = setup.recut});
 }
 
 wire::Hello FluidParticipant::hello() const {
@@ -180,6 +84,7 @@ wire::Hello FluidParticipant::hello() const {
 }
 
 TimeStepBid FluidParticipant::compute_time_step() const {
+  crew_.look();
   const TimeStep step = solver_.compute_time_step();
   return {.dt = step.dt, .reason = step.reason};
 }
@@ -236,7 +141,7 @@ void FluidParticipant::apply_bcs(double t, ProjectedStates projected) {
                       .a = p.a,
                       .grid = interfaces_[k].grid});
   }
-  solver_.apply_fluid_bcs(t, values);
+  crew_.apply_bcs(t, values);
 }
 
 void FluidParticipant::advance(double t, double dt, int /*substeps*/, ProjectedStates projected) {
@@ -244,13 +149,13 @@ void FluidParticipant::advance(double t, double dt, int /*substeps*/, ProjectedS
   for (std::size_t k = 0; k < projected.size(); ++k)
     commands.push_back({interfaces_[k].side, projected[k]->x_next, interfaces_[k].grid});
   const double t_next = projected.empty() ? t + dt : projected.front()->t_next;
-  solver_.move_grids(t_next, dt, commands);
+  crew_.move(t_next, dt, commands);
   for (int k = 0; k < solver_.grids(); ++k) {
     const grid::MovingGrid& grid = solver_.grid(k);
     if (grid.moves()) worst_cells_ = std::min(worst_cells_, grid::cell_quality(grid.x()));
   }
   lap(io::Work::grids);
-  solver_.advance_fluid(t_next, dt);
+  crew_.advance(t_next, dt);
 }
 
 std::vector<io::GridOutput> FluidParticipant::fields(bool last) const {
@@ -268,7 +173,13 @@ std::vector<io::GridOutput> FluidParticipant::fields(bool last) const {
   return grids;
 }
 
+std::vector<io::GridOutput> FluidParticipant::fields_now() {
+  crew_.collect();
+  return fields(false);
+}
+
 void FluidParticipant::write_fields(double t, std::uint64_t step) {
+  crew_.collect();
   fields_.write(t, step, fields(true));
   if (!budget_) return;
   const Totals defect = budget_->defect(solver_);
@@ -276,11 +187,14 @@ void FluidParticipant::write_fields(double t, std::uint64_t step) {
 }
 
 void FluidParticipant::write_last_state(double t, std::uint64_t step) {
+  crew_.collect_all();
   fields_.write_apart("last_state", t, step, fields(true));
 }
 
 void FluidParticipant::archive(Archive& archive) {
+  if (!archive.loading()) crew_.collect_all();
   solver_.archive(archive);
+  if (archive.loading()) crew_.loaded();
   archive.number("worst_cells", worst_cells_);
   archive.inside("fields", [&] { fields_.archive(archive); });
   if (probe_table_) archive.inside("probes", [&] { probe_table_->archive(archive); });
@@ -289,16 +203,8 @@ void FluidParticipant::archive(Archive& archive) {
   if (budget_table_) archive.inside("budget_table", [&] { budget_table_->archive(archive); });
 }
 
-/// A budget needs to know all that passes its boundary: bodies away from it, and no sources.
 void FluidParticipant::open_budget() {
-  const bool bodies =
-      !spec_.body_fitted.empty() && std::ranges::all_of(spec_.body_fitted, [](const BodyFittedSpec& fitted) {
-        return fitted.curve.closed() && !fitted.solid.empty();
-      });
-  const bool known = std::ranges::none_of(spec_.boundary, [](const BoundarySpec& side) {
-    return side.kind == BoundaryKind::interface || side.kind == BoundaryKind::periodic;
-  });
-  if (!bodies || !known || chosen_ || solver_.levels() != nullptr) return;
+  if (solver_.levels() != nullptr || !has_budget(setup_.problem, spec_, reference_)) return;
   budget_.emplace(solver_);
   budget_table_.emplace(
       setup_.run_dir + "/budget_" + spec_.name + ".csv",
@@ -307,7 +213,22 @@ void FluidParticipant::open_budget() {
       setup_.opening());
 }
 
+/// What the tables are made of.
+std::vector<Strip> FluidParticipant::strips_of_tables() const {
+  std::vector<Strip> strips;
+  for (const ProbeSpec& probe : probes_) {
+    const std::vector<Strip> cells = solver_.probe_strips(probe.x, probe.y);
+    strips.insert(strips.end(), cells.begin(), cells.end());
+  }
+  if (!budget_) return strips;
+  for (const Side side : all_sides) {
+    if (!solver_.lets_pass(side)) add_side_strips(solver_.grid().layout(), side, strips);
+  }
+  return strips;
+}
+
 void FluidParticipant::write_tables(double t, double dt, ProjectedStates projected) {
+  if (!crew_.alone() && (budget_ || probe_table_)) crew_.fetch(strips_of_tables());
   if (budget_) {
     std::vector<InterfaceLoad> loads;
     for (std::size_t k = 0; k < projected.size(); ++k) {
@@ -342,6 +263,7 @@ void FluidParticipant::watch_ripples() {
 }
 
 void FluidParticipant::look_for_noise(double t) {
+  crew_.collect();
   watched_.clear();
   for (int k = 0; k < solver_.grids(); ++k)
     watched_.push_back({.q = solver_.state(k), .x = solver_.grid(k).x(), .points = &solver_.valid(k)});
@@ -349,6 +271,7 @@ void FluidParticipant::look_for_noise(double t) {
 }
 
 wire::Health FluidParticipant::health() const {
+  crew_.look();
   const Health health = solver_.health();
   return {.min_rho = health.min_rho,
           .min_p = health.min_p,
@@ -359,6 +282,8 @@ wire::Health FluidParticipant::health() const {
 }
 
 void FluidParticipant::report(double t, io::Part& part) const {
+  crew_.look();
+  crew_.collect();
   const Health health = solver_.health();
   part.counters["first_order_fallbacks"] = static_cast<double>(health.first_order_fallbacks);
   part.counters["first_order_fallbacks_outside_shocks"] =

@@ -215,15 +215,17 @@ bool CompositeGrid::cut_away(const Vec2& x, int spared) const {
   });
 }
 
-void CompositeGrid::interpolate(std::span<const FieldView> fields) const {
-  for (const InterpolationList& list : interpolation_) {
+void CompositeGrid::interpolate(std::span<const FieldView> fields,
+                                std::span<const InterpolationList> lists) const {
+  for (const InterpolationList& list : lists) {
     if (!list.implicit) apply(list, fields);
   }
-  if (implicit_) implicit_->solve(interpolation_, fields);
+  if (implicit_) implicit_->solve(lists, fields);
 }
 
-void CompositeGrid::fill_exposed(std::span<const FieldView> fields) const {
-  for (const InterpolationList& list : exposed_) apply(list, fields);
+void CompositeGrid::fill_exposed(std::span<const FieldView> fields,
+                                 std::span<const InterpolationList> lists) {
+  for (const InterpolationList& list : lists) apply(list, fields);
 }
 
 }  // namespace fsi::grid

@@ -105,10 +105,15 @@ class CompositeGrid {
 
   /// Interpolates all planes of all fields, one per grid; points
   /// that are donors of each other get their common solution.
-  void interpolate(std::span<const FieldView> fields) const;
+  void interpolate(std::span<const FieldView> fields) const { interpolate(fields, interpolation_); }
+  /// The same at some of the points: `lists` are those of interpolation(), and have fewer points where they are not
+  /// implicit.
+  void interpolate(std::span<const FieldView> fields, std::span<const InterpolationList> lists) const;
   /// Gives the points that were unused before the last update
   /// values of the time before it: `fields` hold that time.
-  void fill_exposed(std::span<const FieldView> fields) const;
+  void fill_exposed(std::span<const FieldView> fields) const { fill_exposed(fields, exposed_); }
+  /// The same at some of the points.
+  static void fill_exposed(std::span<const FieldView> fields, std::span<const InterpolationList> lists);
 
   std::span<const InterpolationList> interpolation() const { return interpolation_; }
   std::span<const InterpolationList> exposed() const { return exposed_; }

@@ -128,7 +128,7 @@ TEST(PositiveValues, APointThatInterpolatesBelowZeroGetsItsSmallestDonor) {
   const double sound = target(0, 2, 2);
   EXPECT_GT(sound, 0);
   const double velocity = target(1, 1, 2);
-  EXPECT_EQ(keep_positive(list, fields), 1U);
+  EXPECT_EQ(keep_positive(list, fields, RankRows{}), 1U);
   EXPECT_EQ(target(0, 1, 2), 0.1);
   EXPECT_EQ(target(3, 1, 2), 0.1);
   EXPECT_EQ(target(1, 1, 2), velocity);

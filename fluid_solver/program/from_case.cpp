@@ -1,0 +1,141 @@
+#include "fluid_solver/program/from_case.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "common/case/grids/composite_from_case.hpp"
+#include "common/core/failure.hpp"
+#include "common/program/grid_from_case.hpp"
+
+namespace fsi::fluid {
+
+namespace {
+
+StateField field_of(const GasExpressions& state) {
+  return [state](double x, double y, double t) {
+    return State{
+        .rho = state.rho(x, y, t), .v1 = state.v1(x, y, t), .v2 = state.v2(x, y, t), .p = state.p(x, y, t)};
+  };
+}
+
+/// Data given by formulas, or by the reference solution.
+StateField data_of(bool from_reference, const std::optional<GasExpressions>& formulas,
+                   const std::shared_ptr<const exact::Solution>& reference, const std::string& what) {
+  if (from_reference && reference) return fluid::field_of(reference);
+  if (!from_reference && formulas) return field_of(*formulas);
+  throw UserMistake(fmt::format(
+      "fluid: {} has no data; write a state {{rho: .., v: [.., ..], p: ..}} or a reference", what));
+}
+
+Boundary boundary_of(const BoundarySpec& spec, Side side,
+                     const std::shared_ptr<const exact::Solution>& reference) {
+  const auto data = [&] {
+    return data_of(spec.from_reference, spec.state, reference, fmt::format("boundary {}", name_of(side)));
+  };
+  switch (spec.kind) {
+    case BoundaryKind::interface:
+      return Interface{};
+    case BoundaryKind::slip_wall:
+      return SlipWall{};
+    case BoundaryKind::symmetry:
+      return Symmetry{};
+    case BoundaryKind::imposed:
+      return Inflow{data()};
+    case BoundaryKind::outflow:
+      return Outflow{};
+    case BoundaryKind::inflow:
+    case BoundaryKind::far_field:
+      return FarField{data()};
+    case BoundaryKind::dirichlet:
+      return Dirichlet{data()};
+    case BoundaryKind::periodic:
+      return Periodic{};
+    case BoundaryKind::none:
+      return Idle{};
+    case BoundaryKind::traction:
+    case BoundaryKind::displacement:
+      break;
+  }
+  throw UserMistake(fmt::format("fluid: boundary {} has a condition for solids", name_of(side)));
+}
+
+GasOptions options_of(const Case& problem, const FluidSpec& spec) {
+  const GasScheme& scheme = spec.scheme;
+  const RefineSpec& refine = spec.refine;
+  return {.gamma = spec.gamma,
+          .p_e = spec.p_e,
+          .riemann = scheme.riemann,
+          .limiter = scheme.limiter,
+          .entropy_fix = scheme.entropy_fix,
+          .shock_viscosity = scheme.shock_viscosity,
+          .linear_diffusion = scheme.linear_diffusion,
+          .wave_curve = problem.interface.riemann == GasResponse::exact,
+          .refine = {refine.levels, refine.variable, refine.threshold, refine.buffer, refine.every},
+          .cfl = problem.time.cfl};
+}
+
+std::array<Boundary, 4> boundaries_of(const std::array<BoundarySpec, 4>& specs,
+                                      const std::shared_ptr<const exact::Solution>& reference) {
+  std::array<Boundary, 4> boundaries;
+  for (const Side side : all_sides) {
+    const auto k = static_cast<std::size_t>(side);
+    boundaries[k] = boundary_of(specs[k], side, reference);
+  }
+  return boundaries;
+}
+
+bool meets_a_solid(const std::array<BoundarySpec, 4>& specs) {
+  return std::ranges::find(specs, BoundaryKind::interface, &BoundarySpec::kind) != specs.end();
+}
+
+GasSolver solver_of(const Case& problem, const FluidSpec& spec,
+                    const std::shared_ptr<const exact::Solution>& reference) {
+  std::vector<GasPart> parts;
+  parts.push_back({grid::MovingGrid(grid_from_case(spec.grid, meets_a_solid(spec.boundary)), 0),
+                   boundaries_of(spec.boundary, reference)});
+  const std::vector<grid::GridDescription> fitted = grids_from_case(spec.body_fitted);
+  for (std::size_t k = 0; k < fitted.size(); ++k)
+    parts.push_back({grid::MovingGrid(fitted[k], 0), boundaries_of(spec.body_fitted[k].boundary, reference)});
+  return {std::move(parts), bodies_of(spec.body_fitted), options_of(problem, spec), 0};
+}
+
+}  // namespace
+
+StateField field_of(std::shared_ptr<const exact::Solution> solution) {
+  return [solution = std::move(solution)](double x, double y, double t) {
+    const exact::GasState gas = solution->gas(x, y, t);
+    return State{.rho = gas.rho, .v1 = gas.v1, .v2 = gas.v2, .p = gas.p};
+  };
+}
+
+bool is_chosen(const Case& problem, const std::shared_ptr<const exact::Solution>& reference) {
+  return reference && problem.reference.kind == "manufactured";
+}
+
+GasSolver gas_at_start(const Case& problem, const FluidSpec& spec,
+                       const std::shared_ptr<const exact::Solution>& reference) {
+  GasSolver solver = solver_of(problem, spec, reference);
+  if (is_chosen(problem, reference)) solver.force(field_of(reference));
+  solver.assign_initial_conditions(data_of(spec.initial_from_reference, spec.initial, reference, "initial"));
+  if (solver.levels() == nullptr && has_budget(problem, spec, reference)) solver.note_edges();
+  return solver;
+}
+
+bool has_budget(const Case& problem, const FluidSpec& spec,
+                const std::shared_ptr<const exact::Solution>& reference) {
+  const bool bodies =
+      !spec.body_fitted.empty() && std::ranges::all_of(spec.body_fitted, [](const BodyFittedSpec& fitted) {
+        return fitted.curve.closed() && !fitted.solid.empty();
+      });
+  const bool known = std::ranges::none_of(spec.boundary, [](const BoundarySpec& side) {
+    return side.kind == BoundaryKind::interface || side.kind == BoundaryKind::periodic;
+  });
+  return bodies && known && !is_chosen(problem, reference);
+}
+
+}  // namespace fsi::fluid

@@ -1,0 +1,194 @@
+/// A gas on several ranks: all it depends on later is the same to the bit as with one.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common/core/failure.hpp"
+#include "tests/unit/fluid/moving_body.hpp"
+#include "tests/unit/fluid/thread_ranks.hpp"
+
+namespace fsi::fluid {
+namespace {
+
+using MakeGas = std::function<GasSolver()>;
+
+/// A shock from the left, into gas of hardly any pressure.
+StateField strong_shock() {
+  return [](double x, double, double) { return x < -1.6 ? State{4, 5, 0, 40} : State{1, 0, 0, 1e-3}; };
+}
+
+/// Every point another gas.
+StateField noise(double size) {
+  return [size](double x, double y, double) {
+    const double a = std::sin(91.7 * x + 37.3 * y), b = std::cos(57.1 * x - 83.9 * y);
+    return State{
+        .rho = std::exp(size * a), .v1 = 0.3 + size * b, .v2 = -0.2 + size * a * b, .p = std::exp(size * b)};
+  };
+}
+
+/// Everything that a checkpoint would hold after some steps.
+Archive::Entries after_steps(const MakeGas& make, int ranks, int steps, int recut_every = 0) {
+  Archive::Entries entries;
+  fsi::test::on_ranks(ranks, [&](std::shared_ptr<Ranks> mine) {
+    GasSolver gas = make();
+    gas.share(mine, {.every = recut_every});
+    gas.apply_fluid_bcs(0);
+    double t = 0;
+    for (int step = 0; step < steps; ++step) t = test::step_with_body(gas, t);
+    gas.collect_all();
+    Archive archive;
+    gas.archive(archive);
+    if (mine->first()) entries = archive.entries();
+  });
+  return entries;
+}
+
+void expect_same(const Archive::Entries& one, const Archive::Entries& other, const std::string& what) {
+  ASSERT_EQ(one.size(), other.size());
+  for (const auto& [name, values] : one) {
+    const std::vector<double>& others = other.at(name);
+    ASSERT_EQ(values.size(), others.size()) << name;
+    std::size_t different = 0;
+    for (std::size_t k = 0; k < values.size(); ++k) different += values[k] == others[k] ? 0U : 1U;
+    EXPECT_EQ(different, 0U) << name << ", " << what;
+  }
+}
+
+void expect_same_on_ranks(const MakeGas& make, int steps) {
+  const Archive::Entries whole = after_steps(make, 1, steps);
+  for (const int ranks : {2, 3, 7})
+    expect_same(whole, after_steps(make, ranks, steps), std::to_string(ranks) + " ranks");
+  expect_same(whole, after_steps(make, 4, steps, 3), "4 ranks with new rows every 3 steps");
+}
+
+TEST(GasOnRanks, AShockMeetsAMovingBody) {
+  const MakeGas make = [] {
+    GasSolver gas = test::around_moving_body({}, Dirichlet{strong_shock()});
+    gas.assign_initial_conditions(strong_shock());
+    gas.note_edges();
+    return gas;
+  };
+  expect_same_on_ranks(make, 40);
+}
+
+TEST(GasOnRanks, PositiveFluxesAcrossTheirBorders) {
+  const MakeGas make = [] {
+    grid::GridDescription box = test::wavy(33, 33, {0, 0}, {1, 1});
+    box.periodic1 = box.periodic2 = true;
+    return test::solver(box, {.limiter = Limiter::none}, {Periodic{}, Periodic{}, Periodic{}, Periodic{}},
+                        noise(3));
+  };
+  expect_same_on_ranks(make, 12);
+  const Archive::Entries entries = after_steps(make, 3, 12);
+  for (const char* counted : {"first_order", "positive_fluxes"})
+    EXPECT_GT(entries.at(std::string("grid0.") + counted).front(), 0) << counted;
+}
+
+TEST(GasOnRanks, WallsMirrorsAndOpenSides) {
+  for (const double viscosity : {0.0, 0.5}) {
+    const MakeGas make = [viscosity] {
+      return test::solver(test::wavy(29, 23, {-1, -1}, {1, 1}), {.shock_viscosity = viscosity},
+                          {SlipWall{}, Outflow{}, Symmetry{}, FarField{noise(0.1)}}, noise(0.1));
+    };
+    expect_same_on_ranks(make, 15);
+    const MakeGas turned = [viscosity] {
+      return test::solver(test::wavy(23, 29, {-1, -1}, {1, 1}), {.shock_viscosity = viscosity},
+                          {Symmetry{}, FarField{noise(0.1)}, Outflow{}, SlipWall{}}, noise(0.1));
+    };
+    expect_same_on_ranks(turned, 15);
+  }
+}
+
+TEST(GasOnRanks, ShockViscosityAroundABody) {
+  const MakeGas make = [] {
+    GasSolver gas = test::around_moving_body({.shock_viscosity = 0.5}, Dirichlet{noise(0.2)});
+    gas.assign_initial_conditions(noise(0.2));
+    return gas;
+  };
+  expect_same_on_ranks(make, 10);
+}
+
+TEST(GasOnRanks, TheSameTimeStepHealthAndProbes) {
+  const auto seen = [](int ranks) {
+    std::string words;
+    fsi::test::on_ranks(ranks, [&](std::shared_ptr<Ranks> mine) {
+      GasSolver gas = test::around_moving_body({}, Dirichlet{noise(0.2)});
+      gas.assign_initial_conditions(noise(0.2));
+      gas.share(mine, {});
+      gas.apply_fluid_bcs(0);
+      const double t = test::step_with_body(gas, 0);
+      test::step_with_body(gas, t);
+      gas.look();
+      std::vector<Strip> strips;
+      for (const double x : {-1.3, 1.25, 2.0}) {
+        const std::vector<Strip> cells = gas.probe_strips(x, 0.4);
+        strips.insert(strips.end(), cells.begin(), cells.end());
+      }
+      gas.fetch(strips);
+      if (!mine->first()) return;
+      const Health health = gas.health();
+      words = gas.compute_time_step().reason + fmt::format(" {} {}", health.min_rho, health.min_p);
+      for (const double x : {-1.3, 1.25, 2.0})
+        words += fmt::format(" {}", gas.probe(x, 0.4).value_or(State{}).p);
+    });
+    return words;
+  };
+  EXPECT_EQ(seen(1), seen(3));
+  EXPECT_EQ(seen(1), seen(5));
+}
+
+TEST(GasOnRanks, NumbersBreakOnAllOfThemAlike) {
+  const auto broken = [](int ranks) {
+    std::string words;
+    fsi::test::on_ranks(ranks, [&](std::shared_ptr<Ranks> mine) {
+      GasSolver gas = test::solver(test::rectangle(21, 21, {-1, -1}, {1, 1}), {.limiter = Limiter::none},
+                                   {Outflow{}, Outflow{}, Outflow{}, Outflow{}}, noise(0.1));
+      gas.share(mine, {});
+      gas.apply_fluid_bcs(0);
+      try {
+        gas.move_grids(1e3, 1e3, {});
+        gas.advance_fluid(1e3, 1e3);
+      } catch (const NumbersBroke& failure) {
+        if (mine->rank() == mine->size() - 1) words = failure.what();
+      }
+    });
+    return words;
+  };
+  EXPECT_NE(broken(1), "");
+  EXPECT_EQ(broken(1), broken(4));
+}
+
+TEST(RowCuts, GiveEveryRowToOneRankAndHalosAroundThem) {
+  const grid::RowSets all = grid::all_points(10, 40), few = grid::all_points(50, 6);
+  const std::vector<CutGrid> grids{{Layout(10, 40), true, &all}, {Layout(50, 6), false, &few}};
+  for (const double shift : {0.0, 0.4}) {
+    const Cut cut(grids, 5, shift);
+    for (int grid = 0; grid < 2; ++grid) {
+      int next = 0;
+      for (int rank = 0; rank < 5; ++rank) {
+        const grid::RowRange own = cut.own(grid, rank);
+        if (own.first >= own.end) continue;
+        EXPECT_EQ(own.first, next);
+        next = own.end;
+        for (int j = own.first; j < own.end; ++j) EXPECT_EQ(cut.owner(grid, j), rank);
+      }
+      EXPECT_EQ(next, grids[static_cast<std::size_t>(grid)].layout.n2);
+    }
+    EXPECT_EQ(cut.owner(0, -2), cut.owner(0, 0));
+    EXPECT_EQ(cut.owner(1, 7), cut.owner(1, 5));
+  }
+  const Cut even(grids, 5);
+  EXPECT_LT(even.imbalance(grids), 1.3);
+  // Row 39 is row 0 once more, so who has row 0 has the other end as well.
+  EXPECT_EQ(even.halos(0, 0).at(1), (grid::RowRange{36, 40}));
+}
+
+}  // namespace
+}  // namespace fsi::fluid
