@@ -32,7 +32,8 @@ def _run(options):
     from fsi_launch.run import Request, run
     result = run(Request(case=options.case, overrides=options.overrides, laws=options.laws, out=options.out,
                          overwrite=options.overwrite, restart=options.restart, progress=options.progress, pause_at=options.pause_at,
-                         monitor=options.monitor, protection=options.protection, frames=options.movie))
+                         monitor=options.monitor, protection=options.protection, frames=options.movie,
+                         ranks=options.ranks))
     if options.movie and result.code == DONE:
         from fsi_launch import plot
         plot.draw_movie(result.directory)
@@ -204,6 +205,8 @@ def _parser():
                       "with q it goes on with the progress bar")
     verb.add_argument("--pause-at", metavar="N", type=_count, help="pause after N steps, until fsi ctl resume: to look at a run, "
                       "or to attach a debugger, at the same place every time")
+    verb.add_argument("--ranks", metavar="NAME=N,..", help="let N processes compute a gas together, e.g. --ranks fluid=4; auto: as many "
+                      "as there are cores for. The numbers are the same to the bit. Takes Open MPI (docs/scaling.md)")
     verb.add_argument("--movie", action="store_true", help="more output times, and an animated file DIR/plots/movie.mp4 of "
                       "them (.gif without ffmpeg)")
     protection = verb.add_mutually_exclusive_group()

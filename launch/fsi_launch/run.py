@@ -11,7 +11,7 @@ from pathlib import Path
 
 from fsi_launch import case as cases
 from fsi_launch import paths
-from fsi_launch.living import interrupts, registry
+from fsi_launch.living import interrupts, ranks, registry
 from fsi_launch.results import probes, restart, summary, verdict
 from fsi_launch.failure import (DONE, EXPECTATION_MISSED, Failure, NUMBERS_BROKE, OUTPUT_FAILED, USER_MISTAKE, UserMistake)
 from fsi_launch.living.progress import Progress
@@ -41,6 +41,7 @@ class Request:
     quiet: bool = False
     judge: bool = True      # hold the results against the case's expectations
     protection: str = "sign"    # of the bus: off, sign or encrypt
+    ranks: str = None       # NAME=N,.. or auto: processes that compute a participant together
     frames: bool = False    # output times for a movie besides those of the case, unless the overrides say how many
 
 
@@ -99,15 +100,24 @@ def _make_directory(request, name):
 # --- the programs
 
 
-def _programs(case, directory, entry, checkpoint, reports, pause_at):
+def _programs(case, directory, entry, checkpoint, reports, request):
     """`reports`: {name: file in memory} for a copy of what each leaves."""
+    asked = ranks.wanted(request.ranks, case)
+    cores = ranks.cores(asked)
+    for former in directory.glob("parts/*.rank*.json"):
+        former.unlink(missing_ok=True)
     common = ["--case", str(directory / "case.yaml"), "--run-dir", str(directory), "--run", entry.run]
     if checkpoint:
         common += ["--restart", str(checkpoint.path)]
-    own = {case.speaker(): [] if pause_at is None else ["--pause-at", str(pause_at)]}
-    return [Program(name, [paths.program(program), *common, "--name", name, *own.get(name, [])], listen=name == case.speaker(),
-                    environment={"AMP_FSI_KEY": entry.key}, report=reports[name], tell_pids=name == COUPLER)
-            for name, program in case.programs.items()]
+    own = {case.speaker(): [] if request.pause_at is None else ["--pause-at", str(request.pause_at)]}
+    programs = []
+    for name, program in case.programs.items():
+        command, number = [paths.program(program), *common, "--name", name, *own.get(name, [])], asked.get(name, 1)
+        programs.append(Program(
+            name, command if number == 1 else ranks.command(command, number), listen=name == case.speaker(),
+            environment={"AMP_FSI_KEY": entry.key} | (ranks.environment() if number > 1 else {}), report=reports[name],
+            tell_pids=name == COUPLER, ranks=number, cores=cores.get(name)))
+    return programs
 
 
 @contextlib.contextmanager
@@ -198,6 +208,7 @@ def _resolved(request, path, former=None):
     paths.build([*needed(case), *(["monitor"] if request.monitor else [])])
     for program in case.programs.values():
         paths.program(program)
+    ranks.expect_mpi(ranks.wanted(request.ranks, case))
     return case
 
 
@@ -235,7 +246,7 @@ def run(request):
     with _in_memory(case.programs) as reports:
         entered = registry.Entry(identity, directory.resolve(), case.name, request.protection, case.programs)
         with interrupts.held(), entered as entry, interrupts.heard():
-            programs = _programs(case, directory, entry, checkpoint, reports, request.pause_at)
+            programs = _programs(case, directory, entry, checkpoint, reports, request)
             outcome = _watched(case, directory, programs, identity, request, say)
         parts = summary.read_parts(directory, case.programs, _copies(reports))
     found = verdict.judge(outcome, case, directory, parts)

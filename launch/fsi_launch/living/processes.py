@@ -1,5 +1,6 @@
 """The living programs of runs, as the system shows them."""
 
+import contextlib
 import os
 import time
 from dataclasses import dataclass
@@ -29,6 +30,21 @@ def _stat(pid):
 def state_of(pid):
     """The letter the system shows for a process: R, S, D, T (stopped), Z (ended) ... Throws OSError when there is none."""
     return _stat(pid)[0]
+
+
+def session_of(pid):
+    """The session of a living process; 0 when there is none."""
+    try:
+        fields = _stat(pid)
+    except (OSError, IndexError):
+        return 0
+    return 0 if fields[0] in "ZX" else int(fields[3])
+
+
+def signal_to(pid, number):
+    """Sends a signal to a process that may have ended."""
+    with contextlib.suppress(ProcessLookupError):
+        os.kill(pid, number)
 
 
 def start_time(pid):

@@ -15,7 +15,8 @@ import subprocess
 import time
 from dataclasses import dataclass, field
 
-from fsi_launch.living import interrupts, processes
+from fsi_launch.failure import INTERRUPTED, TERMINATED
+from fsi_launch.living import interrupts, processes, ranks
 
 GRACE = 4.0         # [s] from a program's failure to SIGTERM for the others: they should have ended by then
 NOT_BEGUN = 0.5     # [s] the same before everybody has joined
@@ -41,6 +42,8 @@ class Program:
     environment: dict = field(default_factory=dict)     # besides the launcher's own
     tell_pids: bool = False     # by --pids, of those that were started before
     report: int = None  # descriptor of a file in memory for a copy of what it leaves (AMP_FSI_REPORT)
+    ranks: int = 1      # more: the command is an mpirun
+    cores: set = None   # on which it may run; None: on all
 
 
 @dataclass
@@ -66,10 +69,12 @@ class Outcome:
     signal: int = 0
 
 
-def _child_setup(parent):
+def _child_setup(parent, cores):
     """Runs in the child: it dies with its launcher, even if that is killed with SIGKILL."""
 
     def prepare():
+        if cores:
+            os.sched_setaffinity(0, cores)
         _libc.prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
         if os.getppid() != parent:
             os._exit(1)
@@ -90,6 +95,7 @@ class Supervisor:
         self._processes = {}
         self._pidfds = {}
         self._signalled = set()
+        self._ranked = set()        # names of those that several processes compute
         self._terminate_at = self._kill_at = float("inf")
         self._outcome = Outcome()
         self._begun = True          # everybody has joined, as far as one knows
@@ -119,16 +125,19 @@ class Supervisor:
     def _start(self, program):
         environment, command = os.environ | program.environment, list(program.command)
         if program.report is not None:
-            environment["AMP_FSI_REPORT"] = str(program.report)
+            # mpirun passes no open files on.
+            environment["AMP_FSI_REPORT"] = str(program.report) if program.ranks == 1 else f"/proc/{os.getpid()}/fd/{program.report}"
         if program.tell_pids:
-            command += ["--pids", ",".join(f"{name}={process.pid}" for name, process in self._processes.items())]
+            command += ["--pids", ",".join(f"{name}={process.pid}" for name, process in self._processes.items() if name not in self._ranked)]
         with contextlib.ExitStack() as stack:
             log = stack.enter_context(open(self._log_dir / f"{program.name}.out", "ab"))
             process = subprocess.Popen(
                 command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE if program.listen else log,
-                stderr=log, start_new_session=True, preexec_fn=_child_setup(os.getpid()), env=environment,
+                stderr=log, start_new_session=True, preexec_fn=_child_setup(os.getpid(), program.cores), env=environment,
                 pass_fds=() if program.report is None else (program.report,))
         self._processes[program.name] = process
+        if program.ranks > 1:
+            self._ranked.add(program.name)
         pidfd = os.pidfd_open(process.pid)
         self._pidfds[program.name] = pidfd
         self._selector.register(pidfd, selectors.EVENT_READ, lambda: self._ended(program.name))
@@ -179,7 +188,13 @@ class Supervisor:
         os.close(self._pidfds.pop(name))
         if not self._begun:
             self._drain()
-        ending = Ending(name, process.wait(), time.monotonic(), name in self._signalled)
+        if name in self._ranked:    # its ranks do not outlive it
+            for pid in ranks.members(process.pid):
+                processes.signal_to(pid, signal.SIGKILL)
+        code = process.wait()
+        if name in self._ranked and code > 128 and code not in (INTERRUPTED, TERMINATED):
+            code = 128 - code       # as mpirun tells of a rank that a signal ended
+        ending = Ending(name, code, time.monotonic(), name in self._signalled)
         ending.early = ending.code == 0 and not self._begun
         self._outcome.endings.append(ending)
         grace = self._grace_after(ending)
@@ -221,6 +236,9 @@ class Supervisor:
             process = self._processes[name]
             self._signalled.add(name)
             with contextlib.suppress(ProcessLookupError):
+                if name in self._ranked:
+                    ranks.send(process, number)
+                    continue
                 process.send_signal(number)
                 process.send_signal(signal.SIGCONT)  # a stopped program must hear it too
 

@@ -1,5 +1,7 @@
 """What became of a run: which program was the cause when it failed, and what to say about it."""
 
+import json
+import re
 import signal
 from dataclasses import dataclass
 
@@ -46,12 +48,26 @@ def _last_line(directory, name):
         lines = (directory / "log" / f"{name}.out").read_text(encoding="utf-8", errors="replace").split("\n")
     except OSError:
         return ""
-    return next((line.strip() for line in reversed(lines) if line.strip()), "")
+    told = [line.strip() for line in lines if line.strip("- ")]
+    return next((line for line in reversed(told) if line.startswith("mpirun noticed")), told[-1] if told else "")
 
 
 def _last_words(directory, name):
     words = _last_line(directory, name)
     return f"; its last words: {words}" if words else ""
+
+
+def _of_ranks(name, directory, reason):
+    """The reason of a participant with ranks: where one lost another one that could still say why it ended, that is why."""
+    seen = set()
+    while (found := re.search(rf"lost rank (\d+) of {re.escape(name)} ", reason)) and found.group(1) not in seen:
+        seen.add(found.group(1))
+        try:
+            left = json.loads((directory / "parts" / f"{name}.rank{found.group(1)}.json").read_text(encoding="utf-8"))
+        except (OSError, ValueError):
+            break
+        reason = left.get("reason") or reason
+    return reason
 
 
 def _explain(ending, case, directory, part):
@@ -61,13 +77,15 @@ def _explain(ending, case, directory, part):
     if ending.lost():
         name = signal.Signals(-ending.code).name
         code = OUTPUT_FAILED if ending.code in DISK_SIGNALS else PEER_LOST
+        if part.get("reason"):  # of several ranks one was killed, and another one could say which
+            return code, f"{_of_ranks(ending.name, directory, part['reason'])}: {name}"
         return code, f"lost {label}: ended by {name}{_last_words(directory, ending.name)}"
     if ending.early:
         return PEER_LOST, (f"lost {label}: it ended before the run began, with exit code {ending.code}"
                            f"{_last_words(directory, ending.name)}")
     if ending.ours:
         return PEER_LOST, f"lost {label}: it did not end by itself"
-    reason = part.get("reason") or _last_line(directory, ending.name)
+    reason = _of_ranks(ending.name, directory, part.get("reason") or _last_line(directory, ending.name))
     code = ending.code if ending.code in range(1, 6) else PEER_LOST
     if part.get("origin", ending.name) != ending.name:
         return code, reason

@@ -1,0 +1,106 @@
+"""Participants that several processes compute together (`fsi run --ranks`): who, how many, and how they are started.
+
+Each such participant has an mpirun of its own, in a session of its own as every program; its ranks are in that session too. Only
+rank 0 speaks with the other programs. mpirun passes SIGUSR1 on, which a rank takes for SIGTERM; a SIGTERM it would answer by killing
+them. On this machine only: nothing listens on a network.
+"""
+
+import os
+import shutil
+import signal
+from pathlib import Path
+
+from fsi_launch import paths
+from fsi_launch.failure import UserMistake
+from fsi_launch.living import processes
+
+MODULE = "libfsi_ranks_mpi.so"      # common/ranks/module.hpp
+PACKAGES = "openmpi-bin libopenmpi-dev"
+GAS = "fluid_solver"                # the program that knows ranks
+MOST = 64
+EXTRA = []                          # words for every rank (tests)
+OPTIONS = {
+    "btl": "self,vader", "pml": "ob1", "oob_tcp_if_include": "lo",      # nothing leaves this machine
+    "btl_vader_single_copy_mechanism": "none",      # the other ones want the right to look into other processes
+    "mpi_yield_when_idle": "1", "odls_base_sigkill_timeout": "1",
+}
+
+
+def wanted(text, case):
+    """{participant: ranks}, of those with more than one, from `fluid=2,..`, `auto` or None."""
+    gases = [name for name, program in case.programs.items() if program == GAS]
+    if text is None:
+        return {}
+    if text == "auto":
+        return _shared_out(gases, len(case.programs))
+    asked = {}
+    for word in text.split(","):
+        name, _, number = word.partition("=")
+        if not number.isdecimal() or not 1 <= int(number) <= MOST:
+            raise UserMistake(f"--ranks {text}: '{word}' is not NAME=N with N from 1 to {MOST}; write --ranks fluid=2, or auto")
+        if name not in case.programs:
+            raise UserMistake(f"--ranks {text}: the case has no participant '{name}'; it has {', '.join(case.programs)}")
+        if name not in gases and int(number) > 1:
+            raise UserMistake(f"--ranks {text}: {name} ({case.programs[name]}) computes in one process only; so far several can "
+                              f"compute a gas: {', '.join(gases) or 'this case has none'}")
+        asked[name] = int(number)
+    return {name: number for name, number in asked.items() if number > 1}
+
+
+def _shared_out(gases, programs):
+    """Cores that the other programs leave to the gases."""
+    if not gases:
+        return {}
+    cores = len(os.sched_getaffinity(0))
+    number = min((cores - (programs - len(gases) - (programs > 1))) // len(gases), MOST)    # the coupler hardly computes
+    return {name: number for name in gases} if number > 1 else {}
+
+
+def expect_mpi(asked):
+    """Throws UserMistake where participants shall have ranks, but cannot."""
+    if not asked:
+        return
+    missing = [what for what, there in ((f"{MODULE} in {paths.BIN}", (paths.BIN / MODULE).is_file()),
+                                        ("mpirun", shutil.which("mpirun"))) if not there]
+    if missing:
+        raise UserMistake(f"--ranks: {' and '.join(missing)} is missing; install Open MPI (sudo apt-get install {PACKAGES}) and build "
+                          "again, or leave --ranks away")
+
+
+def command(words, number):
+    """The command of a program that `number` ranks compute."""
+    options = [word for name, value in OPTIONS.items() for word in ("--mca", name, value)]
+    return [shutil.which("mpirun"), "-n", str(number), "--oversubscribe", "--bind-to", "none", *options, *words,
+            "--ranks", str(number), *EXTRA]
+
+
+def environment():
+    """Of mpirun. That it may run as root goes without saying: so does everything else here."""
+    return {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"} if os.geteuid() == 0 else {}
+
+
+def cores(asked):
+    """{participant: cores of its own}, where there are enough for all ranks; else {}: the system shares them out."""
+    free = sorted(os.sched_getaffinity(0))
+    if sum(asked.values()) > len(free) - 1:
+        return {}
+    return {name: {free.pop() for _ in range(number)} for name, number in asked.items()}
+
+
+def members(session):
+    """Processes of a session, its leader left out."""
+    found = []
+    for entry in Path("/proc").iterdir():
+        if entry.name.isdigit() and int(entry.name) != session and processes.session_of(entry.name) == session:
+            found.append(int(entry.name))
+    return found
+
+
+def send(process, number):
+    """A signal to mpirun and what it has started."""
+    if number == signal.SIGKILL:
+        for pid in members(process.pid):
+            processes.signal_to(pid, number)
+    process.send_signal(signal.SIGUSR1 if number == signal.SIGTERM else number)
+    for pid in members(process.pid):
+        processes.signal_to(pid, signal.SIGCONT)

@@ -1,0 +1,228 @@
+#!/usr/bin/python3
+"""A gas that several ranks compute: the same files to the bit as with one, for any number of ranks and whatever rows they get, also
+after a restart on other ranks; and when a rank is killed or stopped, or mpirun is, all end and the rank is named.
+
+test_ranks.py --kills N [SEED]           so many runs with three ranks, of which somebody is killed or stopped at a random moment
+test_ranks.py --all [RANKS..] [CASE..]  all shipped cases, or these, for some steps, with so many ranks (default: 2 3 4 7)
+"""
+
+import os
+import random
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+
+from running import BIN, EndToEnd, FSI, Launched, PATIENT, ROOT, let_pass, processes, until
+from test_restart import Restarting, health, numbers, results
+
+# Other rows for everybody after so many steps, in whatever way.
+RECUT = "from fsi_launch.living import ranks\nranks.EXTRA = ['--recut', '{every}']\n"
+MISSING = [what for what, there in (("libfsi_ranks_mpi.so", (BIN / "libfsi_ranks_mpi.so").is_file()),
+                                    ("mpirun", shutil.which("mpirun"))) if not there]
+
+# A run that lasts, with a gas of two ranks.
+LASTING = ("elastic_piston", "--set", "grid.factor=2", "--set", "time.dt=1e-7", "--set", "output.times=[1e-6, 0.8]", "--set",
+           "expect={}", "--ranks", "fluid=2")
+
+
+class OnRanks(Restarting):
+    def setUp(self):
+        super().setUp()
+        if MISSING:
+            self.skipTest(f"no Open MPI: {', '.join(MISSING)} is missing (apt-get install openmpi-bin libopenmpi-dev, build again)")
+
+    def on(self, number, *arguments, folder=None, every=0):
+        """A whole run with so many ranks for the gas."""
+        run = self.launch(*arguments, "--set", "expect={}", "--ranks", f"fluid={number}", out=folder or f"on{number}_{every}",
+                          script=RECUT.format(every=every) if every else None)
+        self.assertEqual(run.wait(), 0, run.stderr)
+        return run
+
+    def assert_layouts(self, *arguments, numbers_of_ranks=(2, 3), every=7):
+        """The same with one rank, with more, and with more that get other rows again and again."""
+        whole = self.on(1, *arguments)
+        for number in numbers_of_ranks:
+            self.assert_same(whole, self.on(number, *arguments))
+        self.assert_same(whole, self.on(numbers_of_ranks[-1], *arguments, every=every))
+        return whole
+
+
+class Layout(OnRanks):
+    def test_moving_body_before_a_background(self):
+        self.assert_layouts("shock_ellipse", "--set", "grid.factor=4", "--set", "time.end=0.4", "--set", "output.times=[0.2, 0.4]",
+                            "--set", "output.probes=[{name: a, in: fluid, x: 0, y: 2.3}, {name: b, in: fluid, x: -2, y: -3}]",
+                            numbers_of_ranks=(2, 4))
+
+    def test_periods_across_the_rows(self):
+        self.assert_layouts("isentropic_vortex", "--set", "grid.factor=2", "--set", "time.end=0.2", numbers_of_ranks=(3, 7), every=2)
+
+    def test_sources_of_a_chosen_solution(self):
+        self.assert_layouts("manufactured_piston", "--set", "grid.factor=1", "--set", "time.end=0.1")
+
+    def test_restart_on_other_ranks(self):
+        arguments = ("elastic_piston", "--set", "grid.factor=2", "--set", "time.end=0.3", "--set", "output.times=[0.1, 0.3]",
+                     "--set", "output.checkpoint_every=10")
+        whole = self.on(1, *arguments)
+        for before, after in ((2, 3), (3, 1), (1, 2)):
+            first = self.on(before, *arguments, folder=f"from{before}")
+            shutil.copytree(first.directory, self.folder / f"to{after}")
+            run = self.launch("--restart", str(self.folder / f"to{after}"), "--ranks", f"fluid={after}", out=None)
+            run.directory = self.folder / f"to{after}"
+            self.assertEqual(run.wait(), 0, run.stderr)
+            self.assert_same(whole, run)
+
+
+class Faults(OnRanks):
+    def ranks_of(self, run):
+        """Processes of the gas's ranks, by rank, and its mpirun."""
+        run.until_stepping()
+        gas = [one for one in processes.programs_of(run.directory) if one.name == "fluid"]
+        mpirun = next(one.pid for one in gas if one.program == "mpirun")
+        logged = re.findall(r"rank (\d+) is process (\d+)", run.log("fluid"))
+        self.assertEqual(len(logged), 2)
+        return {int(rank): int(pid) for rank, pid in logged}, mpirun
+
+    def lose(self, rank, number):
+        run = self.launch(*LASTING, script=PATIENT)
+        ranks, mpirun = self.ranks_of(run)
+        os.kill(mpirun if rank is None else ranks[rank], number)
+        self.assertEqual(run.wait(), 4, run.stderr)
+        self.assertEqual(run.summary()["status"], "failed")
+        self.assertTrue(until(lambda: not any(Path(f"/proc/{pid}").exists() for pid in (*ranks.values(), mpirun))))
+        self.assert_nothing_left(run)
+        return run.summary()["reason"]
+
+    def test_killed_rank(self):
+        self.assertRegex(self.lose(1, signal.SIGKILL), r"rank 1 of fluid")
+
+    def test_killed_first_rank(self):
+        self.assertIn("lost fluid", self.lose(0, signal.SIGKILL))
+
+    def test_stopped_rank(self):
+        self.assertRegex(self.lose(1, signal.SIGSTOP), r"rank 1 of fluid \(process \d+\): it has been stopped for 4\.?\d* s")
+
+    def test_killed_mpirun(self):
+        self.assertIn("lost fluid", self.lose(None, signal.SIGKILL))
+
+    def test_end_on_request_leaves_a_checkpoint(self):
+        run = self.launch(*LASTING)
+        ranks, mpirun = self.ranks_of(run)
+        run.process.send_signal(signal.SIGTERM)
+        self.assertEqual(run.wait(), 143, run.stderr)
+        self.assertEqual(len(run.checkpoints()), 1)
+        self.assert_nothing_left(run)
+
+
+class Refusals(EndToEnd):
+    def refused(self, text):
+        run = self.launch("elastic_piston", "--ranks", text)
+        self.assertEqual(run.wait(), 2, run.stderr)
+        return run.stderr
+
+    def test_solid(self):
+        self.assertIn("solid (solid_solver_linear_elastic) computes in one process only; so far several can compute a gas: fluid",
+                      self.refused("solid=2"))
+
+    def test_stranger(self):
+        self.assertIn("no participant 'gas'; it has", self.refused("gas=2"))
+
+    def test_no_number(self):
+        self.assertIn("'fluid=0' is not NAME=N with N from 1 to 64", self.refused("fluid=0"))
+
+
+# --- all shipped cases
+
+SOLIDS_ONLY = {"rotating_disk", "solid_manufactured", "spinning_block", "beam", "clamped_beam", "rotating_disk_walled"}
+
+
+def few_steps(case, steps):
+    """Options for a run of about so many steps."""
+    answer = subprocess.run([BIN / "fsi_case", "check", case], capture_output=True, text=True, check=True, cwd=ROOT).stdout
+    steps_of = re.search(r"steps? of ([0-9.e+-]+)[;,\s]", answer)
+    if steps_of is None:
+        return ["--set", "expect={}", "--set", "output.checkpoint_at_end=true"]
+    end = steps * float(steps_of.group(1))
+    return ["--set", f"time.end={end:.6g}", "--set", f"output.times=[{end / 2:.6g}, {end:.6g}]", "--set", "expect={}",
+            "--set", "output.checkpoint_at_end=true"]
+
+
+def digest_of(directory):
+    """What two runs must have in common: files, numbers, the state in the checkpoint."""
+    import h5py
+    state = {}
+    for path in sorted(directory.glob("checkpoints/*/*.h5")):
+        with h5py.File(path) as file:
+            def take(name, one, of=path.name):
+                if isinstance(one, h5py.Dataset) and "report" not in name:
+                    state[of, name] = one[()].tobytes()
+            file.visititems(take)
+    run = Launched.__new__(Launched)
+    run.directory = directory
+    return results(directory), numbers(run.summary()), health(directory), state
+
+
+def compare_all(numbers_of_ranks, cases, steps=16):
+    failed = []
+    with tempfile.TemporaryDirectory() as scratch:
+        for path in sorted((ROOT / "configs").glob("*.yaml")):
+            case = path.stem
+            if case in SOLIDS_ONLY or case == "template" or cases and case not in cases:
+                continue
+            gases = [word for word in ("fluid", "left", "right", "above", "below", "in", "out")
+                     if re.search(rf"^  {word}:|^{word}:", path.read_text(encoding="utf-8"), flags=re.M)]
+            verdicts = []
+            whole = None
+            for number, every in [(1, 0), *((n, 0) for n in numbers_of_ranks), (numbers_of_ranks[-1], 5)]:
+                folder = Path(scratch) / case / f"{number}_{every}"
+                folder.mkdir(parents=True)
+                asked = [f"{name}={number}" for name in gases] if gases else []
+                run = Launched(folder, case, *few_steps(f"configs/{path.name}", steps), *(["--ranks", ",".join(asked)] if number > 1 else []),
+                               script=RECUT.format(every=every) if every else None)
+                if run.wait() != 0:
+                    verdicts.append(f"{number}: {run.stderr.strip().splitlines()[-1]}")
+                    break
+                found = digest_of(run.directory)
+                whole = whole or found
+                same = [mine == its for mine, its in zip(whole, found)]
+                verdicts.append(f"{number}{'*' if every else ''}: {'same' if all(same) else f'DIFFERENT {same}'}")
+            ok = all("same" in verdict for verdict in verdicts)
+            failed += [] if ok else [case]
+            print(f"{case:25} {', '.join(verdicts)}", flush=True)
+            shutil.rmtree(Path(scratch) / case)
+    return failed
+
+
+def kill_again_and_again(runs, seed):
+    """The number of runs that did not end as they should."""
+    chance, failed = random.Random(seed), 0
+    for number in range(runs):
+        with tempfile.TemporaryDirectory() as scratch:
+            run = Launched(Path(scratch), *LASTING[:-1], "fluid=3")
+            run.until_stepping()
+            let_pass(chance.uniform(0, 0.5))
+            ranks = {f"rank {rank}": int(pid) for rank, pid in re.findall(r"rank (\d+) is process (\d+)", run.log("fluid"))}
+            others = {one.program: one.pid for one in processes.programs_of(run.directory) if one.program != "fluid_solver"}
+            who, pid = chance.choice(sorted((ranks | others).items()))
+            word = chance.choice(["SIGKILL", "SIGKILL", "SIGSTOP"]) if who != "mpirun" else "SIGKILL"
+            os.kill(pid, signal.Signals[word])
+            code, reason = run.wait(), run.summary()["reason"]
+            gone = until(lambda: not run.leftovers() and not any(Path(f"/proc/{one}").exists() for one in ranks.values()))
+            sound = code == 4 and gone and ("fluid" if who in ranks or who == "mpirun" else who.split("_")[0]) in reason
+            failed += 0 if sound else 1
+            print(f"{number:4} {word} {who:28} exit {code}: {'' if sound else 'WRONG '}{reason}", flush=True)
+    return failed
+
+
+if __name__ == "__main__":
+    if "--kills" in sys.argv:
+        sys.exit(1 if kill_again_and_again(int(sys.argv[2]), int((sys.argv[3:] or [1])[0])) else 0)
+    if "--all" in sys.argv:
+        words = sys.argv[2:]
+        counts = [int(word) for word in words if word.isdecimal()] or [2, 3, 4, 7]
+        sys.exit(1 if compare_all(counts, [word for word in words if not word.isdecimal()]) else 0)
+    unittest.main()
