@@ -1,0 +1,65 @@
+#!/usr/bin/python3
+"""Times a gas alone on 1024 x 1024 points with one rank and with several, in turn, and prints a table for docs/scaling.md.
+
+record_ranks.py [--ranks N,N,..] [--repeat K] [--steps S] [--case CASE [--set KEY=VALUE ..]]
+"""
+
+import argparse
+import json
+import os
+import re
+import resource
+import statistics
+import subprocess
+import tempfile
+import time
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+SQUARE = ["fluid.grid={x: [0, 1], y: [0, 1], spacing: 1/1023}", "time.dt=3e-4", "output.times=[]", "reference={kind: none}", "expect={}"]
+
+
+def measured(folder, ranks, options):
+    """What a run with so many ranks took: {name: number}."""
+    command = [ROOT / "launch" / "fsi", "run", options.case, "--out", folder, "--no-progress", "--ranks", f"fluid={ranks}"]
+    settings = options.set or [*SQUARE, f"time.end={3e-4 * options.steps}"]
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    begun = time.monotonic()
+    subprocess.run([*command, *(f"--set={one}" for one in settings)], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    part = json.loads((Path(folder) / "parts" / "fluid.json").read_text(encoding="utf-8"))
+    log = (Path(folder) / "log" / "fluid.log").read_text(encoding="utf-8")
+    sent = re.search(r"sent (\S+) messages with (\S+) numbers; (\S+) numbers came", log)
+    return {"step": 1e3 * (part["compute_s"] - part["time_s"]["output"]) / part["steps"],
+            "cpu": after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, "wall": time.monotonic() - begun,
+            "steps": part["steps"], "messages": float(sent.group(1)) / part["steps"] if sent else 0,
+            "numbers": float(sent.group(2)) / part["steps"] if sent else 0, "memory": part["peak_memory_mib"]}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--ranks", default="1,2")
+    parser.add_argument("--repeat", type=int, default=3)
+    parser.add_argument("--steps", type=int, default=40)
+    parser.add_argument("--case", default="sod_tube")
+    parser.add_argument("--set", action="append", default=[])
+    options = parser.parse_args()
+    counts = [int(word) for word in options.ranks.split(",")]
+    results = {count: [] for count in counts}
+    with tempfile.TemporaryDirectory() as scratch:
+        for turn in range(options.repeat):
+            for count in counts:
+                results[count].append(measured(f"{scratch}/{turn}-{count}", count, options))
+    print(f"{options.case}, load {os.getloadavg()[0]:.1f}; medians of {options.repeat}, in turn")
+    print("| ranks | a step [ms] | times as fast | processor time [s] | messages of rank 0 a step | numbers in them | memory of rank 0 [MiB] |")
+    print("|---|---|---|---|---|---|---|")
+    first = statistics.median(one["step"] for one in results[counts[0]])
+    for count in counts:
+        def middle(name, of=count):
+            return statistics.median(one[name] for one in results[of])
+        print(f"| {count} | {middle('step'):.1f} | {first / middle('step'):.2f} | {middle('cpu'):.1f} | {middle('messages'):.1f} | "
+              f"{middle('numbers'):.0f} | {middle('memory'):.0f} |")
+
+
+if __name__ == "__main__":
+    main()
