@@ -48,7 +48,7 @@ inline double extrapolated(double q0, double q1, double q2, Limiter limiter) {
   const double first = std::abs(q0 - q1) + std::abs(q1 - q2), second = std::abs((q0 - q1) - (q1 - q2));
   const double beyond = 2.0 * (second / first - 0.5), weight = beyond < 1.0 ? beyond : 1.0;
   const double limited = q0 + (1.0 - weight) * (third_order - q0);
-  return (limiter == Limiter::none) | (second <= 0.5 * first) ? third_order : limited;
+  return ((limiter == Limiter::none) | (second <= 0.5 * first)) ? third_order : limited;
 }
 
 /// Planes first .. last of ghost line m < 0 by extrapolation from the three lines inside it, points k = begin

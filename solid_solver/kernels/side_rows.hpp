@@ -92,7 +92,7 @@ template <Law L>
     const bool nearer = (forgiven > 0.0) | (m1 * m1 + m2 * m2 < before);
     const bool searching = open[k] > 0.0;
     const bool good = searching & bears_waves & nearer;
-    open[k] = searching & !good ? -1.0 : open[k];
+    open[k] = (searching & !good) ? -1.0 : open[k];
     d1[k] = good ? to1[k] : d1[k];
     d2[k] = good ? to2[k] : d2[k];
     miss1[k] = m1;
@@ -123,7 +123,7 @@ template <Law L>
     d1[k] = found ? to1[k] : d1[k];
     d2[k] = found ? to2[k] : d2[k];
     open[k] = found ? 0.0 : open[k];
-    searching += is_open & !found ? 1.0 : 0.0;
+    searching += (is_open & !found) ? 1.0 : 0.0;
   }
   return searching;
 }

@@ -27,10 +27,10 @@ double apply_width(const InterpolationList& list, FieldView target, ConstFieldVi
   const std::int32_t *at = list.target.data(), *donor_at = list.donor.data();
   const double* w = list.weight.data();
   double change = 0;
-  for (std::size_t k = 0; k < list.size(); ++k, w += width * width) {
-    std::array<double, static_cast<std::size_t>(width * width)>
-        weights;  // not in memory that `to` might overwrite
-    std::copy_n(w, width * width, weights.begin());
+  constexpr auto points = static_cast<std::size_t>(width) * width;  // of a donor
+  for (std::size_t k = 0; k < list.size(); ++k, w += points) {
+    std::array<double, points> weights;  // not in memory that `to` might overwrite
+    std::copy_n(w, points, weights.begin());
     const double* from = donor.data + donor_at[k];
     double* to = target.data + at[k];
     for (int plane = 0; plane < target.planes; ++plane, from += from_next, to += to_next) {

@@ -36,7 +36,7 @@ StateField noise(double size) {
 /// Everything that a checkpoint would hold after some steps.
 Archive::Entries after_steps(const MakeGas& make, int ranks, int steps, int recut_every = 0) {
   Archive::Entries entries;
-  fsi::test::on_ranks(ranks, [&](std::shared_ptr<Ranks> mine) {
+  fsi::test::on_ranks(ranks, [&](const std::shared_ptr<Ranks>& mine) {
     GasSolver gas = make();
     gas.share(mine, {.every = recut_every});
     gas.apply_fluid_bcs(0);
@@ -118,7 +118,7 @@ TEST(GasOnRanks, ShockViscosityAroundABody) {
 TEST(GasOnRanks, TheSameTimeStepHealthAndProbes) {
   const auto seen = [](int ranks) {
     std::string words;
-    fsi::test::on_ranks(ranks, [&](std::shared_ptr<Ranks> mine) {
+    fsi::test::on_ranks(ranks, [&](const std::shared_ptr<Ranks>& mine) {
       GasSolver gas = test::around_moving_body({}, Dirichlet{noise(0.2)});
       gas.assign_initial_conditions(noise(0.2));
       gas.share(mine, {});
@@ -147,7 +147,7 @@ TEST(GasOnRanks, TheSameTimeStepHealthAndProbes) {
 TEST(GasOnRanks, NumbersBreakOnAllOfThemAlike) {
   const auto broken = [](int ranks) {
     std::string words;
-    fsi::test::on_ranks(ranks, [&](std::shared_ptr<Ranks> mine) {
+    fsi::test::on_ranks(ranks, [&](const std::shared_ptr<Ranks>& mine) {
       GasSolver gas = test::solver(test::rectangle(21, 21, {-1, -1}, {1, 1}), {.limiter = Limiter::none},
                                    {Outflow{}, Outflow{}, Outflow{}, Outflow{}}, noise(0.1));
       gas.share(mine, {});

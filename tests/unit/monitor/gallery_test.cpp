@@ -74,7 +74,7 @@ TEST(Gallery, GivesMuchInSeveralAnswersAndNothingTwice) {
   wire::Picture large = picture("fluid", "pressure");
   large.grids = {
       {.name = "g", .n1 = 256, .n2 = 256, .straight = true, .x = std::vector<float>(512, 1), .level = {}}};
-  large.grids[0].level.assign(256 * 256, 1);
+  large.grids[0].level.assign(std::size_t{256} * 256, 1);
   constexpr std::uint64_t many = 100;  // 13 MB
   for (large.step = 1; large.step <= many; ++large.step) gallery.keep(large);
   std::uint64_t after = 0, answers = 0, bytes = 0;
