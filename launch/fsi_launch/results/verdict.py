@@ -58,16 +58,17 @@ def _last_words(directory, name):
 
 
 def _of_ranks(name, directory, reason):
-    """The reason of a participant with ranks: where one lost another one that could still say why it ended, that is why."""
-    seen = set()
-    while (found := re.search(rf"lost rank (\d+) of {re.escape(name)} ", reason)) and found.group(1) not in seen:
+    """The reason of a participant with ranks: where one lost another one that could still say why it ended, that is why. Who goes on
+    after it had been stopped finds that the others have ended; that is no reason."""
+    chain, seen = [reason], {"0"}  # the first reason is that of rank 0
+    while (found := re.search(rf"lost rank (\d+) of {re.escape(name)} ", chain[-1])) and found.group(1) not in seen:
         seen.add(found.group(1))
         try:
             left = json.loads((directory / "parts" / f"{name}.rank{found.group(1)}.json").read_text(encoding="utf-8"))
         except (OSError, ValueError):
             break
-        reason = left.get("reason") or reason
-    return reason
+        chain.append(left.get("reason") or chain[-1])
+    return next((one for one in reversed(chain) if not one.endswith(": it has ended")), chain[-1])
 
 
 def _explain(ending, case, directory, part):

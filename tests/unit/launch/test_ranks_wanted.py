@@ -75,6 +75,14 @@ class Wanted(InScratch):
         self.assertEqual(verdict._of_ranks("fluid", self.folder, first), told[1])
         self.assertEqual(verdict._of_ranks("fluid", self.folder, "the disk is full"), "the disk is full")
 
+    def test_who_goes_on_after_a_stop_does_not_blame_those_who_left_because_of_it(self):
+        (self.folder / "parts").mkdir()
+        left = self.folder / "parts" / "fluid.rank1.json"
+        stopped, ended = "lost rank {} of fluid (process 10): it has been stopped for 4 s", "lost rank {} of fluid (process 11): it has ended"
+        for first, later in ((stopped, ended), (ended, stopped)):
+            left.write_text(json.dumps({"reason": later.format(0)}), encoding="utf-8")
+            self.assertIn("stopped", verdict._of_ranks("fluid", self.folder, first.format(1)))
+
 
 if __name__ == "__main__":
     unittest.main()
