@@ -12,7 +12,8 @@ namespace {
 
 const char* const piston = FSI_ROOT "/configs/elastic_piston.yaml";
 
-std::string mistake_in(const std::vector<std::string>& overrides, const std::vector<std::string>& laws = {}) {
+std::string overriding_mistake(const std::vector<std::string>& overrides,
+                               const std::vector<std::string>& laws = {}) {
   try {
     load_case(piston, overrides, laws);
     return "";
@@ -56,33 +57,35 @@ TEST(Override, OfALawByName) {
 }
 
 TEST(OverrideMistake, NamesTheOptionAndWhatToWrite) {
-  EXPECT_EQ(mistake_in({"time.ende=3"}), "--set time.ende: unknown key `ende`; did you mean `end`?");
-  EXPECT_EQ(mistake_in({"tiem.end=3"}), "--set tiem.end: unknown key `tiem`; did you mean `time`?");
-  EXPECT_EQ(mistake_in({"parameters.densty_ratio=3"}),
+  EXPECT_EQ(overriding_mistake({"time.ende=3"}), "--set time.ende: unknown key `ende`; did you mean `end`?");
+  EXPECT_EQ(overriding_mistake({"tiem.end=3"}), "--set tiem.end: unknown key `tiem`; did you mean `time`?");
+  EXPECT_EQ(overriding_mistake({"parameters.densty_ratio=3"}),
             "--set parameters.densty_ratio: `densty_ratio` in section `parameters` of the case is missing; "
             "did you mean `density_ratio`?");
   EXPECT_EQ(
-      mistake_in({"solids.solids.rho=3"}),
+      overriding_mistake({"solids.solids.rho=3"}),
       "--set solids.solids.rho: `solids` in section `solids` of the case is missing; did you mean `solid`?");
-  EXPECT_EQ(mistake_in({"time.end=-1"}), "--set time.end: must be > 0 [time], is -1");
-  EXPECT_EQ(mistake_in({"time.cfl=fast"}), "--set time.cfl: unknown name `fast` at position 1 of `fast`");
-  EXPECT_EQ(mistake_in({"time.end.x=1"}),
+  EXPECT_EQ(overriding_mistake({"time.end=-1"}), "--set time.end: must be > 0 [time], is -1");
+  EXPECT_EQ(overriding_mistake({"time.cfl=fast"}),
+            "--set time.cfl: unknown name `fast` at position 1 of `fast`");
+  EXPECT_EQ(overriding_mistake({"time.end.x=1"}),
             "--set time.end.x: `x` lies in `0.8`, which is not a section; set that as a whole");
-  EXPECT_EQ(mistake_in({"time.end"}), "--set `time.end`: write --set KEY=VALUE");
-  EXPECT_EQ(mistake_in({"=1"}), "--set `=1`: write --set KEY=VALUE");
-  EXPECT_EQ(mistake_in({"time..end=1"}), "--set time..end: write KEY=VALUE with a key such as time.end");
-  EXPECT_EQ(mistake_in({"time.end="}), "--set time.end: the value is missing; write KEY=VALUE");
-  EXPECT_EQ(mistake_in({"time=[1, 2]"}), "--set time: must be a section of keys, is a list of 2");
+  EXPECT_EQ(overriding_mistake({"time.end"}), "--set `time.end`: write --set KEY=VALUE");
+  EXPECT_EQ(overriding_mistake({"=1"}), "--set `=1`: write --set KEY=VALUE");
+  EXPECT_EQ(overriding_mistake({"time..end=1"}),
+            "--set time..end: write KEY=VALUE with a key such as time.end");
+  EXPECT_EQ(overriding_mistake({"time.end="}), "--set time.end: the value is missing; write KEY=VALUE");
+  EXPECT_EQ(overriding_mistake({"time=[1, 2]"}), "--set time: must be a section of keys, is a list of 2");
 }
 
 TEST(OverrideMistake, OfALawNamesTheLawsThereAre) {
-  EXPECT_EQ(mistake_in({}, {"solid=neohookean"}),
+  EXPECT_EQ(overriding_mistake({}, {"solid=neohookean"}),
             "--solid solid=neohookean: `neohookean` does not exist here; did you mean `neo_hookean`? (one of "
             "linear_elastic, saint_venant_kirchhoff, "
             "neo_hookean, mooney_rivlin, gent, rigid, beam, external)");
-  EXPECT_EQ(mistake_in({}, {"piston=neo_hookean"}),
+  EXPECT_EQ(overriding_mistake({}, {"piston=neo_hookean"}),
             "--solid piston=neo_hookean: `piston` in section `solids` of the case is missing; it has solid");
-  EXPECT_EQ(mistake_in({}, {"solid"}), "--solid `solid`: write --solid NAME=LAW");
+  EXPECT_EQ(overriding_mistake({}, {"solid"}), "--solid `solid`: write --solid NAME=LAW");
 }
 
 }  // namespace
