@@ -21,6 +21,7 @@ from fsi_launch.results import restart
 from fsi_launch.failure import DONE, EXPECTATION_MISSED, Failure, INTERNAL_ERROR
 from fsi_launch.living.processes import programs_of, until
 
+OF_RANKS = "vader_segment."  # names of the memory that ranks of other runs share; those here have none
 PEER_TIMEOUT = 4.0      # [s] of the runs: a stopped program is lost after it
 STOP_FOR = 1.0          # [s] and goes on as if nothing had been
 WATCHDOG = 240.0        # [s] nothing here takes so long: what does hangs
@@ -121,7 +122,7 @@ def _reason(directory):
 
 
 def _shared_memory():
-    return {entry.name for entry in Path("/dev/shm").iterdir()}
+    return {entry.name for entry in Path("/dev/shm").iterdir() if not entry.name.startswith(OF_RANKS)}
 
 
 # --- one trial
