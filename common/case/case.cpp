@@ -151,12 +151,20 @@ std::optional<Side> side_to(const SolidSpec& solid, const std::string& fluid) {
   return std::nullopt;
 }
 
+bool meets(const FluidSpec& fluid, const std::string& solid) {
+  const auto is_side = [&](const BoundarySpec& spec) {
+    return spec.kind == BoundaryKind::interface && spec.solid == solid;
+  };
+  return std::ranges::any_of(fluid.boundary, is_side) ||
+         std::ranges::find(fluid.body_fitted, solid, &BodyFittedSpec::solid) != fluid.body_fitted.end();
+}
+
 std::vector<std::string> gases_at(const SolidSpec& solid) {
   std::vector<std::string> gases;
   const auto look = [&](const std::array<BoundarySpec, 4>& boundary) {
     for (const BoundarySpec& spec : boundary) {
-      const bool meets = spec.kind == BoundaryKind::interface && !spec.fluid.empty();
-      if (meets && std::ranges::find(gases, spec.fluid) == gases.end()) gases.push_back(spec.fluid);
+      const bool meets_one = spec.kind == BoundaryKind::interface && !spec.fluid.empty();
+      if (meets_one && std::ranges::find(gases, spec.fluid) == gases.end()) gases.push_back(spec.fluid);
     }
   };
   if (solid.body_fitted.empty()) look(solid.boundary);

@@ -260,6 +260,8 @@ std::string fields_name(const FluidSpec& fluid);
 /// The side of a solid's grid that is the interface to this gas; none for a solid with an outline of its own.
 std::optional<Side> side_to(const SolidSpec& solid, const std::string& fluid);
 
+/// True where a grid or a side of a gas meets a solid.
+bool meets(const FluidSpec& fluid, const std::string& solid);
 /// The gases a solid meets, in the order of its sides.
 std::vector<std::string> gases_at(const SolidSpec& solid);
 

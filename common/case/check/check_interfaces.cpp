@@ -39,10 +39,6 @@ std::ptrdiff_t grids_at(const FluidSpec& fluid, const std::string& solid) {
   return std::ranges::count(fluid.body_fitted, solid, &BodyFittedSpec::solid);
 }
 
-bool meets(const FluidSpec& fluid, const std::string& solid) {
-  return grids_at(fluid, solid) > 0 || !sides_to(fluid, solid).empty();
-}
-
 /// The sides of a gas name solids that are there.
 void check_sides(const Case& problem, const FluidSpec& fluid, const Node& root) {
   std::vector<std::string> names;

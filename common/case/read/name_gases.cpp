@@ -10,18 +10,6 @@
 
 namespace fsi {
 
-namespace {
-
-bool meets(const FluidSpec& fluid, const std::string& solid) {
-  const auto is_side = [&](const BoundarySpec& spec) {
-    return spec.kind == BoundaryKind::interface && spec.solid == solid;
-  };
-  return std::ranges::any_of(fluid.boundary, is_side) ||
-         std::ranges::find(fluid.body_fitted, solid, &BodyFittedSpec::solid) != fluid.body_fitted.end();
-}
-
-}  // namespace
-
 void name_gases(Case& problem, const config::Node& root) {
   for (SolidSpec& solid : problem.solids) {
     std::vector<std::string> gases;

@@ -49,7 +49,7 @@ void expect_mistake(const TwoBodies& bodies, const std::string& beginning, const
 }
 
 /// The number behind a word of a message.
-double number_after(const std::string& message, const std::string& words) {
+double value_after(const std::string& message, const std::string& words) {
   const std::size_t at = message.find(words);
   return at == std::string::npos ? 0 : std::stod(message.substr(at + words.size()));
 }
@@ -66,7 +66,7 @@ TEST(CaseGeometry, SolidsThatOverlapAreNamedWithHowFar) {
   const TwoBodies bodies{.right = disk_at(-0.2)};
   expect_mistake(bodies, shape_b + "solids.b.shape: ", "solid `b` overlaps that of solid `a` by ");
   // Centres 0.8 apart, radii 0.5: the rims are 0.2 within each other, up to a chord's height.
-  EXPECT_NEAR(number_after(mistake_in(text_of(bodies)), "overlaps that of solid `a` by "), 0.2, 2e-3);
+  EXPECT_NEAR(value_after(mistake_in(text_of(bodies)), "overlaps that of solid `a` by "), 0.2, 2e-3);
 }
 
 TEST(CaseGeometry, OneSolidWithinAnotherOverlapsItToo) {
@@ -77,7 +77,7 @@ TEST(CaseGeometry, OneSolidWithinAnotherOverlapsItToo) {
 TEST(CaseGeometry, SolidsNearerThanTheirGridsAreToldTheDistanceThatIsEnough) {
   const TwoBodies near{.right = disk_at(0.02)};
   expect_mistake(near, ring_b + "fluid.body_fitted[1]: ", "solid `b` and solid `a` are 0.02");
-  const double enough = number_after(mistake_in(text_of(near)), "move them ");
+  const double enough = value_after(mistake_in(text_of(near)), "move them ");
   EXPECT_EQ(mistake_in(text_of({.right = disk_at(enough + 1e-3)})), "");
 }
 
@@ -89,7 +89,7 @@ TEST(CaseGeometry, SolidBeyondTheGasSaysWhichSideAndHowFar) {
 TEST(CaseGeometry, SolidNearTheRimOfTheGasIsToldTheDistanceThatIsEnough) {
   const TwoBodies near{.right = disk_at(1.95)};
   expect_mistake(near, ring_b + "fluid.body_fitted[1]: ", "solid `b` is 0.05 from the rim of fluid.grid");
-  const double enough = number_after(mistake_in(text_of(near)), "leave ");
+  const double enough = value_after(mistake_in(text_of(near)), "leave ");
   EXPECT_EQ(mistake_in(text_of({.right = disk_at(2 - enough - 1e-3)})), "");
 }
 
@@ -114,7 +114,7 @@ TEST(CaseGeometry, TooCoarseACoreIsToldTheSpacingThatConnects) {
   TwoBodies bodies{.box = "{x: [-1.5, -0.5], y: [-0.5, 0.5], spacing: h}",
                    .fitted = "{lines: 6, spacing: 0.25 * h}"};
   expect_mistake(bodies, grid_a + "solids.a.grid: ", "the points of `grid` are too far apart");
-  const double spacing = number_after(mistake_in(text_of(bodies)), "write `spacing: ");
+  const double spacing = value_after(mistake_in(text_of(bodies)), "write `spacing: ");
   EXPECT_LT(spacing, 0.05);
   bodies.box = "{x: [-1.5, -0.5], y: [-0.5, 0.5], spacing: " + std::to_string(spacing) + "}";
   EXPECT_EQ(mistake_in(text_of(bodies)), "");
@@ -123,7 +123,7 @@ TEST(CaseGeometry, TooCoarseACoreIsToldTheSpacingThatConnects) {
 TEST(CaseGeometry, TooDeepAGridInASolidIsToldTheLinesThatFit) {
   TwoBodies bodies{.fitted = "{lines: 40, spacing: 0.5 * h}"};  // deeper than the radius
   expect_mistake(bodies, fitted_a + "solids.a.body_fitted: ", "write `lines: ");
-  const int lines = static_cast<int>(number_after(mistake_in(text_of(bodies)), "write `lines: "));
+  const int lines = static_cast<int>(value_after(mistake_in(text_of(bodies)), "write `lines: "));
   EXPECT_LE((lines - 1) * 0.025, 0.6 * 0.5);
   bodies.fitted = "{lines: " + std::to_string(lines) + ", spacing: 0.5 * h}";
   EXPECT_EQ(mistake_in(text_of(bodies)), "");

@@ -31,10 +31,10 @@ std::string disk_case(const std::string& shape, const std::string& ring = "{name
          shape + "\n    body_fitted: " + outline + "\n";
 }
 
-const std::string circle = "{kind: circle, radius: 0.9}";
+const std::string disk_outline = "{kind: circle, radius: 0.9}";
 
 TEST(CaseShape, GasAndSolidShareThePointsOfTheOutline) {
-  const Case problem = load_text(disk_case(circle));
+  const Case problem = load_text(disk_case(disk_outline));
   const BodyFittedSpec& gas = problem.fluids.front().body_fitted.at(0);
   const BodyFittedSpec& solid = problem.solids.at(0).body_fitted.at(0);
   EXPECT_EQ(gas.curve.x, solid.curve.x);
@@ -47,7 +47,7 @@ TEST(CaseShape, GasAndSolidShareThePointsOfTheOutline) {
 
 TEST(CaseShape, OverlappingGridsOfASolidAreStabilisedUnlessTheSchemeSaysOtherwise) {
   const auto scheme_with = [](const std::string& scheme) {
-    return load_text(disk_case(circle) + scheme).solids.at(0).scheme;
+    return load_text(disk_case(disk_outline) + scheme).solids.at(0).scheme;
   };
   for (const std::string scheme : {"", "    scheme: {limiter: none}\n"}) {
     const SolidScheme found = scheme_with(scheme);
@@ -92,7 +92,8 @@ TEST(CaseShape, PointsOfAFileBecomePartOfTheResolvedCase) {
 const std::string rings = "map: [(0.9 - 0.7 * s) * cos(2 * pi * r), (0.9 - 0.7 * s) * sin(2 * pi * r)]";
 
 TEST(CaseShape, LinesOfABodyFittedGridMayBeGivenByAFormulaFromTheirCurve) {
-  const Case problem = load_text(disk_case(circle, "{name: ring, solid: disk}", "{lines: 8, " + rings + "}"));
+  const Case problem =
+      load_text(disk_case(disk_outline, "{name: ring, solid: disk}", "{lines: 8, " + rings + "}"));
   const BodyFittedSpec& fitted = problem.solids.at(0).body_fitted.at(0);
   const grid::MovingGrid grid(grid_of(fitted), 0);
   EXPECT_TRUE(grid.periodic(0));
@@ -107,27 +108,30 @@ struct ShapeMistake {
 
 TEST(CaseShape, MistakesSayWhereAndWhatToWrite) {
   const ShapeMistake mistakes[] = {
-      {disk_case(circle, "{name: ring, solid: disc}"), "there is no solid `disc`; did you mean `disk`?"},
-      {disk_case(circle, "{name: ring}"), "give `solid` or `shape`, one of them"},
-      {disk_case(circle, "{name: ring, solid: disk}, {name: ring, solid: disk}"),
+      {disk_case(disk_outline, "{name: ring, solid: disc}"),
+       "there is no solid `disc`; did you mean `disk`?"},
+      {disk_case(disk_outline, "{name: ring}"), "give `solid` or `shape`, one of them"},
+      {disk_case(disk_outline, "{name: ring, solid: disk}, {name: ring, solid: disk}"),
        "there are two grids `ring`"},
-      {disk_case(circle, "{name: fluid, solid: disk}"), "fluid.grid: there are two grids `fluid`"},
-      {disk_case(circle, "{name: wall, shape: {kind: circle, radius: 1.5}}"),
+      {disk_case(disk_outline, "{name: fluid, solid: disk}"), "fluid.grid: there are two grids `fluid`"},
+      {disk_case(disk_outline, "{name: wall, shape: {kind: circle, radius: 1.5}}"),
        "solid `disk` overlaps that of grid `wall`"},
-      {disk_case(circle, "{name: ring, solid: disk}", "{boundary: free}"), "must be an interface"},
-      {disk_case(circle, "{name: ring, solid: disk}", "{boundary: periodic}"), "no opposite side"},
-      {disk_case(circle, "{name: wall, shape: " + circle + ", boundary: periodic}"), "no opposite side"},
-      {disk_case(circle, "{name: wall, shape: " + circle + ", boundary: {kind: interface, solid: disk}}"),
+      {disk_case(disk_outline, "{name: ring, solid: disk}", "{boundary: free}"), "must be an interface"},
+      {disk_case(disk_outline, "{name: ring, solid: disk}", "{boundary: periodic}"), "no opposite side"},
+      {disk_case(disk_outline, "{name: wall, shape: " + disk_outline + ", boundary: periodic}"),
+       "no opposite side"},
+      {disk_case(disk_outline,
+                 "{name: wall, shape: " + disk_outline + ", boundary: {kind: interface, solid: disk}}"),
        "write `solid: NAME` in place of `shape`"},
       {disk_case("{kind: circle, radius: 0.9, walls: [bottom, top]}"), "a circle has no ends"},
       {disk_case("{kind: circle, radius: 0.9, points: 70, spacing: h}"),
        "`points` or `spacing`, one of them"},
       {disk_case("{kind: spline}"), "give `through: [[x, y], ..]` or `file: NAME.csv`"},
       {disk_case("{kind: spline, file: nowhere.csv}"), "cannot be read"},
-      {disk_case(circle, "{name: ring, solid: disk}",
+      {disk_case(disk_outline, "{name: ring, solid: disk}",
                  "{lines: 8, map: [(0.8 - 0.6 * s) * cos(2 * pi * r), (0.8 - 0.6 * s) * sin(2 * pi * r)]}"),
        "but point 0 of its curve is at (0.9, 0)"},
-      {disk_case(circle, "{name: ring, solid: disk}", "{spacing: h, " + rings + "}"),
+      {disk_case(disk_outline, "{name: ring, solid: disk}", "{spacing: h, " + rings + "}"),
        "`map` says where its lines are"},
       {disk_case("{kind: circle, radius: 1.3}"), "write at least x: [-1.3, 1.3], y: [-1.3, 1.3]"},
   };
@@ -140,8 +144,8 @@ TEST(CaseShape, MistakesSayWhereAndWhatToWrite) {
 }
 
 TEST(CaseShape, GridOfASolidHasAnotherNameThanTheOneAlongItsOutline) {
-  EXPECT_EQ(mistake_in(disk_case(circle), {"solids.disk.grid.name=inner"}), "");
-  const std::string message = mistake_in(disk_case(circle), {"solids.disk.grid.name=outline"});
+  EXPECT_EQ(mistake_in(disk_case(disk_outline), {"solids.disk.grid.name=inner"}), "");
+  const std::string message = mistake_in(disk_case(disk_outline), {"solids.disk.grid.name=outline"});
   EXPECT_NE(message.find("there are two grids `outline`"), std::string::npos) << message;
 }
 
