@@ -13,7 +13,7 @@ from pathlib import Path
 ROOT = Path(os.environ.get("FSI_ROOT") or Path(__file__).resolve().parents[2])
 BIN = Path(os.environ.get("FSI_BIN") or ROOT / "build" / "release" / "bin")
 FSI = ROOT / "launch" / "fsi"
-WATCHDOG = 300.0  # [s] nothing here takes as long on any machine: who waits for so long waits for ever
+WATCHDOG = 900.0  # [s] nothing here takes as long on any machine: who waits for so long waits for ever
 
 # Steps so small that no machine comes to the end of the run while a test lasts: it is in its middle whenever something is done
 # to it. It has one output behind it after ten steps.
