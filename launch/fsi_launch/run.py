@@ -153,6 +153,16 @@ def _write_xdmf(directory):
         raise Failure(OUTPUT_FAILED, answer.stderr.strip() or "fsi_xdmf failed")
 
 
+def _write_exact(case, directory):
+    """DIR/reference.h5 of a run whose solution is known in formulas, at the places it computed."""
+    if case.reference not in cases.EXACT_KINDS:
+        return
+    answer = subprocess.run([paths.program("reference_exact"), "--case", str(directory / "case.yaml"), "--run-dir", str(directory)],
+                            stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
+    if answer.returncode != 0:
+        raise Failure(OUTPUT_FAILED, answer.stderr.strip() or "reference_exact failed")
+
+
 # --- the whole
 
 
@@ -195,6 +205,7 @@ def _applicable(case, request, say):
 def needed(case):
     """The programs a run of this case takes, besides those of every run."""
     others = [cases.REFERENCE_PROGRAMS.get(case.reference),
+              "reference_exact" if case.reference in cases.EXACT_KINDS else None,
               "fsi_credentials" if any("/" in program for program in case.programs.values()) else None]
     return [*case.programs.values(), *filter(None, others)]
 
@@ -259,6 +270,7 @@ def run(request):
     try:
         probes.merge(directory, case.programs)
         _write_xdmf(directory)
+        _write_exact(case, directory)
     except Failure as failure:
         if code == DONE:
             code, result["status"], result["reason"] = failure.code, "failed", str(failure)

@@ -94,5 +94,51 @@ class CompositeGrids(EndToEnd):
                          {"fields_0000", "grid", "grid_disk", "radius_0000", "axis_0000", "streamlines", "interface", "forces_disk"})
 
 
+class ExactSolutions(EndToEnd):
+    """Beside a run whose solution is known in formulas, reference.h5 has it along the line that pictures draw."""
+
+    def distances(self, run, known):
+        """{(program, field): largest distance of the computed curve from the exact one} at the end."""
+        import numpy as np
+        from fsi_launch.plot.one_run import curves
+        from fsi_launch.plot.reading import data
+        tables, found = data.piston_reference(run.directory), {}
+        self.assertTrue(tables)
+        for one in data.all_series(run.directory):
+            table = tables[one.outputs[-1].t]["gas" if one.is_gas() else "solid"]
+            x = table["x"] if one.is_gas() else table["x_bar"] + table["u"]
+            grid = one.outputs[-1].grids[0]
+            for key in known[one.is_gas()]:
+                s, values = curves._along(grid, key, curves._direction(grid))
+                found[one.name, key] = np.abs(values - np.interp(s, x, table[key])).max()
+        return found
+
+    def test_turned_piston(self):
+        run = self.complete("elastic_piston", "--set", "grid.factor=2", "--set", "parameters.angle=0.4", "--set", "expect={}")
+        found = self.distances(run, {True: ("rho", "v", "p"), False: ("u", "v", "P11")})
+        self.assertEqual(len(found), 6)
+        self.assertLess(max(found.values()), 5e-3, found)    # of curves that vary by tenths
+        self.assertIn("lines", plot(self, run.directory))
+
+    def test_two_gases(self):
+        run = self.complete("piston_between_gases", "--set", "grid.factor=2", "--set", "expect={}")
+        found = self.distances(run, {True: ("p",), False: ("u",)})
+        self.assertEqual(sorted(name for name, _ in found), ["left", "piston", "right"])
+        self.assertLess(max(found.values()), 3e-7, found)    # of a pulse of 1e-6
+
+    def test_tube_has_no_solid_and_the_well_known_pressure(self):
+        import h5py
+        run = self.complete("sod_tube", "--set", "grid.factor=2", "--set", "expect={}")
+        with h5py.File(run.directory / "reference.h5") as file:
+            last = file[sorted(file)[-1]]
+            self.assertEqual(list(last), ["gas"])
+            middle = last["gas/x"][:].searchsorted(0.75)     # between contact and shock
+            self.assertAlmostEqual(last["gas/p"][middle], 0.30313, places=5)
+
+    def test_another_law_has_another_solution(self):
+        run = self.complete("elastic_piston", "--solid", "solid=neo_hookean", "--set", "grid.factor=2", "--set", "expect={}")
+        self.assertFalse((run.directory / "reference.h5").exists())
+
+
 if __name__ == "__main__":
     unittest.main()

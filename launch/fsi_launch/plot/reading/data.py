@@ -195,7 +195,7 @@ def at_times(series, times):
 
 
 def last_state(directory):
-    """Series of the one state that each program left where the numbers broke; none of other runs."""
+    """Series of the one state that each program left where the solution diverged; none of other runs."""
     series = []
     for path, name in files(directory / "last_state"):
         with h5py.File(path, "r") as file:
@@ -249,7 +249,7 @@ def disk_reference(directory):
 
 
 def piston_reference(directory):
-    """The same of a piston along its axis."""
+    """The same of a piston or a tube along its axis; of a gas alone without "solid"."""
     return _reference(directory, "x")
 
 
@@ -262,4 +262,4 @@ def _reference(directory, coordinate):
         if not all(coordinate in group.get("gas", ()) for group in file.values()):
             return {}
         return {float(group.attrs["t"]): {part: {key: np.asarray(group[part][key]) for key in group[part]}
-                                          for part in ("gas", "solid")} for group in file.values()}
+                                          for part in ("gas", "solid") if part in group} for group in file.values()}
