@@ -11,7 +11,7 @@ from running import ROOT
 
 sys.path.insert(0, str(ROOT / "launch"))
 from fsi_launch.plot.one_run import beams, streamlines  # noqa: E402
-from fsi_launch.plot.reading import data  # noqa: E402
+from fsi_launch.plot.reading import data, scales  # noqa: E402
 
 HALF, DEPTH = 0.05, 0.02
 
@@ -80,6 +80,19 @@ class Centrelines(unittest.TestCase):
         angle, r = np.meshgrid(np.arange(80) * 2 * np.pi / 80, np.linspace(0.5, 1, 6))
         self.assertEqual(beams.of([solid([("ring", r * np.cos(angle), r * np.sin(angle))])]), [])
 
+    def test_a_rigid_panel_is_no_beam(self):
+        x, y = np.array([-HALF, -HALF, HALF, HALF]), np.array([0.0, 1.0, 1.0, 0.0])
+        self.assertEqual(beams.of([solid([("body", np.array([x, 0 * x]), np.array([y, 0.5 + 0 * y]))])]), [])
+
+    def test_beams_that_hardly_bend_have_a_scale_of_their_own_across(self):
+        figure = beams.picture([beams.Run({}, 0.0, beams.of([beam(101)]))])
+        self.assertEqual(figure.axes[0].get_aspect(), 1)
+        for one in (line := figure.axes[0].get_lines()):
+            one.set_xdata(1e-3 * one.get_xdata())
+        figure.axes[0].set_aspect("auto")
+        beams._scale(figure.axes[0])
+        self.assertEqual((len(line), figure.axes[0].get_aspect()), (2, "auto"))
+
     def test_runs_with_the_same_parameters_are_compared_the_finer_first(self):
         case = "parameters:\n  rho_bar: 10\n  mach: {m}\ngrid:\n  factor: {j}\ntime:\n  end: 7\n"
         runs = [beams.run_of([beam(n)], case.format(j=j, m=m)) for n, j, m in ((101, 8, 1.1), (201, 16, 1.1), (201, 16, 1.3))]
@@ -90,15 +103,35 @@ class Centrelines(unittest.TestCase):
 
 
 class Streamlines(unittest.TestCase):
-    def test_a_solid_whose_speed_is_round_off_is_drawn_at_rest(self):
+    def moving(self, speed):
+        """An output of something that moves at up to `speed`."""
         x1, x2 = np.meshgrid(np.linspace(0, 1, 5), np.linspace(0, 1, 5))
-        for speed, floor, rests in ((2e-16, 1e-11, True), (2e-10, 1e-11, False), (0.0, 0.0, True)):
-            fields = {"x1": x1, "x2": x2, "x1_bar": x1, "x2_bar": x2, "v1": speed * x1, "v2": 0 * x1}
-            figure, axes = pyplot.subplots()
-            drawn, found = streamlines._solid_speed(axes, [data.Output(0.0, [data._read_grid("core", fields)])], floor)
-            pyplot.close(figure)
-            self.assertEqual(found, rests)
-            self.assertEqual(drawn.get_array().max() == 0, rests)
+        fields = {"x1": x1, "x2": x2, "x1_bar": x1, "x2_bar": x2, "v1": speed * x1, "v2": 0 * x1, "rho": 1 + x1, "p": 1 + x1}
+        ring = {"x1": x1, "x2": x2 + 0.1 * x1, "v1": speed * x1, "v2": 0 * x1, "rho": 1 + x1, "p": 1 + x1}
+        return data.Output(1.0, [data._read_grid("core", fields), data._read_grid("ring", ring)])
+
+    def picture(self, gas, solid):
+        """The panels of a run whose gas and solid move so at two times, [(axes, titles of its colour bars)], or None."""
+        series = [data.Series(name, [self.moving(speed) for speed in speeds]) for name, speeds in (("fluid", gas), ("block", solid))]
+        found = dict(streamlines.pictures(series, scales.Scales(1.0, 1.0, 1.0)))
+        if not found:
+            return None
+        figure = found["streamlines"]()
+        self.addCleanup(pyplot.close, figure)
+        return figure.axes
+
+    def test_colours_hold_over_all_times(self):
+        bars = [axes for axes in self.picture((1.0, 2.0), (0.1, 0.4)) if axes.get_title(loc="left") in ("gas", "solid")]
+        self.assertEqual({(axes.get_title(loc="left"), axes.get_ylim()) for axes in bars}, {("gas", (0, 2)), ("solid", (0, 0.4))})
+        self.assertEqual(len(bars), 4)
+
+    def test_a_solid_whose_speed_is_round_off_is_plain(self):
+        titles = [axes.get_title(loc="left") for axes in self.picture((1.0, 1.0), (0.0, 2e-16))]
+        self.assertIn("gas", titles)
+        self.assertNotIn("solid", titles)
+
+    def test_there_is_none_of_a_gas_that_rests(self):
+        self.assertIsNone(self.picture((0.0, 1e-15), (0.0, 0.0)))
 
     def test_velocity_on_the_lattice_is_that_of_the_grid_and_holes_have_none(self):
         x1, x2 = np.meshgrid(np.linspace(0, 2, 21), np.linspace(0, 1, 11))

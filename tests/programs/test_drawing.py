@@ -8,6 +8,7 @@ import tempfile
 import unittest
 from pathlib import Path
 
+import numpy as np
 from matplotlib import pyplot
 from PIL import Image
 
@@ -15,7 +16,8 @@ from running import ROOT
 
 sys.path.insert(0, str(ROOT / "launch"))
 from fsi_launch.plot.look import drawing, style, units  # noqa: E402
-from fsi_launch.plot.one_run import curves  # noqa: E402
+from fsi_launch.plot.one_run import curves, movie  # noqa: E402
+from fsi_launch.plot.reading import data  # noqa: E402
 
 
 def picture(k):
@@ -60,6 +62,17 @@ class Drawing(unittest.TestCase):
                 sizes.append(drawn.size)
         self.assertGreater(sizes[1][1], sizes[0][1] + 0.15 * 3 * 130)
 
+    def test_narrow_axes_have_few_numbers_and_colour_bars_none_across(self):
+        figure, (narrow, wide) = pyplot.subplots(1, 2, figsize=(6, 4), width_ratios=(1, 8))
+        for axes in (narrow, wide):
+            axes.set_xlim(-0.05, 0.05)
+        style.bar(figure, wide, wide.scatter([0, 1], [0, 1], c=[1.0, 2.0]), "p")
+        style.save(figure, self.folder / "narrow.png")
+        seen = [[x for x in axes.get_xticks() if axes.get_xlim()[0] <= x <= axes.get_xlim()[1]] for axes in figure.axes]
+        self.assertEqual(len(seen[0]), 1)
+        self.assertGreater(len(seen[1]), 3)
+        self.assertEqual(seen[2], [])
+
     def test_failures_come_out_whoever_draws(self):
         for jobs in (1, 2):
             with self.subTest(jobs), self.assertRaises(OSError) as caught:
@@ -67,6 +80,25 @@ class Drawing(unittest.TestCase):
             self.assertEqual(caught.exception.errno, errno.ENOENT)
             with self.subTest(jobs), self.assertRaisesRegex(RuntimeError, "nothing to draw here"):
                 drawing.draw([(self.folder / "a.png", broken), (self.folder / "b.png", picture(1))], lambda path: None, jobs)
+
+
+class Frames(unittest.TestCase):
+    def test_axes_and_colours_of_a_movie_hold_and_have_labels(self):
+        style.use()
+        x1, x2 = np.meshgrid(np.linspace(0, 1, 5), np.linspace(0, 1, 5))
+
+        def output(t):
+            arrays = {"x1": x1 + t, "x2": x2, "v1": t * x1, "v2": 0 * x1, "rho": 1 + 0 * x1, "p": 1 + 0 * x1}
+            return data.Output(t, [data._read_grid("gas", arrays)])
+
+        seen = set()
+        for figure in movie._frames([data.Series("fluid", [output(1.0), output(2.0)])]):
+            axes, bar = figure.axes
+            seen.add((axes.get_xlim(), axes.get_ylim(), bar.get_ylim(), axes.get_xlabel(), axes.get_ylabel(), bar.get_title(loc="left")))
+            pyplot.close(figure)
+        ((across, _, colours, *words),) = seen
+        self.assertTrue(across[0] <= 1 and across[1] >= 3)
+        self.assertEqual((colours, words), ((0, 2), ["x", "y", "speed"]))
 
 
 class Units(unittest.TestCase):
@@ -96,7 +128,8 @@ class Units(unittest.TestCase):
     def test_columns_of_probes_have_the_units_of_their_fields(self):
         units.use("SI")
         self.assertEqual([curves._title(name) for name in ("tip.u1", "a.rho", "a.p", "a.T")],
-                         ["tip.u1 [m]", "a.rho [kg/m$^3$]", "a.p [Pa]", "a.T"])
+                         ["tip: $u_{1}$ [m]", "a: density $\\rho$ [kg/m$^3$]", "a: pressure $p$ [Pa]", "a: temperature $T$"])
+        self.assertEqual(curves._title("solid.left.velocity_jump [length/time]"), "solid.left: velocity jump [m/s]")
 
     def test_every_column_a_program_writes_has_a_symbol(self):
         found = subprocess.run(["grep", "-rhoE", r'"[a-z0-9_ ]+ \[[a-z*/]+\]"', "--include=port.?pp", "--include=coupler*.cpp",

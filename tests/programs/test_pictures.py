@@ -21,7 +21,7 @@ from matplotlib.image import AxesImage  # noqa: E402
 from fsi_launch import plot  # noqa: E402
 from fsi_launch.failure import UserMistake  # noqa: E402
 from fsi_launch.plot.look import caption, shading, style  # noqa: E402
-from fsi_launch.plot.one_run import curves, disk, fields  # noqa: E402
+from fsi_launch.plot.one_run import curves, disk, fields, schlieren  # noqa: E402
 from fsi_launch.plot.reading import data, mesh, scales  # noqa: E402
 from fsi_launch.plot.several_runs import outlines, several, side_by_side  # noqa: E402
 
@@ -105,6 +105,9 @@ class Shading(unittest.TestCase):
 
 
 class Captions(unittest.TestCase):
+    def test_wide_spacings_are_no_fractions(self):
+        self.assertEqual([caption.spacing(factor) for factor in (4, 0.2, 0.1, 0.04)], ["h = 1/40", "h = 1/2", "h = 1", "h = 2.5"])
+
     def test_case_grid_law_and_own_parameters(self):
         text = (ROOT / "configs" / "shock_ellipse.yaml").read_text(encoding="utf-8")
         resolved = "name: shock_ellipse\n" + text.replace("rho_bar: 0.1", "rho_bar: 0.01").replace("grid: {factor: 4}", "grid:\n  factor: 4")
@@ -286,7 +289,35 @@ class SideBySide(unittest.TestCase):
         self.assertEqual(several.few(several.common_times(runs)), [0.5, 2, 4])
 
 
+class Schlieren(unittest.TestCase):
+    def gas(self, density):
+        x1, x2 = np.meshgrid(np.linspace(0, 1, 41), np.linspace(0, 1, 21))
+        return data.Output(1.0, [read({"x1": x1, "x2": x2, "rho": density(x1, x2)})])
+
+    def test_a_front_is_a_shock_and_a_coarse_smooth_field_is_none(self):
+        self.assertTrue(schlieren.has_shocks(self.gas(lambda x, y: 1 + 0.3 * (x > 0.5))))
+        self.assertTrue(schlieren.has_shocks(self.gas(lambda x, y: 1 + 0.3 * (x > 0.5) + 0.2 * np.sin(6 * x))))
+        self.assertFalse(schlieren.has_shocks(self.gas(lambda x, y: 1 + 0.3 * np.sin(6 * x) * np.cos(6 * y))))
+        self.assertFalse(schlieren.has_shocks(self.gas(lambda x, y: 1 + 0.001 * (x > 0.5))))
+
+    def test_a_solid_beside_the_gas_is_within_the_picture(self):
+        around = data.Output(1.0, [ring()])
+        (left, right), (bottom, top) = schlieren._box(self.gas(lambda x, y: 1 + x), [around])
+        self.assertEqual([round(one, 3) for one in (left, right, bottom, top)], [-0.8, 1, -0.8, 1])
+
+
 class Lines(unittest.TestCase):
+    def test_only_runs_that_depend_on_one_coordinate_throughout_have_lines(self):
+        x1, x2 = np.meshgrid(np.linspace(0, 1, 11), np.linspace(0, 1, 3))
+        alone = read({"x1": x1, "x2": x2, "rho": x1, "p": x1, "v1": x1, "v2": 0 * x1})
+        rest = {key: 0 * x1 for key in ("u1", "u2", "v1", "v2", "P11")}
+        body = data.Series("body", [data.Output(1.0, [read({"x1": x1, "x2": x2, "x1_bar": x1, "x2_bar": x2, **rest})])])
+        rigid = data.Series("rigid", [data.Output(1.0, [read({"x1": x1[:2], "x2": x2[:2]})])])
+        self.assertEqual([curves._has_an_inside(one) for one in (body, rigid)], [True, False])
+        for grids, found in (([alone], ["lines"]), ([alone, ring()], [])):
+            series = [data.Series("fluid", [data.Output(1.0, grids)]), body]
+            self.assertEqual([name for name, _ in curves.pictures(series, [], scales.Scales(1, 1, 1), {})], found)
+
     def test_a_reference_is_drawn_at_its_own_time_and_place_in_space(self):
         x1, x2 = np.meshgrid(np.linspace(0, 1, 11), np.linspace(0, 1, 3))
         fields = {"x1": 2 * x1, "x2": x2, "x1_bar": x1, "x2_bar": x2, "u1": x1, "u2": 0 * x1, "v1": 3 * x1, "v2": 0 * x1,
@@ -338,6 +369,12 @@ class Disk(unittest.TestCase):
         points = disk.Points(r, r, {"v_r": r, "normal": r ** 2})
         x, v = disk._even(points, "v_r")
         self.assertTrue(np.allclose(v, x) and np.allclose(disk._even(points, "normal")[1], x ** 2))
+
+    def test_the_reference_of_a_gas_around_a_disk_is_not_drawn_across_it(self):
+        r = np.linspace(1, 2, 3)
+        x, v = disk._even(disk.Points(r, r, {"v_r": r}), "v_r")
+        self.assertEqual(np.isnan(x).tolist(), [False] * 3 + [True] + [False] * 3)
+        self.assertEqual(np.isnan(v).tolist(), np.isnan(x).tolist())
 
 
 if __name__ == "__main__":

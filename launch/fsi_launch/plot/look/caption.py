@@ -2,10 +2,13 @@
 case of one's own nobody knows which of its parameters matter)."""
 
 import re
+import textwrap
 
 from fsi_launch import paths
 
 MOST = 4        # parameters
+LETTERS = 13    # of the line in an inch
+SHORTEST = 30   # line, where a picture is narrow
 
 _caption = ""   # of the pictures that are being drawn, as the units of their labels
 
@@ -32,12 +35,17 @@ def _own_parameters(name, text):
     return {key: value for key, value in _parameters(text).items() if key in usual and usual[key] != value}
 
 
+def spacing(factor):
+    """That of a case with this `grid.factor`, in words."""
+    return f"h = 1/{10 * factor:g}" if factor > 0.1 else f"h = {0.1 / factor:g}"
+
+
 def of_case(text, entries):
     """One line; `entries`: what several.entries says of the text of a resolved case."""
     name = entries.get("name", "")
     words = [name] if name else []
     if "grid.factor" in entries:
-        words.append(f"h = 1/{10 * float(entries['grid.factor']):g}")
+        words.append(spacing(float(entries["grid.factor"])))
     laws = [value.replace("_", " ") for key, value in entries.items() if re.fullmatch(r"solids\.[^.]+\.law", key)]
     words += dict.fromkeys(laws)
     words += [f"{key} = {value:g}" for key, value in list(_own_parameters(name, text).items())[:MOST]]
@@ -56,4 +64,5 @@ def write(figure):
         return
     own = figure._suptitle.get_text() if figure._suptitle else ""      # noqa: SLF001
     if not own.startswith(_caption):
-        figure.suptitle(f"{_caption}: {own}" if own else _caption, x=0.01, ha="left", fontsize=10)
+        line = f"{_caption}: {own}" if own else _caption
+        figure.suptitle(textwrap.fill(line, max(SHORTEST, int(LETTERS * figure.get_figwidth()))), x=0.01, ha="left", fontsize=10)

@@ -13,6 +13,7 @@ from fsi_launch.plot.several_runs import several
 HEADING = ("beam", "coarse", "fine", "t", "largest distance")
 SLENDER = 3         # a beam is so many times longer than it is thick
 STATIONS = 201      # along a centreline
+NARROW = 0.1        # room of all lines, width over height, below which the two directions have scales of their own
 FINEST, COARSER = "-", ("--", ":", "-.")
 
 
@@ -82,9 +83,10 @@ def _displacement_of_line(grid, ends, s):
 
 
 def _beam(one):
-    """The beam a program computed, or None."""
+    """The beam a program computed, or None: a rigid body, two lines of points without a rotation of their own, is none."""
     fitted = [grid for grid in one.outputs[0].grids if not grid.is_cartesian() and not grid.closed]
-    ends = _axis(fitted[0]) if len(fitted) == 1 else None
+    rigid = len(fitted) == 1 and len(fitted[0].x1) == 2 and "theta" not in fitted[0].fields
+    ends = _axis(fitted[0]) if len(fitted) == 1 and not rigid else None
     if ends is None:
         return None
     s = np.linspace(0, 1 - 1e-9, STATIONS)[:, None]
@@ -175,10 +177,16 @@ def _panel(axes, group, title):
             _draw(axes, beam, line, _colours(len(beam.lines)))
     handles = [handle for handle in axes.get_lines()[:len(group[0].beams[0].lines)]]
     axes.legend(handles=handles, title=units.label("t", "time"), loc="center left", bbox_to_anchor=(1.0, 0.5), handlelength=1.2)
-    axes.set_aspect("equal")
     axes.set_title(title, loc="left")
     lines = [f"j = {run.factor:g} {name}" for run, name in zip(group, ("full", "dashed", "dotted", "dash-dot"))]
     axes.set_xlabel(units.label("x", "length") + (f"      ({', '.join(lines)})" if len(group) > 1 else ""))
+
+
+def _scale(axes):
+    """The same scale both ways, unless beams bend so little that nothing could be seen."""
+    x, y = (np.ptp(np.concatenate([getattr(line, f"get_{name}data")() for line in axes.get_lines()])) for name in "xy")
+    if min(x, y) > NARROW * max(x, y):
+        axes.set_aspect("equal")
 
 
 def picture(runs):
@@ -192,6 +200,7 @@ def picture(runs):
                                     sharex=True, sharey=True)
     for axes, group in zip(panels.flat, groups):
         _panel(axes, group, _label(group[0], [run for other in groups for run in other]) or "centreline")
+    _scale(panels.flat[0])
     for axes in list(panels.flat)[len(groups):]:
         axes.set_visible(False)
     for axes in panels[:, 0]:

@@ -1,5 +1,6 @@
 """Curves: fields along a line where they depend on one coordinate only, and the tables over time."""
 
+import re
 from functools import partial
 
 import numpy as np
@@ -14,6 +15,13 @@ SAME = 1e-3        # variation across the line, part of the variation along it, 
 MOST_TIMES = 6
 REFERENCE = {"color": "black", "linewidth": 2.6, "alpha": 0.3, "zorder": 1}
 SAME_VALUE = 1e-11  # differences, part of the values, that are round-off
+FEW = 16            # times, which are marked: between them nothing is known
+WORDS = {"dt": "time step", "force1": "force along $x$", "force2": "force along $y$", "centre1": "$x$ of the centre", "centre2": "$y$ of the centre",
+         "velocity1": "velocity of the centre along $x$", "velocity2": "velocity of the centre along $y$", "angle": "angle turned",
+         "momentum1_defect": "momentum along $x$, defect", "momentum2_defect": "momentum along $y$, defect", "mass_defect": "mass, defect",
+         "energy_defect": "energy, defect", "kinetic": "kinetic energy", "strain": "strain energy", "work": "work of the gas",
+         "rho": "density $\\rho$", "p": "pressure $p$", "T": "temperature $T$", "theta": "rotation $\\theta$", "N": "axial force $N$",
+         "Q": "shear force $Q$", "M": "moment $M$"}
 
 
 # --- lines
@@ -53,6 +61,11 @@ def _reference_line(axes, one, key, table):
     s = part["x"] if one.is_gas() else part["x_bar"] + part["u"]
     shown = (s >= computed.min()) & (s <= computed.max())
     axes.plot(s[shown], part[key][shown], **REFERENCE)
+
+
+def _has_an_inside(one):
+    """False of rigid bodies and beams, which are two lines of points."""
+    return len(one.outputs[0].grids[0].x1) > 2
 
 
 def _lines_picture(series, scales, reference):
@@ -109,10 +122,18 @@ def _unit(heading):
     return {"v": "length/time", "u": "length", "p": "force/area", "P": "force/area", "r": "mass/volume"}.get(field[:1], "unknown")
 
 
+def _words(name):
+    """The name of a column, which stands after its interface's or its probe's: "tip.u1" is "tip: $u_1$"."""
+    owner, _, field = name.rpartition(".")
+    component = re.fullmatch(r"([uvP])(\d+)", field)
+    said = f"${component[1]}_{{{component[2]}}}$" if component else WORDS.get(field, field.replace("_", " "))
+    return f"{owner.replace('_', ' ')}: {said}" if owner else said
+
+
 def _title(heading):
     """A heading for people, with its unit in symbols where the case says which."""
-    named = heading if "[" in heading else units.label(heading, _unit(heading))
-    return units.heading(named).replace("_", " ")
+    name, bracket, unit = heading.partition(" [")
+    return units.heading(_words(name) + bracket + unit) if bracket else units.label(_words(name), _unit(heading))
 
 
 def _steady(axes, values):
@@ -130,7 +151,7 @@ def _curve(axes, name, t, values, label, floor):
     if _bare(name).endswith(("jump", "gap")) and len(positive) and positive.max() > 300 * np.percentile(positive, 5):
         axes.set_yscale("log")
         values = np.where(values > floor, values, np.nan)
-    axes.plot(t, values, label=label)
+    axes.plot(t, values, label=label, marker="o" if len(t) <= FEW else "", markersize=3)
 
 
 def _zero(axes, t, largest):
@@ -174,9 +195,10 @@ def _table_picture(table, scales):
 
 def pictures(series, tables, scales, reference):
     """(name, figure or a function that makes it) of the curves a run has; `reference`: its one-dimensional solution {t: tables}, or nothing."""
-    plain = [one for one in series if len(one.outputs[-1].grids) == 1]
-    if plain and all(_depends_on_one_coordinate(one.outputs[-1].grids[0]) for one in plain):
-        yield "lines", partial(_lines_picture, plain, scales, reference)
+    inside = [one for one in series if _has_an_inside(one)]
+    plain = all(len(one.outputs[-1].grids) == 1 for one in inside)
+    if inside and plain and all(_depends_on_one_coordinate(one.outputs[-1].grids[0]) for one in inside):
+        yield "lines", partial(_lines_picture, inside, scales, reference)
     for table in tables:
         if figure := _table_picture(table, scales):
             yield table.name, figure

@@ -171,9 +171,10 @@ def _sigma_11(grid):
 
 
 def _even(points, key):
-    """The reference on both sides of the centre: a radial velocity changes its sign there as a horizontal one."""
-    sign = -1 if key == "v_r" else 1
-    return np.concatenate([-points.r[::-1], points.r]), np.concatenate([sign * points.values[key][::-1], points.values[key]])
+    """The reference on both sides of the centre: a radial velocity changes its sign there as a horizontal one. That of a gas around a
+    disk is broken between."""
+    sign, gap = -1 if key == "v_r" else 1, [np.nan] if points.r[0] > 0 else []
+    return np.concatenate([-points.r[::-1], gap, points.r]), np.concatenate([sign * points.values[key][::-1], gap, points.values[key]])
 
 
 def _axis_picture(gas, solid, reference, t, p_e):

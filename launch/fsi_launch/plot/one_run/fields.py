@@ -26,7 +26,7 @@ class Look:
     contours: bool = False
 
 
-@dataclass
+@dataclass(frozen=True)
 class Quantity:
     """What is drawn of a grid, and its unit."""
 
@@ -156,7 +156,7 @@ def _colour(axes, outputs, quantity, colours, limits, look):
     return drawn
 
 
-def _fill(axes, grids):
+def fill(axes, grids):
     """The region of a solid in one plain colour."""
     for grid in grids:
         axes.add_collection(PolyCollection(mesh.quadrilaterals(grid), facecolors=style.SOLID_FILL,
@@ -180,7 +180,7 @@ def _draw(figure, axes, gas, solids, panel, look):
         style.bar(figure, axes, drawn, "gas" if solids and not panel.one_scale() else "", panel.gas_range[2])
     for solid in solids:
         if not panel.of_solid:
-            _fill(axes, solid.grids)
+            fill(axes, solid.grids)
         outline(axes, solid.grids)
     axes.set_title(units.label(panel.title, (panel.of_gas or panel.of_solid).unit), loc="left")
 
@@ -203,10 +203,13 @@ def _size(limits):
 def _panels_of(gas, solids, look):
     """The panels for all these outputs of the gas and of the solids."""
     found = []
+    of_gas_alone = {quantity: title for title, quantity, _ in GAS_PANELS}
     for title, of_gas, of_solid in _kinds_of_panels(gas, solids, look.scales.floor(SPEED.unit)):
         floor = look.scales.floor((of_gas or of_solid).unit)
         gas_range = _range((gas, []), (of_gas, None), floor) if of_gas else None
         solid_range = _range(([], solids), (None, of_solid), floor) if of_solid else None
+        if of_gas and solid_range and solid_range[2] == 0:    # a rigid body has no stress, a held one no speed: plain
+            title, of_solid, solid_range = of_gas_alone[of_gas], None, None
         if of_gas is of_solid and _size(solid_range) >= SLOW * _size(gas_range):
             gas_range = solid_range = _range((gas, solids), (of_gas, of_solid), floor)
         found.append(Panel(title, of_gas, of_solid, gas_range, solid_range))
@@ -233,7 +236,7 @@ def _plan(series, look):
 def _field_picture(plan, index):
     """All quantities of all programs at output `index`."""
     gas, solids = plan.gas.outputs[index] if plan.gas else None, [one.outputs[index] for one in plan.solids]
-    bars = max(bool(gas) + bool(solids) - panel.one_scale() for panel in plan.panels)
+    bars = max(bool(gas) + bool(solids and panel.of_solid) - panel.one_scale() for panel in plan.panels)
     figure, axes = panels(len(plan.panels), plan.box, 0.8 * bars)
     for one, panel in zip(axes, plan.panels):
         _draw(figure, one, gas, solids, panel, plan.look)
@@ -253,10 +256,10 @@ def pictures(series, look):
 
 
 def last_picture(series, look):
-    """(name, figure) of the state just before the numbers broke."""
+    """(name, figure) of the state just before the solution diverged."""
     if not series:
         return
     figure = _field_picture(_plan(series, look), 0)
     times = ", ".join(f"{one.name} at {units.moment(one.outputs[0].t)}" for one in series)
-    figure.suptitle(f"the last state before the numbers broke: {times}", x=0.01, ha="left", fontsize=10)
+    figure.suptitle(f"the last state before the solution diverged: {times}", x=0.01, ha="left", fontsize=10)
     yield "fields_last", figure

@@ -8,25 +8,26 @@ from pathlib import Path
 import numpy as np
 from matplotlib import pyplot
 
-from fsi_launch.plot.look import style, units
+from fsi_launch.plot.look import caption, shading, style, units
 from fsi_launch.plot.one_run import fields, schlieren
-from fsi_launch.plot.reading import data, mesh
+from fsi_launch.plot.reading import data
 
 FRAMES_PER_SECOND = 12
 HEIGHT = 5.0        # inch
 
 
-def _speed_frame(axes, gas, solids, largest):
-    """Speed of everything in one colour scale."""
-    box = fields.box_around([grid for one in ([gas] if gas else []) + solids for grid in one.grids])
-    for colours, outputs in ((style.GAS_MAP, [gas] if gas else []), (style.SOLID_MAP, solids)):
-        for grid in (grid for output in outputs for grid in output.grids):
-            if triangles := mesh.triangles(grid):
-                values = np.where(grid.used(), grid.speed(), 0).ravel()
-                axes.tripcolor(triangles, values, cmap=colours, vmin=0, vmax=largest, shading="gouraud")
+def _speed_frame(axes, gas, solids, largest, box):
+    """Speed of everything in one colour scale within `box`, those of all frames; returns what its bar needs."""
+    drawn = None
+    for output in [gas] * bool(gas) + solids:
+        for grid in output.grids:
+            drawn = shading.shade(axes, grid, np.where(grid.used(), grid.speed(), 0), style.GAS_MAP, (0, largest)) or drawn
+    for solid in solids:
+        fields.outline(axes, solid.grids)
     axes.set_aspect("equal")
     axes.set_xlim(box[0], box[1])
     axes.set_ylim(box[2], box[3])
+    return drawn
 
 
 def _frames(series):
@@ -38,14 +39,19 @@ def _frames(series):
     if shocks:
         sample = sorted({round(k) for k in np.linspace(0, count - 1, 5)})
         size = schlieren.scales([gas.outputs[k] for k in sample], [one.outputs[:count] for one in solids])
+    box = fields.box_around([grid for one in series for output in one.outputs[:count] for grid in output.grids])
     largest = max(grid.speed()[grid.used()].max() for one in series for output in one.outputs for grid in output.grids) or 1
     for k in range(count):
         figure, axes = pyplot.subplots(figsize=(HEIGHT * 1.25, HEIGHT))
         if shocks:
-            schlieren.draw(axes, gas.outputs[k], [one.outputs[k] for one in solids], size)
+            drawn, label = schlieren.draw(axes, gas.outputs[k], [one.outputs[k] for one in solids], size), "$|\\bar v|$"
         else:
-            _speed_frame(axes, gas.outputs[k] if gas else None, [one.outputs[k] for one in solids], largest)
+            drawn, label = _speed_frame(axes, gas.outputs[k] if gas else None, [one.outputs[k] for one in solids], largest, box), "speed"
             axes.set_title(f"{units.label('speed', 'length/time')}, {units.moment(series[0].outputs[k].t)}", loc="left")
+        style.name_axes(np.array([[axes]]))
+        if drawn is not None:
+            style.bar(figure, axes, drawn, label)
+        caption.write(figure)
         yield figure
 
 

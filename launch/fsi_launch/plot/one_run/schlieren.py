@@ -12,7 +12,9 @@ from fsi_launch.plot.reading import data, mesh
 
 STRENGTH = 12.0
 TYPICAL = 99.9     # percentile of |grad rho| that is drawn as exp(-STRENGTH)
-STEEP = 0.02       # density jumps by this part of itself between neighbours: a shock to be shown
+STEEP = 0.02       # density jumps by this part of itself between neighbours: a shock to be shown,
+STANDS_OUT = 2.5   # if by so many times what it does at four fifths of the points: it is not just a coarse grid
+USUAL = 80         # percentile
 MOST_TIMES = 6
 PANEL = 4.1        # width [inch]
 PANELS_IN_A_ROW = 3
@@ -46,12 +48,13 @@ def gradient(grid, key):
 
 
 def has_shocks(gas):
-    """True where the density of an output changes steeply between neighbours."""
+    """True where the density of an output changes steeply between some neighbours, and not so between most."""
     for grid in gas.grids:
         rho = np.where(grid.used(), grid.fields["rho"], np.nan)
         for axis in (0, 1):
             jump = np.abs(np.diff(rho, axis=axis))
-            if np.nanmax(jump, initial=0.0) > STEEP * np.nanmean(rho):
+            jump = jump[np.isfinite(jump)]
+            if jump.size and jump.max() > max(STEEP * np.nanmean(rho), STANDS_OUT * np.percentile(jump, USUAL)):
                 return True
     return False
 
@@ -95,11 +98,12 @@ def _colour(axes, solids, speed):
     return drawn
 
 
-def _box(gas):
-    """((x_a, x_b), (y_a, y_b)) of the background, or of those of several gases."""
-    backgrounds = [grid for grid in gas.grids if grid.is_cartesian()] or gas.grids[:1]
+def _box(gas, solids):
+    """((x_a, x_b), (y_a, y_b)) of the background, or of those of several gases, and of solids beside it."""
+    shown = [grid for grid in gas.grids if grid.is_cartesian()] or gas.grids[:1]
+    shown = shown + [grid for one in solids for grid in one.grids]
     return tuple((min(values.min() for values in x), max(values.max() for values in x))
-                 for x in ([grid.x1 for grid in backgrounds], [grid.x2 for grid in backgrounds]))
+                 for x in ([grid.x1 for grid in shown], [grid.x2 for grid in shown]))
 
 
 def draw(axes, gas, solids, size):
@@ -110,7 +114,7 @@ def draw(axes, gas, solids, size):
         if grid.level > 0:
             axes.add_collection(LineCollection(mesh.level_outline(grid), **LEVEL_LINES), autolim=False)
     drawn = _colour(axes, solids, size.speed)
-    box = _box(gas)
+    box = _box(gas, solids)
     axes.set_xlim(*box[0])
     axes.set_ylim(*box[1])
     axes.set_aspect("equal")
@@ -142,9 +146,9 @@ def _picture(gas, solids, chosen, natural):
     size = scales([gas.outputs[k] for k in chosen], [[one.outputs[k] for k in chosen] for one in solids])
     rests = size.speed <= natural.floor("length/time")
     size = replace(size, speed=0.0) if rests else size
-    columns = min(len(chosen), PANELS_IN_A_ROW)
+    columns = 2 if len(chosen) == 4 else min(len(chosen), PANELS_IN_A_ROW)
     rows = -(-len(chosen) // columns)
-    box = _box(gas.outputs[0])
+    box = _box(gas.outputs[0], [one.outputs[0] for one in solids])
     height = max(PANEL * np.ptp(box[1]) / np.ptp(box[0]), 1.0)
     figure, axes = pyplot.subplots(rows, columns, figsize=(PANEL * columns + 0.8, (height + 0.45) * rows + 0.3), squeeze=False)
     for one in axes.flat[len(chosen):]:

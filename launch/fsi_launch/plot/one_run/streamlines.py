@@ -4,6 +4,8 @@ from functools import partial
 
 import numpy as np
 from matplotlib import pyplot
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import Normalize
 from matplotlib.path import Path
 from matplotlib.tri import LinearTriInterpolator
 
@@ -19,11 +21,11 @@ DENSITY = 1.3
 SHORTEST = 0.02     # streamline, part of the width of a panel
 
 
-def _lattice(box):
-    step = max(box[1] - box[0], box[3] - box[2]) / POINTS
-    x = np.arange(box[0], box[1] + 0.5 * step, step)
-    y = np.arange(box[2], box[3] + 0.5 * step, step)
-    return x, y
+def _lattice(gas):
+    """Even places over the used points of the gas, the outermost on its rim: what lies beyond has no velocity."""
+    x, y = (np.concatenate([getattr(grid, name)[grid.used()] for grid in gas.grids]) for name in ("x1", "x2"))
+    step = max(np.ptp(x), np.ptp(y)) / POINTS
+    return [np.linspace(values.min(), values.max(), max(2, round(np.ptp(values) / step) + 1)) for values in (x, y)]
 
 
 def _sample_lattice(grid, values, points):
@@ -77,35 +79,40 @@ def _inside(solids, points):
     return covered.reshape(points[0].shape)
 
 
-def _solid_speed(axes, solids, floor):
-    """(mesh for the colour bar, True if the solids rest); speeds up to `floor` are round-off."""
-    most = max(grid.speed()[grid.used()].max() for solid in solids for grid in solid.grids)
-    rests, drawn = most <= floor, None
+def _largest(outputs):
+    """Largest speed of all these outputs."""
+    return max(grid.speed()[grid.used()].max() for output in outputs for grid in output.grids)
+
+
+def _solid_speed(axes, solids, most):
+    """What the colour bar needs; a solid that rests at all times (`most` is 0) is plain and needs none."""
+    drawn = None
     for solid in solids:
-        for grid in solid.grids:
-            values = np.where(grid.used() & (not rests), grid.speed(), 0)
-            drawn = shading.shade(axes, grid, values, style.SOLID_MAP, (0, 1 if rests else most)) or drawn
+        if not most:
+            fields.fill(axes, solid.grids)
+        for grid in solid.grids if most else ():
+            drawn = shading.shade(axes, grid, np.where(grid.used(), grid.speed(), 0), style.SOLID_MAP, (0, most)) or drawn
         fields.outline(axes, solid.grids)
-    return drawn, rests
+    return drawn
 
 
-def _panel(figure, axes, moment, box, floor):
-    """One time; `moment`: (gas, solids)."""
+def _panel(figure, axes, moment, most):
+    """One time; `moment`: (gas, solids), `most`: their largest speeds at all times, which set the colours."""
     gas, solids = moment
-    x, y = _lattice(box)
+    x, y = _lattice(gas)
     points = np.meshgrid(x, y)
     v1, v2 = _velocity(gas, points)
     covered = _inside(solids, points)
     speed = np.where(covered, 0, np.nan_to_num(np.hypot(v1, v2)))
-    if speed.max() > floor:
-        moving = np.isfinite(v1) & ~covered & (speed > STILL * speed.max())
+    if speed.max() > STILL * most[0]:
+        moving = np.isfinite(v1) & ~covered & (speed > STILL * most[0])
         hidden = [np.ma.array(np.nan_to_num(v), mask=~moving) for v in (v1, v2)]
         with np.errstate(over="ignore"):  # where the flow is uniform the estimated error is none: a step without bound
-            stream = axes.streamplot(x, y, *hidden, color=speed, cmap=style.GAS_MAP, density=DENSITY, linewidth=0.6,
-                                     arrowsize=0.6, minlength=SHORTEST)
-        style.bar(figure, axes, stream.lines, "gas")
-    drawn, rests = _solid_speed(axes, solids, floor)
-    style.bar(figure, axes, drawn, "solid", 0.0 if rests else None)
+            axes.streamplot(x, y, *hidden, color=speed, cmap=style.GAS_MAP, norm=Normalize(0, most[0]), density=DENSITY, linewidth=0.6,
+                            arrowsize=0.6, minlength=SHORTEST)
+    style.bar(figure, axes, ScalarMappable(Normalize(0, most[0]), style.GAS_MAP), "gas")
+    if drawn := _solid_speed(axes, solids, most[1]):
+        style.bar(figure, axes, drawn, "solid")
     axes.set_title(units.moment(gas.t), loc="left")
 
 
@@ -136,16 +143,19 @@ def pictures(series, size):
     moments = [k for k in range(count) if gas.outputs[k].t > 0]
     if len(moments) > MOST_TIMES:
         moments = sorted({moments[round(k)] for k in np.linspace(0, len(moments) - 1, MOST_TIMES)})
-    if not moments:
+    floor = size.floor(fields.SPEED.unit)
+    if not moments or _largest([gas.outputs[k] for k in moments]) <= floor:
         return
-    yield "streamlines", partial(_picture, series, gas, solids, moments, size)
+    yield "streamlines", partial(_picture, series, gas, solids, moments, floor)
 
 
-def _picture(series, gas, solids, moments, size):
-    """Streamlines at the outputs `moments`."""
+def _picture(series, gas, solids, moments, floor):
+    """Streamlines at the outputs `moments`; speeds up to `floor` are round-off."""
+    most = [_largest([one.outputs[k] for one in some for k in moments]) for some in ([gas], solids)]
+    most[1] = most[1] if most[1] > floor else 0
     box = fields.box_around([grid for one in series for output in one.outputs for grid in output.grids])
     figure, axes = _panels(len(moments), box)
     for one, index in zip(axes, moments):
-        _panel(figure, one, (gas.outputs[index], [solid.outputs[index] for solid in solids]), box, size.floor(fields.SPEED.unit))
+        _panel(figure, one, (gas.outputs[index], [solid.outputs[index] for solid in solids]), most)
     figure.suptitle("streamlines of the gas, speed of the solid", x=0.01, ha="left", fontsize=10)
     return figure
