@@ -12,7 +12,7 @@ COUNTS = ("steps", "participants.ellipse.substeps", "interface.max_gap", "counte
           "counters.first_order_fallbacks_outside_shocks", "counters.floors", "conservation.fluid.mass_defect", "status")
 ROUND_OFF_GROWN = 1e-9  # larger differences come from a decision that fell otherwise
 
-# The set-up of configs/shock_ellipse.yaml turned by 90 degrees about the origin: (x, y) -> (-y, x).
+# The set-up of configs/shock_ellipse.yaml rotated by 90 degrees about the origin: (x, y) -> (-y, x).
 TURNED = ["fluid.grid.x=[-4, 4]", "fluid.grid.y=[-4, 5]", "fluid.boundary.left=outflow", "fluid.boundary.right=outflow",
           "fluid.boundary.bottom={kind: inflow, state: {rho: rho_1, v: [0, v_1], p: p_1}}", "fluid.boundary.top=outflow",
           "definitions.behind=min(1, max(0, 0.5 + (x_shock - y) / h))", "fluid.initial.v=[0, v_1 * behind]",
@@ -67,7 +67,7 @@ def rigid_budget(tools, left):
 
 
 def symmetry(tools, factor):
-    """The same problem mirrored at y = 0 and turned by 90 degrees, against itself."""
+    """The same problem mirrored at y = 0 and rotated by 90 degrees, against itself."""
     back = {"mirrored": (["parameters.angle=45"],
                          lambda r: (r["centre1"], -r["centre2"], r["velocity1"], -r["velocity2"], -r["angle"])),
             "turned": (TURNED, lambda r: (r["centre2"], -r["centre1"], r["velocity2"], -r["velocity1"], r["angle"]))}

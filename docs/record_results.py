@@ -332,7 +332,7 @@ def piston_studies():
     yield ("Elastic piston, full projection",
            lambda: converge("piston-full", "elastic_piston", "2,4,8,16",
                             ["parameters.density_ratio=0.1", "interface.projection=full"]))
-    yield ("Elastic piston turned by 30 degrees",
+    yield ("Elastic piston rotated by 30 degrees",
            lambda: converge("piston-turned", "elastic_piston", "2,4,8,16", ["parameters.density_ratio=0.1", "parameters.angle=30"]))
     for projection in ("simplified", "full"):
         yield (f"Elastic piston, all density ratios, {projection} projection, h = 1/80",
@@ -469,8 +469,8 @@ How to read it:
 - Errors are largest absolute differences over all points and components, from the exact solution or a fine one-dimensional run. A `rate` is the observed
   order between two grids; `fit` the least-squares one over all of them. Round-off has no rate.
 - Where a table has several runs, the command of the last row is given; rows differ in what their first cell says.
-- `exit` is the exit code of the run: 0; 1 an expectation of the case was missed (cases hold their own errors to bounds for their own parameters, which a
-  variant may well exceed); 3 the numbers broke.
+- `exit` is the exit code of the run: 0; 1 a check of the case (`expect`) failed (cases hold their own errors to bounds for their own parameters, which a
+  variant may well exceed); 3 the solution diverged.
 - `AMP` and `traditional` are the interface projection of this project and the scheme it replaces, in which the solid gives its velocity and the gas its
   stress. `product` is (c_p dt / spacing) (z_f / z_p), what decides about the latter ([theory](theory_coupler.md)).
 - Without a reference, grids are compared with each other: a negative order means that the difference grew. The elastic ellipse sheds vortices that

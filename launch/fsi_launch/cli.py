@@ -275,7 +275,7 @@ def _parser():
     verb.set_defaults(act=_monitor)
 
     verb = verbs.add_parser("ctl", usage="fsi ctl [RUN] pause|resume|checkpoint|stop", description="Asks a run to pause, "
-                            "to go on, to write a checkpoint, or to write one and stop in good order (status "
+                            "to go on, to write a checkpoint, or to write one and stop gracefully (status "
                             "\"stopped\"). RUN as for monitor.")
     verb.add_argument("words", metavar="[RUN] REQUEST", nargs="+", help=", ".join(REQUESTS))
     verb.set_defaults(act=_ctl)

@@ -299,7 +299,7 @@ class Painter {
   void help() {
     constexpr std::array lines = {
         "p pause     r resume     c write a checkpoint",
-        "s stop after this step, in good order (asks first)",
+        "s stop after this step, gracefully (asks first)",
         "TAB, arrows: next interface     q leave; the run goes on",
         "",
         "comp/wt   computing and waiting over the last seconds",

@@ -157,7 +157,7 @@ std::string summary_line(const Case& problem) {
   const bool levels =
       std::ranges::any_of(problem.fluids, [](const FluidSpec& fluid) { return fluid.refine.levels > 1; });
   std::string line =
-      fmt::format("{}: fine; {}, t = 0 to {}; memory {}about {}", problem.path, fmt::join(parts, ", "),
+      fmt::format("{}: valid; {}, t = 0 to {}; memory {}about {}", problem.path, fmt::join(parts, ", "),
                   problem.time.end, levels ? "at most " : "", bytes_text(total_memory(problem)));
   for (const FluidSpec& fluid : problem.fluids) line += added_points(fluid);
   return line;

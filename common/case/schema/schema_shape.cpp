@@ -22,7 +22,7 @@ constexpr array weight_keys{
         .required = true,
         .range = {.low = 0, .high = 1}},
 };
-constexpr Section weight_section{.title = "A place where points are drawn together", .keys = weight_keys};
+constexpr Section weight_section{.title = "A place where points cluster", .keys = weight_keys};
 constexpr Key weight_element{
     .name = "weight", .type = Type::section, .meaning = "a place", .section = &weight_section};
 constexpr Key point_element{.name = "point", .type = Type::pair, .meaning = "[x, y]", .unit = "length"};
@@ -44,7 +44,7 @@ constexpr array shape_keys{
         .range = positive},
     Key{.name = "weights",
         .type = Type::list,
-        .meaning = "places where points are drawn together",
+        .meaning = "places where points cluster",
         .fallback = "[]",
         .most = 100,
         .element = &weight_element},

@@ -115,7 +115,7 @@ def choose(directory, say, digest):
 
 
 def prepare(directory):
-    """Removes what a former end left: reports, and the last state before numbers broke."""
+    """Removes what a former end left: reports, and the last state before the solution diverged."""
     for pattern in ("parts/*.json", "last_state/*", "summary.json"):
         for path in directory.glob(pattern):
             path.unlink()

@@ -141,7 +141,7 @@ def missed_expectations(summary, expect):
         results.append({key: item for key, item in entry.items() if item is not None} | {"value": value, "met": met})
         if not met:
             shown = "missing" if value is None else f"{value:.6g}" if isinstance(value, float) else value
-            missed.append(f"expectation missed: {entry['quantity']} = {shown}, {_bound(entry)}")
+            missed.append(f"check failed: {entry['quantity']} = {shown}, {_bound(entry)}")
     if results:
         summary["expectations"] = results
     return missed

@@ -199,7 +199,7 @@ class Expectations(unittest.TestCase):
     def test_bounds(self):
         self.assertEqual(self.missed({"quantity": "errors.rho", "max": 1e-4}, errors={"rho": 9e-5}), [])
         missed = self.missed({"quantity": "errors.rho", "max": 1e-4}, errors={"rho": 2e-4})
-        self.assertEqual(missed, ["expectation missed: errors.rho = 0.0002, must be at most 0.0001"])
+        self.assertEqual(missed, ["check failed: errors.rho = 0.0002, must be at most 0.0001"])
         self.assertEqual(len(self.missed({"quantity": "t", "min": 1.0, "max": 2.0}, t=0.5)), 1)
 
     def test_word(self):
