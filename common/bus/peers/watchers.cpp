@@ -14,7 +14,7 @@ namespace {
 /// Who watches says so every second; who has not for this time has left.
 constexpr std::chrono::seconds patience{3};
 /// After drawing, a program computes for so many times as long before it draws again.
-constexpr double rest_per_work = 49;
+constexpr double rest_per_work = 99;
 /// More wishes than there are quantities, and longer names, are nobody's wish.
 constexpr std::size_t most_wishes = 16, longest_wish = 32;
 

@@ -28,7 +28,7 @@ class Watchers {
   /// The pictures asked for are on their way.
   void begin_pause() { next_ = Clock::now() + pause; }
   /// Draws and sends what is wished of the state of a step, unless drawing has lately taken more than a
-  /// fiftieth of the program's time. `always`: even then.
+  /// hundredth of the program's time. `always`: even then.
   void show(const Draw& draw, std::uint64_t step, bool always = false);
   /// Only what has been wished for since that state was shown: while the run is paused.
   void show_missing(const Draw& draw, std::uint64_t step);
