@@ -198,15 +198,21 @@ function drawCurve(pen, curve, place) {
   pen.lineWidth = curve.width || 1.6;
   pen.setLineDash(curve.dash || []);
   pen.beginPath();
-  let drawing = false;
+  let drawing = false, lonely = null;     // a curve of one point is a dot
   for (let k = 0; k < Math.min(curve.x.length, curve.y.length); ++k) {
     if (curve.y[k] === null || curve.y[k] === undefined) { drawing = false; continue; }
     const [x, y] = place(curve.x[k], curve.y[k]);
     if (drawing) pen.lineTo(x, y); else pen.moveTo(x, y);
     drawing = true;
+    lonely = lonely === null ? [x, y] : undefined;
   }
   pen.stroke();
   pen.setLineDash([]);
+  if (!lonely) return;
+  pen.fillStyle = curve.colour;
+  pen.beginPath();
+  pen.arc(...lonely, 3, 0, 2 * Math.PI);
+  pen.fill();
 }
 
 // Perceptually even colours from dark violet over green to yellow.
