@@ -10,7 +10,7 @@ from fsi_launch import paths
 from fsi_launch.failure import DONE, Failure, INTERNAL_ERROR
 
 PAGES, SITE = paths.ROOT / "build" / "site_pages", paths.ROOT / "build" / "site"
-FROM_ELSEWHERE = {"idl/README.md": "wire.md"}   # pages that lie beside what they describe
+FROM_ELSEWHERE = {"idl/README.md": "wire.md", "monitor/README.md": "watching.md", "gallery/README.md": "gallery.md"}   # pages that lie beside what they describe
 
 
 def _link(target, folder):
