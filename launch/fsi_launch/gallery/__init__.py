@@ -67,12 +67,13 @@ def _write_tables(directory, problem, rows):
 def judge(problem, run, directory):
     """Compares a run, writes tables and a picture into the folder and prints the table; True if all passes."""
     from fsi_launch.plot.look import style
-    from fsi_launch.gallery import picture
+    from fsi_launch.gallery import measures, picture
     rows, curves = compare(problem, run)
     _write_tables(directory, problem, rows)
     if curves:
         style.use()
-        style.save(picture.draw(problem, curves), directory / "comparison.png")
+        others = {code: measures.reference(path) for code, path in problem.others().items()}
+        style.save(picture.draw(problem, curves, others), directory / "comparison.png")
     print("\n".join(aligned([list(HEADING), *(row.texts() for row in rows)])))
     return all(row.passes() for row in rows)
 

@@ -33,6 +33,10 @@ class Problem:
         """Path of the reference data, {column: [numbers]} in a CSV."""
         return FOLDER / self.name / "data.csv"
 
+    def others(self):
+        """{code: path} of what other codes found: CSVs with columns of the reference data."""
+        return {path.stem: path for path in sorted((FOLDER / self.name / "others").glob("*.csv"))}
+
 
 def names():
     return sorted(path.parent.name for path in FOLDER.glob("*/problem.json"))

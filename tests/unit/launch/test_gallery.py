@@ -4,6 +4,7 @@
 import json
 import math
 import unittest
+from unittest import mock
 
 import numpy as np
 
@@ -50,6 +51,21 @@ class Measures(InScratch):
         self.assertEqual(measures.distance((np.array([0.0, 1.0]), np.array([0.0, 2.0])), known), 0)
         self.assertAlmostEqual(measures.distance((np.array([0.0, 1.0]), np.array([0.4, 2.4])), known), 0.1)
         self.assertEqual(measures.distance((np.array([1.0, 5.0]), np.array([2.0, 99.0])), known), 0)   # beyond what is known
+
+
+class OtherCodes(InScratch):
+    def test_their_curves_are_drawn_where_they_have_the_columns(self):
+        from fsi_launch.gallery import picture
+        (self.folder / "mine" / "others").mkdir(parents=True)
+        (self.folder / "mine" / "others" / "theirs.csv").write_text("# by hand\nt,v\n0,1\n1,2\n")
+        problem = problems.Problem("mine", "a problem", "nowhere", "case")
+        with mock.patch.object(problems, "FOLDER", self.folder):
+            others = {code: measures.reference(path) for code, path in problem.others().items()}
+        curve = (np.array([0.0, 1.0]), np.array([1.0, 2.0]))
+        curves = [({"what": name, "x": "t", "data": ["t", name], "computed": {"table": "probes"}}, curve, curve) for name in ("v", "u")]
+        figure = picture.draw(problem, curves, others)
+        self.assertEqual([[line.get_label() for line in axes.get_lines()] for axes in figure.axes[:2]],
+                         [["known", "computed", "theirs"], ["known", "computed"]])
 
 
 class Problems(unittest.TestCase):
