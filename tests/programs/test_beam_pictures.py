@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """Centrelines of beams and streamlines: what is drawn of given fields."""
 
+import contextlib
 import sys
 import unittest
 
@@ -129,6 +130,19 @@ class Streamlines(unittest.TestCase):
         titles = [axes.get_title(loc="left") for axes in self.picture((1.0, 1.0), (0.0, 2e-16))]
         self.assertIn("gas", titles)
         self.assertNotIn("solid", titles)
+
+    def test_quick_tracing_finds_the_same_lines(self):
+        x = np.linspace(0, 1, 41)
+        x1, x2 = np.meshgrid(x, x)
+        v = [np.ma.array(values, mask=np.hypot(x1 - 0.5, x2 - 0.4) < 0.15) for values in (1 + 0 * x1, np.sin(7 * x1) + x2)]
+        found = []
+        for how in (contextlib.nullcontext, streamlines.quick_tracing):
+            figure, axes = pyplot.subplots()
+            with how():
+                found.append(axes.streamplot(x, x, *v, color=x1).lines.get_segments())
+            pyplot.close(figure)
+        self.assertGreater(len(found[0]), 100)
+        np.testing.assert_array_equal(*found)
 
     def test_there_is_none_of_a_gas_that_rests(self):
         self.assertIsNone(self.picture((0.0, 1e-15), (0.0, 0.0)))
