@@ -1,6 +1,7 @@
 #include "common/interface/modal_system.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 namespace fsi {
@@ -39,10 +40,13 @@ bool same_places(const Eigen::SparseMatrix<double>& a, const Eigen::SparseMatrix
 }
 
 void AddedMass::take(const Eigen::SparseMatrix<double>& N) {
-  const bool known = load_.A.rows() == N.rows() && same_places(N, N_);
+  if (load_.A.rows() == N.rows() && same_places(N, N_)) {
+    std::copy_n(N.valuePtr(), N.nonZeros(), N_.valuePtr());
+    return;
+  }
   N_ = N;
   N_.makeCompressed();
-  if (!known) find_places();
+  find_places();
 }
 
 /// The rows of a column of N increase, so the products of an entry with itself and with those after it are in
@@ -85,22 +89,70 @@ const ModalLoad& AddedMass::load(std::span<const NormalSide> gas, std::span<cons
   return load_;
 }
 
-Eigen::VectorXd ModalSolver::solve(const Eigen::SparseMatrix<double>& S, const Eigen::VectorXd& right) {
-  if (S.rows() <= few_modes) return solve_modes(S, right);
-  if (!same_places(S, ordered_)) {
-    ordered_ = S;
-    factors_.analyzePattern(S);
+/// Numbers in the places of the entries show where each goes.
+void ModalSolver::find_order(const Matrix& S, const Matrix& A) {
+  Matrix sum = S + A;
+  sum.makeCompressed();
+  factors_.analyzePattern(sum);
+  for (Eigen::Index entry = 0; entry < sum.nonZeros(); ++entry)
+    sum.valuePtr()[entry] = static_cast<double>(entry);
+  ordered_.resize(sum.rows(), sum.cols());
+  ordered_.selfadjointView<Eigen::Upper>() =
+      sum.selfadjointView<Eigen::Lower>().twistedBy(factors_.permutationP());
+  std::vector<Eigen::Index> to(static_cast<std::size_t>(sum.nonZeros()), -1);
+  diagonal_.assign(static_cast<std::size_t>(sum.cols()), -1);
+  for (Eigen::Index column = 0; column < ordered_.cols(); ++column) {
+    for (int place = ordered_.outerIndexPtr()[column]; place < ordered_.outerIndexPtr()[column + 1];
+         ++place) {
+      to[static_cast<std::size_t>(ordered_.valuePtr()[place])] = place;
+      if (ordered_.innerIndexPtr()[place] == column) diagonal_[static_cast<std::size_t>(column)] = place;
+    }
   }
-  factors_.factorize(S);
+  const auto follow = [&](const Matrix& part, Term& term) {
+    term.places = part;
+    term.to.clear();
+    const int *rows = sum.innerIndexPtr(), *starts = sum.outerIndexPtr();
+    for (Eigen::Index column = 0; column < part.cols(); ++column) {
+      for (Matrix::InnerIterator entry(part, column); entry; ++entry) {
+        const int* const found =
+            std::lower_bound(rows + starts[column], rows + starts[column + 1], static_cast<int>(entry.row()));
+        term.to.push_back(to[static_cast<std::size_t>(found - rows)]);
+      }
+    }
+  };
+  follow(S, S_);
+  follow(A, A_);
+}
+
+Eigen::VectorXd ModalSolver::solve_ordered(const Eigen::VectorXd& right) {
+  factors_.factorize_ordered(ordered_);
   if (factors_.info() != Eigen::Success) return {};
-  const Eigen::VectorXd diagonal = factors_.permutationP() * Eigen::VectorXd(S.diagonal());
-  if ((factors_.vectorD().array().abs() <= round_off * diagonal.array().abs()).any()) return {};
+  const Eigen::VectorXd& pivots = factors_.vectorD();
+  for (std::size_t k = 0; k < diagonal_.size(); ++k) {
+    const double from = diagonal_[k] < 0 ? 0 : ordered_.valuePtr()[diagonal_[k]];
+    if (std::abs(pivots[static_cast<Eigen::Index>(k)]) <= round_off * std::abs(from)) return {};
+  }
   return factors_.solve(right);
 }
 
-Eigen::VectorXd ModalSolver::project(const Eigen::SparseMatrix<double>& S, const Eigen::VectorXd& g,
-                                     const ModalLoad& load, double dt) {
-  return solve(S + dt * load.A, g + dt * load.f);
+Eigen::VectorXd ModalSolver::solve(const Matrix& S, const Eigen::VectorXd& right) {
+  return project(S, right, {.A = Matrix(S.rows(), S.cols()), .f = Eigen::VectorXd::Zero(right.size())}, 0);
+}
+
+Eigen::VectorXd ModalSolver::project(const Matrix& S, const Eigen::VectorXd& g, const ModalLoad& load,
+                                     double dt) {
+  const Eigen::VectorXd right = g + dt * load.f;
+  if (S.rows() <= few_modes) return solve_modes(S + dt * load.A, right);
+  if (!same_places(S, S_.places) || !same_places(load.A, A_.places)) find_order(S, load.A);
+  double* const values = ordered_.valuePtr();
+  std::fill_n(values, ordered_.nonZeros(), 0.0);
+  for (std::size_t entry = 0; entry < S_.to.size(); ++entry) {
+    if (S_.to[entry] >= 0) values[S_.to[entry]] = S.valuePtr()[entry];
+  }
+  for (std::size_t entry = 0; entry < A_.to.size(); ++entry) {
+    if (A_.to[entry] >= 0) values[A_.to[entry]] += dt * load.A.valuePtr()[entry];
+  }
+  return solve_ordered(right);
 }
 
 }  // namespace fsi

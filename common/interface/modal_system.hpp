@@ -44,15 +44,29 @@ class ModalSolver {
   ModalSolver& operator=(const ModalSolver&) { return *this; }
   ~ModalSolver() = default;
 
-  /// @param S symmetric, its lower triangle counts  @return empty where S is singular
+  /// @param S symmetric, compressed; its lower triangle counts  @return empty where S is singular
   Eigen::VectorXd solve(const Eigen::SparseMatrix<double>& S, const Eigen::VectorXd& right);
   Eigen::VectorXd project(const Eigen::SparseMatrix<double>& S, const Eigen::VectorXd& g,
                           const ModalLoad& load, double dt);
 
  private:
-  using Factors = Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>;
+  using Matrix = Eigen::SparseMatrix<double>;
+  /// Factors of a matrix that is already in their order: only its numbers are new.
+  struct Factors : Eigen::SimplicialLDLT<Matrix> {
+    void factorize_ordered(const Matrix& ordered) { factorize_preordered<true>(ordered); }
+  };
+  /// One of the matrices whose sum is factorised, and where its entries are in `ordered_` (-1: they do not count).
+  struct Term {
+    Matrix places;
+    std::vector<Eigen::Index> to;
+  };
 
-  Eigen::SparseMatrix<double> ordered_;  ///< the last matrix whose order was found
+  void find_order(const Matrix& S, const Matrix& A);
+  Eigen::VectorXd solve_ordered(const Eigen::VectorXd& right);
+
+  Term S_, A_;                          ///< of the last sum whose order was found
+  Matrix ordered_;                      ///< the upper triangle of the sum, in the order of the factors
+  std::vector<Eigen::Index> diagonal_;  ///< places there; -1: none
   Factors factors_;
 };
 

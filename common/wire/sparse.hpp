@@ -2,9 +2,11 @@
 /// Sparse matrices of messages as Eigen's, and back.
 
 #include <Eigen/SparseCore>
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
+#include <span>
 #include <vector>
 
 #include "common/wire/messages.hpp"
@@ -21,6 +23,17 @@ inline bool in_order(const SparseMatrix& entries) {
   return true;
 }
 
+/// A matrix of Eigen's compressed arrays: `starts` of the columns among `rows` and `values`.
+inline Eigen::SparseMatrix<double> compressed(Eigen::Index rows_in_all, std::span<const int> starts,
+                                              std::span<const int> rows, std::span<const double> values) {
+  Eigen::SparseMatrix<double> matrix(rows_in_all, static_cast<Eigen::Index>(starts.size()) - 1);
+  matrix.resizeNonZeros(static_cast<Eigen::Index>(values.size()));
+  std::ranges::copy(starts, matrix.outerIndexPtr());
+  std::ranges::copy(rows, matrix.innerIndexPtr());
+  std::ranges::copy(values, matrix.valuePtr());
+  return matrix;
+}
+
 /// @param entries rows and columns within the matrix; in any order, and those of one place add up
 inline Eigen::SparseMatrix<double> matrix_of(const SparseMatrix& entries, Eigen::Index rows,
                                              Eigen::Index columns) {
@@ -28,9 +41,7 @@ inline Eigen::SparseMatrix<double> matrix_of(const SparseMatrix& entries, Eigen:
     std::vector<int> starts(static_cast<std::size_t>(columns) + 1);
     for (const std::int32_t column : entries.column) ++starts[static_cast<std::size_t>(column) + 1];
     std::partial_sum(starts.begin(), starts.end(), starts.begin());
-    return Eigen::Map<const Eigen::SparseMatrix<double>>(
-        rows, columns, static_cast<Eigen::Index>(entries.value.size()), starts.data(), entries.row.data(),
-        entries.value.data());
+    return compressed(rows, starts, entries.row, entries.value);
   }
   std::vector<Eigen::Triplet<double>> triplets;
   triplets.reserve(entries.value.size());
@@ -41,19 +52,20 @@ inline Eigen::SparseMatrix<double> matrix_of(const SparseMatrix& entries, Eigen:
   return matrix;
 }
 
+/// @param matrix compressed
+inline void put_entries(const Eigen::SparseMatrix<double>& matrix, SparseMatrix& into) {
+  into.row.assign(matrix.innerIndexPtr(), matrix.innerIndexPtr() + matrix.nonZeros());
+  into.value.assign(matrix.valuePtr(), matrix.valuePtr() + matrix.nonZeros());
+  into.column.resize(into.row.size());
+  const int* const starts = matrix.outerIndexPtr();
+  for (Eigen::Index column = 0; column < matrix.outerSize(); ++column)
+    std::fill(into.column.begin() + starts[column], into.column.begin() + starts[column + 1],
+              static_cast<std::int32_t>(column));
+}
+
 inline SparseMatrix entries_of(const Eigen::SparseMatrix<double>& matrix) {
   SparseMatrix entries;
-  const auto count = static_cast<std::size_t>(matrix.nonZeros());
-  entries.row.reserve(count);
-  entries.column.reserve(count);
-  entries.value.reserve(count);
-  for (Eigen::Index column = 0; column < matrix.outerSize(); ++column) {
-    for (Eigen::SparseMatrix<double>::InnerIterator entry(matrix, column); entry; ++entry) {
-      entries.row.push_back(static_cast<std::int32_t>(entry.row()));
-      entries.column.push_back(static_cast<std::int32_t>(entry.col()));
-      entries.value.push_back(entry.value());
-    }
-  }
+  put_entries(matrix, entries);
   return entries;
 }
 

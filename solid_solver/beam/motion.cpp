@@ -48,6 +48,15 @@ Eigen::SparseMatrix<double> free_motions(const Line& line, const std::array<End,
   return B;
 }
 
+std::vector<FreeMotion> places_among(const Eigen::SparseMatrix<double>& B) {
+  std::vector<FreeMotion> free(static_cast<std::size_t>(B.rows()));
+  for (int column = 0; column < B.cols(); ++column) {
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(B, column); entry; ++entry)
+      free[static_cast<std::size_t>(entry.row())] = {.column = column, .part = entry.value()};
+  }
+  return free;
+}
+
 BeamMotion::BeamMotion(BeamModel model, const std::array<End, 2>& ends)
     : model_(std::move(model)), B_(beam::free_motions(model_.line(), ends)) {
   find_places();
@@ -56,11 +65,7 @@ BeamMotion::BeamMotion(BeamModel model, const std::array<End, 2>& ends)
 
 /// Where the entries of S are: those of the elements between free motions.
 void BeamMotion::find_places() {
-  free_.resize(static_cast<std::size_t>(model_.freedoms()));
-  for (int column = 0; column < B_.cols(); ++column) {
-    for (Eigen::SparseMatrix<double>::InnerIterator entry(B_, column); entry; ++entry)
-      free_[static_cast<std::size_t>(entry.row())] = {.column = column, .part = entry.value()};
-  }
+  free_ = places_among(B_);
   const Eigen::VectorXd rest = Eigen::VectorXd::Zero(model_.freedoms());
   std::vector<std::array<int, 6>> columns;
   std::vector<Eigen::Triplet<double>> entries;

@@ -45,6 +45,8 @@ struct FreeMotion {
   int column = -1;  ///< -1: it is held
   double part = 0;  ///< of the motion's unit vector [-]
 };
+/// Of every degree of freedom. @param B free motions
+std::vector<FreeMotion> places_among(const Eigen::SparseMatrix<double>& B);
 
 /// S and g of S q' = g + dt f.
 struct Response {

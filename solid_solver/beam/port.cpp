@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "common/core/failure.hpp"
 #include "common/wire/sparse.hpp"
@@ -97,18 +98,19 @@ TimeStepBid BeamParticipant::compute_time_step() const {
 
 void BeamParticipant::fill(std::size_t k, wire::PredictedInterface& predicted) const {
   const Skin& skin = skins_[k];
-  predicted.x = skin.positions(motion_);
-  predicted.v = skin.velocities(motion_);
+  SkinState state = skin.state(motion_);
+  wire::ModalResponse& modal = predicted.modal;
+  modal.modes = static_cast<std::int32_t>(motion_.modes());
+  wire::put_entries(skin.mode_vectors(state, skin.normals(state.x)), modal.N);
+  modal.q_dot = numbers(motion_.q_dot());
+  modal.g.assign(static_cast<std::size_t>(motion_.modes()), 0);
+  predicted.x = std::move(state.x);
+  predicted.v = std::move(state.v);
   predicted.fixed = skin.freedom();
-  predicted.modal = {.modes = static_cast<std::int32_t>(motion_.modes()),
-                     .S = {},
-                     .g = std::vector<double>(static_cast<std::size_t>(motion_.modes())),
-                     .N = wire::entries_of(skin.mode_vectors(motion_, skin.normals(predicted.x))),
-                     .q_dot = numbers(motion_.q_dot())};
   if (dt_ == 0) return;
   const Response response = motion_.lower_response();
-  predicted.modal.S = wire::entries_of(response.S);
-  predicted.modal.g = numbers(response.g);
+  wire::put_entries(response.S, modal.S);
+  modal.g = numbers(response.g);
 }
 
 void BeamParticipant::apply_bcs(double /*t*/, ProjectedStates projected) {
@@ -120,12 +122,13 @@ void BeamParticipant::apply_bcs(double /*t*/, ProjectedStates projected) {
   std::vector<Eigen::SparseMatrix<double>> modes;
   for (std::size_t k = 0; k < projected.size(); ++k) {
     const wire::ProjectedInterface& answer = *projected[k];
-    const std::vector<double> x = skins_[k].positions(motion_), ds = point_lengths(x);
+    const SkinState state = skins_[k].state(motion_);
+    const std::vector<double> ds = point_lengths(state.x);
     for (std::size_t i = 0; i < skins_[k].points(); ++i)
       gas.push_back({.z = answer.z_f[i], .v_n = answer.v_n[i], .w_n = answer.w_n[i]});
     lengths.insert(lengths.end(), ds.begin(), ds.end());
-    modes.push_back(skins_[k].mode_vectors(motion_, answer.n));
-    const rigid::GasLoad load = rigid::load_of_gas(x, answer.n, answer.w_n, answer.v_n);
+    modes.push_back(skins_[k].mode_vectors(state, answer.n));
+    const rigid::GasLoad load = rigid::load_of_gas(state.x, answer.n, answer.w_n, answer.v_n);
     load_ = k == 0 ? load : load_ + load;
   }
   added_mass_.take(modes.size() == 1 ? modes.front() : side_by_side(modes));

@@ -7,6 +7,7 @@
 
 #include "common/grid/geometry/interface_geometry.hpp"
 #include "common/wire/messages.hpp"
+#include "common/wire/sparse.hpp"
 
 namespace fsi::beam {
 
@@ -67,7 +68,7 @@ PointState state_of(const BeamMotion& beam, const Attached& point) {
     foot += point.weight[k] * beam.model().line().x[static_cast<std::size_t>(node)];
   }
   const Vec2 r = turned(u[2], point.r);
-  return {.x = foot + u.head<2>() + r, .v = v.head<2>() + v[2] * across(r), .theta = u[2]};
+  return {.x = foot + u.head<2>() + r, .v = v.head<2>() + v[2] * across(r), .arm = r, .theta = u[2]};
 }
 
 Skin::Skin(const Line& line, rigid::Outline outline, const std::array<End, 2>& ends)
@@ -75,6 +76,7 @@ Skin::Skin(const Line& line, rigid::Outline outline, const std::array<End, 2>& e
   const std::size_t n = outline_.x.size() / 2;
   for (std::size_t k = 0; k < n; ++k) places_.push_back(attach(line, {outline_.x[k], outline_.x[n + k]}));
   n_at_rest_ = grid::normals(outline_.x, outline_.ends, outline_.orientation);
+  find_places_of_modes(line, ends);
   if (outline_.ends == grid::Curve::closed || line.closed) return;
   const auto cannot_turn = [&](const Attached& point) {
     constexpr double close = 1e-9;
@@ -87,26 +89,19 @@ Skin::Skin(const Line& line, rigid::Outline outline, const std::array<End, 2>& e
   upright_ = {cannot_turn(places_.front()), cannot_turn(places_.back())};
 }
 
-std::vector<double> Skin::positions(const BeamMotion& beam) const {
+SkinState Skin::state(const BeamMotion& beam) const {
   const std::size_t n = points();
-  std::vector<double> x(2 * n);
+  SkinState state{
+      .x = std::vector<double>(2 * n), .v = std::vector<double>(2 * n), .arm = std::vector<Vec2>(n)};
   for (std::size_t k = 0; k < n; ++k) {
-    const Vec2 at = state_of(beam, places_[k]).x;
-    x[k] = at.x();
-    x[n + k] = at.y();
+    const PointState at = state_of(beam, places_[k]);
+    for (std::size_t c = 0; c < 2; ++c) {
+      state.x[c * n + k] = at.x[static_cast<Eigen::Index>(c)];
+      state.v[c * n + k] = at.v[static_cast<Eigen::Index>(c)];
+    }
+    state.arm[k] = at.arm;
   }
-  return x;
-}
-
-std::vector<double> Skin::velocities(const BeamMotion& beam) const {
-  const std::size_t n = points();
-  std::vector<double> v(2 * n);
-  for (std::size_t k = 0; k < n; ++k) {
-    const Vec2 at = state_of(beam, places_[k]).v;
-    v[k] = at.x();
-    v[n + k] = at.y();
-  }
-  return v;
+  return state;
 }
 
 std::vector<double> Skin::normals(const std::vector<double>& x) const {
@@ -127,43 +122,49 @@ std::vector<std::uint8_t> Skin::freedom() const {
   return marks;
 }
 
-Eigen::SparseMatrix<double> Skin::mode_vectors(const BeamMotion& beam,
-                                               const std::vector<double>& normals) const {
-  const std::size_t n = points();
+/// The entries of a point by rows; of a guided end x and y are one.
+void Skin::find_places_of_modes(const Line& line, const std::array<End, 2>& ends) {
+  const Eigen::SparseMatrix<double> B = free_motions(line, ends);
+  const std::vector<FreeMotion> free_of = places_among(B);
   std::vector<int> starts{0}, rows;
-  std::vector<double> values;
-  for (std::vector<int>* indices : {&starts, &rows}) indices->reserve(12 * n + 1);
-  values.reserve(12 * n);
-  std::array<std::pair<int, double>, 12> column;
-  for (std::size_t k = 0; k < n; ++k) {
-    const Attached& point = places_[k];
-    const Vec2 normal(normals[k], normals[n + k]);
-    const double turning = normal.dot(across(turned(state_of(beam, point).theta, point.r)));
-    const std::array<double, 3> on_node{normal.x(), normal.y(), turning};
-    auto last = column.begin();
-    for (std::size_t l = 0; l < 4; ++l) {
+  for (const Attached& point : places_) {
+    std::vector<std::pair<int, Part>> own;
+    for (std::size_t l = 0; l < point.node.size(); ++l) {
       if (point.weight[l] == 0) continue;
-      for (int c = 0; c < 3; ++c) {
-        const FreeMotion free = beam.free_motion(freedom_of(point.node[l]) + c);
-        const double value = point.weight[l] * on_node[static_cast<std::size_t>(c)] * free.part;
-        if (free.column >= 0) *last++ = {free.column, value};
+      for (std::size_t c = 0; c < 3; ++c) {
+        const FreeMotion free = free_of[static_cast<std::size_t>(freedom_of(point.node[l])) + c];
+        if (free.column >= 0)
+          own.push_back({free.column, {.component = c, .weight = point.weight[l], .part = free.part}});
       }
     }
-    std::sort(column.begin(), last, [](const auto& a, const auto& b) { return a.first < b.first; });
-    for (auto entry = column.begin(); entry != last; ++entry) {
-      const bool again = rows.size() > static_cast<std::size_t>(starts.back()) && rows.back() == entry->first;
-      if (again) {
-        values.back() += entry->second;  // x and y of a guided end
-      } else {
-        rows.push_back(entry->first);
-        values.push_back(entry->second);
-      }
+    std::ranges::stable_sort(own, {}, &std::pair<int, Part>::first);
+    for (auto& [row, part] : own) {
+      const bool again = rows.size() > static_cast<std::size_t>(starts.back()) && rows.back() == row;
+      if (!again) rows.push_back(row);
+      part.entry = rows.size() - 1;
+      parts_.push_back(part);
     }
     starts.push_back(static_cast<int>(rows.size()));
+    ends_of_parts_.push_back(parts_.size());
   }
-  return Eigen::Map<const Eigen::SparseMatrix<double>>(beam.modes(), static_cast<Eigen::Index>(n),
-                                                       static_cast<Eigen::Index>(values.size()),
-                                                       starts.data(), rows.data(), values.data());
+  modes_ = wire::compressed(B.cols(), starts, rows, std::vector<double>(rows.size()));
+}
+
+Eigen::SparseMatrix<double> Skin::mode_vectors(const SkinState& state,
+                                               const std::vector<double>& normals) const {
+  const std::size_t n = points();
+  Eigen::SparseMatrix<double> N = modes_;
+  double* const values = N.valuePtr();
+  std::size_t next = 0;
+  for (std::size_t k = 0; k < n; ++k) {
+    const Vec2 normal(normals[k], normals[n + k]);
+    const std::array<double, 3> on_node{normal.x(), normal.y(), normal.dot(across(state.arm[k]))};
+    for (; next < ends_of_parts_[k]; ++next) {
+      const Part& part = parts_[next];
+      values[part.entry] += part.weight * on_node[part.component] * part.part;
+    }
+  }
+  return N;
 }
 
 }  // namespace fsi::beam

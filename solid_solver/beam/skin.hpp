@@ -34,12 +34,18 @@ struct Attached {
 Attached attach(const Line& line, const Vec2& x);
 
 struct PointState {
-  Vec2 x, v;
+  Vec2 x, v, arm;    ///< arm: from the centre line
   double theta = 0;  ///< [rad]
 };
 
 /// Where an attached point is, and how fast.
 PointState state_of(const BeamMotion& beam, const Attached& point);
+
+/// The points of an outline with the beam: components one after the other, as in messages.
+struct SkinState {
+  std::vector<double> x, v;
+  std::vector<Vec2> arm;  ///< Lambda r of every point
+};
 
 class Skin {
  public:
@@ -48,22 +54,32 @@ class Skin {
   const rigid::Outline& outline() const { return outline_; }
   std::size_t points() const { return places_.size(); }
   const Attached& place(std::size_t k) const { return places_[k]; }
-  std::vector<double> positions(const BeamMotion& beam) const;
-  std::vector<double> velocities(const BeamMotion& beam) const;
+  SkinState state(const BeamMotion& beam) const;
   /// Outward unit normals of the outline at these positions.
   /// An end whose section cannot turn keeps that of rest.
   std::vector<double> normals(const std::vector<double>& x) const;
   /// Marks of such ends, as in wire::Freedom.
   std::vector<std::uint8_t> freedom() const;
   /// N, modes x points: normal velocity of every point for every free motion of the beam.
-  Eigen::SparseMatrix<double> mode_vectors(const BeamMotion& beam, const std::vector<double>& normals) const;
+  Eigen::SparseMatrix<double> mode_vectors(const SkinState& state, const std::vector<double>& normals) const;
 
  private:
+  /// What a degree of freedom of a node adds to an entry of N.
+  struct Part {
+    std::size_t entry = 0;      ///< among the values of N
+    std::size_t component = 0;  ///< 0, 1: along the normal; 2: turning
+    double weight = 0, part = 0;
+  };
+  void find_places_of_modes(const Line& line, const std::array<End, 2>& ends);
+
   rigid::Outline outline_;
   std::vector<Attached> places_;
   std::array<bool, 2> upright_{false,
                                false};  ///< the first and the last point belong to a section that cannot turn
   std::vector<double> n_at_rest_;
+  Eigen::SparseMatrix<double> modes_;  ///< the places of N, which never change
+  std::vector<Part> parts_;            ///< of all points, in this order
+  std::vector<std::size_t> ends_of_parts_;
 };
 
 }  // namespace fsi::beam

@@ -38,7 +38,7 @@ BeamMotion bent(const std::array<End, 2>& ends) {
 TEST(BeamSkin, AtRestItIsTheOutlineGiven) {
   const BeamMotion motion(straight(soft, 12), loose);
   const Skin skin(motion.model().line(), slab(), loose);
-  const std::vector<double> x = skin.positions(motion);
+  const std::vector<double> x = skin.state(motion).x;
   for (std::size_t k = 0; k < x.size(); ++k) EXPECT_NEAR(x[k], skin.outline().x[k], 1e-15);
 }
 
@@ -46,8 +46,9 @@ TEST(BeamSkin, ItsModeVectorsGiveTheNormalVelocityOfItsPoints) {
   for (const auto& ends : {cantilever, loose}) {
     const BeamMotion motion = bent(ends);
     const Skin skin(motion.model().line(), slab(), ends);
-    const std::vector<double> x = skin.positions(motion), v = skin.velocities(motion), n = skin.normals(x);
-    const Eigen::VectorXd v_n = skin.mode_vectors(motion, n).transpose() * motion.q_dot();
+    const SkinState state = skin.state(motion);
+    const std::vector<double>&x = state.x, &v = state.v, n = skin.normals(x);
+    const Eigen::VectorXd v_n = skin.mode_vectors(state, n).transpose() * motion.q_dot();
     const std::size_t points = skin.points();
     for (std::size_t k = 0; k < points; ++k)
       EXPECT_NEAR(v_n[static_cast<Eigen::Index>(k)], n[k] * v[k] + n[points + k] * v[points + k], 1e-14);
@@ -57,18 +58,18 @@ TEST(BeamSkin, ItsModeVectorsGiveTheNormalVelocityOfItsPoints) {
 TEST(BeamSkin, ItsVelocitiesAreThoseOfItsPositions) {
   BeamMotion motion = bent(loose);
   const Skin skin(motion.model().line(), slab(), loose);
-  const std::vector<double> v = skin.velocities(motion), before = skin.positions(motion);
+  const auto [before, v, arm] = skin.state(motion);
   constexpr double dt = 1e-5;
   motion.advance(dt, Eigen::VectorXd::Zero(motion.model().freedoms()), nullptr);
-  const std::vector<double> after = skin.positions(motion);
+  const std::vector<double> after = skin.state(motion).x;
   for (std::size_t k = 0; k < v.size(); ++k) EXPECT_NEAR((after[k] - before[k]) / dt, v[k], 2e-4);
 }
 
 TEST(BeamSkin, APressureActsWithItsForceAndItsMoment) {
   const BeamMotion motion = bent(loose);
   const Skin skin(motion.model().line(), slab(), loose);
-  const std::vector<double> x = skin.positions(motion), n = skin.normals(x);
-  const Eigen::SparseMatrix<double> N = skin.mode_vectors(motion, n);
+  const std::vector<double> x = skin.state(motion).x, n = skin.normals(x);
+  const Eigen::SparseMatrix<double> N = skin.mode_vectors(skin.state(motion), n);
   Eigen::VectorXd pull(N.cols());
   Eigen::Vector3d exact = Eigen::Vector3d::Zero(), found = Eigen::Vector3d::Zero();
   const std::size_t points = skin.points();
@@ -100,7 +101,7 @@ TEST(BeamSkin, BetweenTheNodesItHasNoCorners) {
       line.x.push_back(y > 0 ? 0.05 : static_cast<double>(k) / (points - 1));
   }
   const Skin skin(motion.model().line(), line, cantilever);
-  const std::vector<double> n = skin.normals(skin.positions(motion));
+  const std::vector<double> n = skin.normals(skin.state(motion).x);
   double largest = 0, total = 0;
   for (std::size_t k = 1; k + 1 < points; ++k) {
     const double turn = std::abs(n[k] * n[points + k + 1] - n[points + k] * n[k + 1]);

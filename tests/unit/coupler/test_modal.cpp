@@ -5,6 +5,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "common/core/time/backward_difference.hpp"
@@ -158,6 +159,26 @@ TEST(ModalSolver, SolvesForEachMatrixWhateverItSolvedBefore) {
   singular.coeffRef(3, 3) = 0;
   EXPECT_EQ(solver.solve(singular, right).size(), 0);
   EXPECT_EQ(solver.solve(chain(modes, modes, 9) * chain(modes, modes, 9).transpose(), right).size(), modes);
+}
+
+/// The places of S and of A are each their own: entries of one, of the other, of both.
+TEST(ModalSolver, ProjectsForEachSumWhateverPlacesItsPartsHave) {
+  constexpr int modes = 40;
+  constexpr double dt = 0.3;
+  const Eigen::VectorXd g = Eigen::VectorXd::LinSpaced(modes, -1, 2);
+  ModalSolver solver;
+  for (const auto& [of_S, of_A] : {std::pair{1, 9}, {1, 9}, {9, 1}, {1, 1}, {3, 11}}) {
+    const Eigen::SparseMatrix<double> N = chain(modes, 60, of_S), gas = chain(modes, 50, of_A);
+    const Eigen::SparseMatrix<double> S = 0.1 * of_S * Eigen::SparseMatrix<double>(N * N.transpose());
+    const ModalLoad load{.A = gas * gas.transpose(), .f = Eigen::VectorXd::LinSpaced(modes, 3, 1)};
+    const Eigen::VectorXd lower = solver.project(S.triangularView<Eigen::Lower>(), g,
+                                                 {load.A.triangularView<Eigen::Lower>(), load.f}, dt),
+                          whole = solver.project(S, g, load, dt);
+    ASSERT_EQ(lower.size(), modes);
+    const double size = (g + dt * load.f).norm();
+    EXPECT_LE((S * lower - g - dt * (load.f - load.A * lower)).norm(), 1e-9 * size) << of_S << ", " << of_A;
+    EXPECT_LE((whole - lower).norm(), 1e-9 * lower.norm()) << of_S << ", " << of_A;
+  }
 }
 
 TEST(SparseMessage, IsTheSameMatrixInAnyOrderOfItsEntries) {
