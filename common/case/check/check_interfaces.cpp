@@ -59,6 +59,22 @@ void check_sides(const Case& problem, const FluidSpec& fluid, const Node& root) 
   }
 }
 
+/// A side that meets a solid takes the whole grid with it, which the background of other grids cannot.
+void check_background(const FluidSpec& fluid, const Node& root) {
+  if (fluid.body_fitted.empty()) return;
+  for (const Side side : all_sides) {
+    const BoundarySpec& spec = fluid.boundary[static_cast<std::size_t>(side)];
+    if (spec.kind != BoundaryKind::interface) continue;
+    const bool upright = side == Side::left || side == Side::right;
+    fail(
+        side_of(root, fluid, side).place, fmt::format("{}.boundary.{}", fluid.path, name_of(side)),
+        fmt::format("moves with {} and the whole grid with it, but the background of the grids in "
+                    "`body_fitted` stays; write slip_wall here, {{name: at_{}, solid: {}, walls: [{}]}} into "
+                    "`body_fitted`, and let `grid` begin behind the interface",
+                    in_ticks(spec.solid), spec.solid, spec.solid, upright ? "bottom, top" : "left, right"));
+  }
+}
+
 /// A solid with a shape of its own meets the gas along its outline.
 void check_outline(const Case& problem, const SolidSpec& solid, const Node& root) {
   const BodyFittedSpec& outline = solid.body_fitted.front();
@@ -80,13 +96,11 @@ void check_outline(const Case& problem, const SolidSpec& solid, const Node& root
       fail(node_at(fluid_section_of(root, fluid.name), {"body_fitted"}).place, fluid.path + ".body_fitted",
            fmt::format("{} grids meet solid `{}`; keep one", grids, solid.name));
   }
-  if (gases == 1 || problem.fluids.size() == 1) return;
+  if (gases > 0 || problem.fluids.size() == 1) return;
   fail(node.place, fmt::format("solids.{}.shape", solid.name),
-       gases == 0
-           ? fmt::format("no gas has a grid along it; write body_fitted: [{{name: around_{}, solid: {}}}] "
-                         "into the one in which it is",
-                         solid.name, solid.name)
-           : "several gases have a grid along it; an outline meets one gas, the sides of a `grid` several");
+       fmt::format("no gas has a grid along it; write body_fitted: [{{name: around_{}, solid: {}}}] into the "
+                   "one in which it is",
+                   solid.name, solid.name));
 }
 
 /// One interface of a solid that meets gases along sides of its grid.
@@ -174,7 +188,10 @@ void check_grid_sides(const Case& problem, const SolidSpec& solid, const Node& r
 }  // namespace
 
 void check_interfaces(const Case& problem, const Node& root) {
-  for (const FluidSpec& fluid : problem.fluids) check_sides(problem, fluid, root);
+  for (const FluidSpec& fluid : problem.fluids) {
+    check_sides(problem, fluid, root);
+    check_background(fluid, root);
+  }
   for (const SolidSpec& solid : problem.solids) {
     if (solid.body_fitted.empty()) {
       check_grid_sides(problem, solid, root);

@@ -137,6 +137,57 @@ TEST(Fluids, MistakesSayWhereAndWhatToWrite) {
             "`piston`, nearest at (1, 0); let both grids have the same curve there");
 }
 
+/// A round body in the gas to the right of the piston.
+std::string with_body(const std::string& more_at_left = "") {
+  std::string text = with("  right:\n    gamma: 1.6\n    p_e: 1\n    grid: {x: [1, 2]", R"(  right:
+    gamma: 1.6
+    p_e: 1
+    body_fitted:
+      - {name: at_piston, solid: piston, walls: [bottom, top], lines: 5}
+      - {name: around, solid: body, lines: 5}
+    grid: {x: [0.8, 3])");
+  const auto put = [&](const std::string& from, const std::string& to) {
+    text.replace(text.rfind(from), from.size(), to);
+  };
+  put("left: {kind: interface, solid: piston}", "left: slip_wall");
+  put("points: [11, 11]}\n    boundary:\n      left: slip_wall",
+      "points: [45, 21]}\n    boundary:\n      left: slip_wall");
+  text.replace(text.find("    initial"), 0, more_at_left);
+  return text.insert(text.find("output:"),
+                     "  body:\n    law: rigid\n    rho: 2\n    shape: {kind: ellipse, centre: [2.2, 0.5], "
+                     "semi_axes: [0.25, 0.2], points: 32}\n");
+}
+
+TEST(Fluids, ABodyWithAnOutlineLiesInOneOfThem) {
+  EXPECT_EQ(mistake_in(with_body()), "");
+  const Case problem = load_text(with_body());
+  EXPECT_EQ(gases_at(problem.solids[1]), std::vector<std::string>{"right"});
+  EXPECT_EQ(interface_name(problem.solids[1], "right"), "body");
+}
+
+TEST(Fluids, AnOutlineBetweenTwoOfThemIsRefused) {
+  EXPECT_EQ(
+      mistake_in(with_body("    body_fitted: [{name: there_too, solid: body}]\n")),
+      "case.yaml:41:12: solids.body.shape: the gases left and right have a grid along it; an outline meets "
+      "one gas: leave it to the one in which it lies, or, for a solid between gases, write in the place of "
+      "`shape` a `grid` with an interface side for each of them");
+}
+
+TEST(Fluids, ABackgroundWithGridsOnItDoesNotFollowASolid) {
+  std::string text = with_body();
+  text.replace(
+      text.find("      - {name: at_piston"),
+      std::string("      - {name: at_piston, solid: piston, walls: [bottom, top], lines: 5}\n").size(), "");
+  text.replace(text.find("left: slip_wall"), std::string("left: slip_wall").size(),
+               "left: {kind: interface, solid: piston}");
+  text.replace(text.find("x: [0.8, 3]"), std::string("x: [0.8, 3]").size(), "x: [1, 3]");
+  EXPECT_EQ(
+      mistake_in(text),
+      "case.yaml:19:13: fluids.right.boundary.left: moves with `piston` and the whole grid with it, but the "
+      "background of the grids in `body_fitted` stays; write slip_wall here, {name: at_piston, solid: "
+      "piston, walls: [bottom, top]} into `body_fitted`, and let `grid` begin behind the interface");
+}
+
 TEST(Fluids, ARunInOneDimensionKnowsOneGas) {
   EXPECT_EQ(mistake_in(with("expect:", "reference: {kind: piston_1d}\nexpect:")),
             "case.yaml:35:19: reference: `piston_1d` is computed with one gas and one solid; leave it out");
