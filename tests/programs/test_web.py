@@ -232,6 +232,29 @@ class Page(WebTest):
         monitor.kill()
         self.shows("notice", "the monitor has left")
 
+    def test_both_sides_of_a_wall_between_two_gases_are_named_within_their_picture(self):
+        self.begin("piston_between_gases", "--set", "grid.factor=4", "--set", "parameters.cells=4", "--set", "time.dt=1e-7",
+                   "--set", "output.times=[1e-6, 1.6]", "--set", "expect={}")
+        self.browser.show(self.url + "#token=" + self.token)
+        for words in ("piston.left", "piston.right"):
+            self.shows("interfaces", words)
+        for words in ("left", "right", "piston", "coupler"):
+            self.shows("programs", words)
+        self.browser.value("""(() => {
+            window.drawn = {};
+            const draw = CanvasRenderingContext2D.prototype.fillText;
+            CanvasRenderingContext2D.prototype.fillText = function (words, x, ...rest) {
+              const wide = this.measureText(words).width, left = this.textAlign === "right" ? x - wide : x;
+              drawn[this.canvas.id + " " + words] = [left, left + wide, this.canvas.clientWidth];
+              draw.call(this, words, x, ...rest);
+            };
+          })()""")
+        for name in ("piston.left", "piston.right"):
+            begin, end, width = until(lambda: self.browser.value(f"drawn['shape {name}']"))
+            self.assertGreaterEqual(begin, 0, name)
+            self.assertLessEqual(end, width, name)
+        self.assertEqual(self.browser.problems, [])
+
     def test_fields_are_shown_while_the_run_is_paused_and_as_it_goes_on(self):
         run = self.launch(*LONG, "--pause-at", "30")
         run.until_paused()

@@ -247,7 +247,7 @@ function drawShapes(canvas, shapes, range) {
   const middle = [(across[0] + across[1]) / 2, (up[0] + up[1]) / 2];
   const place = (x, y) => [width / 2 + (x - middle[0]) * unit, height / 2 - (y - middle[1]) * unit];
   drawRuler(pen, unit, width, height);
-  for (const shape of shapes) drawShape(pen, shape, range, place);
+  for (const shape of shapes) drawShape(pen, shape, range, place, width);
   canvas.setAttribute("aria-label", shapes.map((shape) => `${shape.name}: pressure from ${short(Math.min(...shape.p))} to ${short(Math.max(...shape.p))}`).join("; "));
 }
 
@@ -270,7 +270,8 @@ function drawRuler(pen, unit, width, height) {
   pen.fillText(short(length), 16, height - 14);
 }
 
-function drawShape(pen, shape, range, place) {
+// Its name stands beside its first point, on the side where there is room.
+function drawShape(pen, shape, range, place, width) {
   if (shape.closed) {
     pen.fillStyle = theme.grid;
     pen.beginPath();
@@ -297,9 +298,10 @@ function drawShape(pen, shape, range, place) {
   drawPlaceAlong(pen, shape, place);
   const [x, y] = place(shape.x1[0], shape.x2[0]);
   pen.fillStyle = theme.ink;
-  pen.textAlign = "left";
+  const fits = x + 9 + pen.measureText(shape.name).width <= width;
+  pen.textAlign = fits ? "left" : "right";
   pen.textBaseline = "bottom";
-  pen.fillText(shape.name, x + 9, y - 5);
+  pen.fillText(shape.name, fits ? x + 9 : x - 9, y - 5);
 }
 
 // Where along the shape the cursor of the plots is.
