@@ -8,20 +8,20 @@ import unittest
 
 from running import BIN, EndToEnd, FSI, PATIENT, processes
 
-LONG = ("piston_between_gases", "--set", "grid.factor=4", "--set", "time.dt=1e-7", "--set", "output.times=[1e-6, 0.8]",
-        "--set", "expect={}")
 PARTICIPANTS = ("left", "right", "piston", "coupler")
+STEPS = ("--set", "grid.factor=4", "--set", "time.dt=1e-7", "--set", "output.times=[1e-6, 0.8]",
+         "--set", "expect={}")
 
 
 class TwoGases(EndToEnd):
-    def lose(self, name, number):
+    def lose(self, name, number, case="piston_between_gases", solid="piston"):
         """The run whose program of this name got a signal; its launcher ends nobody who has not ended by himself."""
-        run = self.launch(*LONG, script=PATIENT)
+        run = self.launch(case, *STEPS, script=PATIENT)
         run.until_stepping()
         os.kill(next(one.pid for one in processes.programs_of(run.directory) if one.name == name), number)
         self.assertEqual(run.wait(), 4, run.stderr)
         self.assertIn(name, run.summary()["reason"])
-        for other in PARTICIPANTS:
+        for other in ("left", "right", solid, "coupler"):
             if other != name:
                 self.assertEqual(run.part(other)["exit_code"], 4)
         self.assert_nothing_left(run)
@@ -33,6 +33,9 @@ class TwoGases(EndToEnd):
 
     def test_a_killed_solid_ends_the_run_and_is_named(self):
         self.assertEqual(self.lose("piston", signal.SIGKILL).summary()["failure"]["origin"], "piston")
+
+    def test_a_killed_beam_ends_the_run_and_is_named(self):
+        self.assertEqual(self.lose("plate", signal.SIGKILL, "taylor_plate", "plate").summary()["failure"]["origin"], "plate")
 
     def test_a_stopped_gas_ends_the_run_and_is_named(self):
         self.assertRegex(self.lose("left", signal.SIGSTOP).summary()["reason"], r"silent for 4 s \(time\.peer_timeout\); is it stopped\?")
