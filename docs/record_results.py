@@ -32,6 +32,7 @@ import record_impacts
 import record_levels
 import record_outlines
 import record_paper
+import thin_studies
 import wall_studies
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -506,7 +507,7 @@ def all_studies():
     return [*piston_studies(), *record_paper.manufactured(tools),
             ("Gas: manufactured solution on a moving grid", lambda: converge("chosen-gas", "gas_manufactured", "2,4,8,16")),
             *other_studies(), *record_paper.disks(tools), *disk_studies(), *record_ellipse.studies(tools), *record_levels.studies(tools), *beam_studies.studies(tools), *wall_studies.studies(tools),
-            *flutter_studies.studies(tools),
+            *flutter_studies.studies(tools), *thin_studies.studies(tools),
             *record_impacts.studies(tools), *record_outlines.studies(tools),
             ("What watching costs", lambda: watched("watched")),
             ("Signals to every program at random moments", lambda: faults(200)), *record_faults.studies(tools),
