@@ -66,7 +66,18 @@ bool is_interface(const BoundarySpec& boundary) {
 struct Surface {
   rigid::Outline outline;
   bool meets_gas = false;
+  std::array<bool, 2> on_wall{false, false};  ///< its first and last point
 };
+
+/// Whether the first and the last point of a side slide along walls.
+std::array<bool, 2> ends_on_walls(const SolidSpec& spec, Side side) {
+  const auto slides = [&](Side beside) {
+    const BoundaryKind kind = spec.boundary[static_cast<std::size_t>(beside)].kind;
+    return kind == BoundaryKind::slip_wall || kind == BoundaryKind::symmetry;
+  };
+  if (direction_of(side) == 0) return {slides(Side::bottom), slides(Side::top)};
+  return {slides(Side::left), slides(Side::right)};
+}
 
 /// One for each gas that the beam meets; one of a beam alone.
 std::vector<Surface> surfaces_of(const SolidSpec& spec) {
@@ -82,7 +93,8 @@ std::vector<Surface> surfaces_of(const SolidSpec& spec) {
     return {.outline = {.x = grid.side_points(side),
                         .ends = grid::Curve::open,
                         .orientation = grid::outward(side)},
-            .meets_gas = meets_gas};
+            .meets_gas = meets_gas,
+            .on_wall = ends_on_walls(spec, side)};
   };
   std::vector<Surface> surfaces;
   for (const Side side : all_sides) {
@@ -123,7 +135,7 @@ BeamFromCase beam_from_case(const SolidSpec& spec) {
   bool meets_gas = false;
   for (Surface& surface : surfaces_of(spec)) {
     meets_gas = surface.meets_gas;
-    skins.emplace_back(line, std::move(surface.outline), ends);
+    skins.emplace_back(line, std::move(surface.outline), ends, surface.on_wall);
   }
   BeamFromCase result{.motion = BeamMotion(BeamModel(std::move(line), std::move(sections)), ends),
                       .skins = std::move(skins),

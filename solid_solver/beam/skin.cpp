@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 #include "common/grid/geometry/interface_geometry.hpp"
@@ -71,13 +72,15 @@ PointState state_of(const BeamMotion& beam, const Attached& point) {
   return {.x = foot + u.head<2>() + r, .v = v.head<2>() + v[2] * across(r), .arm = r, .theta = u[2]};
 }
 
-Skin::Skin(const Line& line, rigid::Outline outline, const std::array<End, 2>& ends)
+Skin::Skin(const Line& line, rigid::Outline outline, const std::array<End, 2>& ends,
+           const std::array<bool, 2>& on_wall)
     : outline_(std::move(outline)) {
   const std::size_t n = outline_.x.size() / 2;
   for (std::size_t k = 0; k < n; ++k) places_.push_back(attach(line, {outline_.x[k], outline_.x[n + k]}));
   n_at_rest_ = grid::normals(outline_.x, outline_.ends, outline_.orientation);
   find_places_of_modes(line, ends);
   if (outline_.ends == grid::Curve::closed || line.closed) return;
+  find_walls(line, ends, on_wall);
   const auto cannot_turn = [&](const Attached& point) {
     constexpr double close = 1e-9;
     const auto last = static_cast<double>(line.x.size() - 1);
@@ -94,7 +97,13 @@ SkinState Skin::state(const BeamMotion& beam) const {
   SkinState state{
       .x = std::vector<double>(2 * n), .v = std::vector<double>(2 * n), .arm = std::vector<Vec2>(n)};
   for (std::size_t k = 0; k < n; ++k) {
-    const PointState at = state_of(beam, places_[k]);
+    PointState at = state_of(beam, places_[k]);
+    for (const auto& [wall, point] : {std::pair{walls_[0], std::size_t{0}}, std::pair{walls_[1], n - 1}}) {
+      if (k != point || wall.isZero(0)) continue;
+      const Vec2 rest(outline_.x[k], outline_.x[n + k]);
+      at.x = rest + along_wall(wall, at.x - rest);
+      at.v = along_wall(wall, at.v);
+    }
     for (std::size_t c = 0; c < 2; ++c) {
       state.x[c * n + k] = at.x[static_cast<Eigen::Index>(c)];
       state.v[c * n + k] = at.v[static_cast<Eigen::Index>(c)];
@@ -120,6 +129,23 @@ std::vector<std::uint8_t> Skin::freedom() const {
   if (upright_[0]) marks.front() = wire::Freedom::slides;
   if (upright_[1]) marks.back() = wire::Freedom::slides;
   return marks;
+}
+
+/// The gas ends at a wall on which a free end stands, and the line goes away from it. A section that turns or
+/// slides there would take the corner of the gas with it; its other side would then push gas that the
+/// mode vectors know nothing of, and a plate much lighter than that gas blows up.
+void Skin::find_walls(const Line& line, const std::array<End, 2>& ends, const std::array<bool, 2>& on_wall) {
+  constexpr double close = 1e-9;
+  const auto last = static_cast<double>(line.x.size() - 1);
+  for (std::size_t end = 0; end < 2; ++end) {
+    if (!on_wall[end]) continue;
+    const double s = (end == 0 ? places_.front() : places_.back()).s;
+    for (const auto& [kind, alpha, at] :
+         {std::tuple{ends[0], line.alpha.front(), 0.0}, std::tuple{ends[1], line.alpha.back(), last}}) {
+      if (kind == End::free && std::abs(s - at) <= close * last)
+        walls_[end] = {std::cos(alpha), std::sin(alpha)};
+    }
+  }
 }
 
 /// The entries of a point by rows; of a guided end x and y are one.
@@ -157,7 +183,9 @@ Eigen::SparseMatrix<double> Skin::mode_vectors(const SkinState& state,
   double* const values = N.valuePtr();
   std::size_t next = 0;
   for (std::size_t k = 0; k < n; ++k) {
-    const Vec2 normal(normals[k], normals[n + k]);
+    Vec2 normal(normals[k], normals[n + k]);
+    if (k == 0) normal = along_wall(walls_[0], normal);
+    if (k == n - 1) normal = along_wall(walls_[1], normal);
     const std::array<double, 3> on_node{normal.x(), normal.y(), normal.dot(across(state.arm[k]))};
     for (; next < ends_of_parts_[k]; ++next) {
       const Part& part = parts_[next];

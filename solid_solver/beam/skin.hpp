@@ -49,7 +49,9 @@ struct SkinState {
 
 class Skin {
  public:
-  Skin(const Line& line, rigid::Outline outline, const std::array<End, 2>& ends);
+  /// @param on_wall whether the first and the last point of an open outline slide along a wall that the gas has there
+  Skin(const Line& line, rigid::Outline outline, const std::array<End, 2>& ends,
+       const std::array<bool, 2>& on_wall = {false, false});
 
   const rigid::Outline& outline() const { return outline_; }
   std::size_t points() const { return places_.size(); }
@@ -70,12 +72,17 @@ class Skin {
     std::size_t component = 0;  ///< 0, 1: along the normal; 2: turning
     double weight = 0, part = 0;
   };
+  /// Direction across the walls along which the first and the last point slide; zero: along none.
+  using Walls = std::array<Vec2, 2>;
+  static Vec2 along_wall(const Vec2& wall, const Vec2& d) { return d - wall.dot(d) * wall; }
+  void find_walls(const Line& line, const std::array<End, 2>& ends, const std::array<bool, 2>& on_wall);
   void find_places_of_modes(const Line& line, const std::array<End, 2>& ends);
 
   rigid::Outline outline_;
   std::vector<Attached> places_;
   std::array<bool, 2> upright_{false,
                                false};  ///< the first and the last point belong to a section that cannot turn
+  Walls walls_{Vec2::Zero(), Vec2::Zero()};
   std::vector<double> n_at_rest_;
   Eigen::SparseMatrix<double> modes_;  ///< the places of N, which never change
   std::vector<Part> parts_;            ///< of all points, in this order

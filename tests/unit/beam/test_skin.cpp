@@ -55,6 +55,27 @@ TEST(BeamSkin, ItsModeVectorsGiveTheNormalVelocityOfItsPoints) {
   }
 }
 
+/// One side of the beam, between walls at its ends: these neither turn nor slide off them with free sections.
+TEST(BeamSkin, FreeEndsKeepToTheWallsAndSoDoTheirModes) {
+  constexpr std::size_t points = 21;
+  rigid::Outline side{.x = std::vector<double>(2 * points, 0.05), .ends = grid::Curve::open};
+  for (std::size_t k = 0; k < points; ++k) side.x[k] = static_cast<double>(k) / (points - 1);
+  const BeamMotion motion = bent(loose);
+  const Skin skin(motion.model().line(), side, loose, {true, true});
+  const SkinState state = skin.state(motion);
+  for (const std::size_t end : {std::size_t{0}, points - 1}) {
+    EXPECT_NEAR(state.x[end], side.x[end], 1e-15);
+    EXPECT_EQ(state.v[end], 0);
+    EXPECT_GT(std::abs(state.x[points + end] - 0.05), 0.01);
+  }
+  EXPECT_GT(std::abs(state.v[1]), 1e-3);
+  const std::vector<double> n = skin.normals(state.x);
+  const Eigen::VectorXd v_n = skin.mode_vectors(state, n).transpose() * motion.q_dot();
+  for (std::size_t k = 0; k < points; ++k)
+    EXPECT_NEAR(v_n[static_cast<Eigen::Index>(k)], n[k] * state.v[k] + n[points + k] * state.v[points + k],
+                1e-14);
+}
+
 TEST(BeamSkin, ItsVelocitiesAreThoseOfItsPositions) {
   BeamMotion motion = bent(loose);
   const Skin skin(motion.model().line(), slab(), loose);
