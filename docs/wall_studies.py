@@ -27,6 +27,11 @@ def _plates(tools):
     return tools.rates("taylor-plate", "taylor_plate", LEVELS, variants, ("rho", "v1"))
 
 
+def _free_plates(tools):
+    variants = [(f"m = {mass}", [f"parameters.mass={mass}", "solids.plate.beam.ends=[free, free]"], []) for mass in MASSES if mass != "0"]
+    return tools.rates("taylor-plate-free", "taylor_plate", LEVELS, variants, ("rho", "v1"))
+
+
 def _largest(directory, begin, end):
     """Largest speed of the plate between two times."""
     with open(directory / "forces_plate.csv", encoding="utf-8", newline="") as file:
@@ -53,4 +58,5 @@ def studies(tools):
     """(title, function) of each study; `tools`: the functions of record_results."""
     yield "Elastic piston between two gases, small pulse", lambda: _pistons(tools)
     yield "Taylor's plate between two gases, any mass", lambda: _plates(tools)
+    yield "Taylor's plate between two gases, its ends free", lambda: _free_plates(tools)
     yield "Taylor's plate between two gases: what is left when the pulse is gone", lambda: _growth(tools)
