@@ -250,17 +250,26 @@ GasGrids fit_rings(const GridSpec& background, const std::vector<BodyFittedSpec>
   for (const double refined : {1.0, 0.85, 0.7, 0.6, 0.5, 0.4, 0.3}) {
     const double h = refined == 1 ? spacing : as_written(refined * spacing);
     const GridSpec grid = refined == 1 ? background : with_spacing(background, h);
+    std::vector<std::vector<RingGrid>> tried;
     for (const bool apart : {false, true}) {
       for (const double part : {1.0, 0.85, 0.7, 0.55}) {
         for (const int lines : {usual_lines, 6}) {
           const std::vector<RingGrid> chosen = with_lines(rings, open, rooms, {lines, part, h, apart});
+          if (std::ranges::find(tried, chosen) != tried.end()) continue;
+          tried.push_back(chosen);
           if (connects(grid, rings)) return {h, chosen};
         }
       }
     }
     if (!finer) break;
   }
-  return {spacing, with_lines(rings, open, rooms, {usual_lines, 1, spacing, false})};
+  const std::vector<RingGrid> usual = with_lines(rings, open, rooms, {usual_lines, 1, spacing, false});
+  // The background alone becomes finer, before grids as deep as they are on the coarse one.
+  for (const double refined : {0.85, 0.7, 0.6, 0.5, 0.4, 0.3}) {
+    const double h = as_written(refined * spacing);
+    if (finer && connects(with_spacing(background, h), rings)) return {h, usual};
+  }
+  return {spacing, usual};
 }
 
 }  // namespace fsi

@@ -45,6 +45,8 @@ BodyGrids fit_body(const Outline& outline, double h, const BodyWish& wish, bool 
 struct RingGrid {
   int lines = 8;
   double spacing = 0;  ///< [length]
+
+  bool operator==(const RingGrid&) const = default;
 };
 
 /// Grids of the gas around bodies.

@@ -47,7 +47,7 @@ NearCurves::NearCurves(std::vector<FittedCurve> curves)
   for (std::size_t a = 0; a < curves_.size(); ++a) {
     for (std::size_t b = 0; b < curves_.size(); ++b) {
       touching_[a * curves_.size() + b] =
-          gap_between(curves_[a].x, curves_[b].x).distance <= round_off * curves_[a].step;
+          a != b && gap_between(curves_[a].x, curves_[b].x).distance <= round_off * curves_[a].step;
     }
   }
   measure();

@@ -50,7 +50,7 @@ void CompositeGrid::limit_lines(int grid, int lines) {
   classify(part(grid).now, rows, options_.layers, intervals_);
 }
 
-void CompositeGrid::connect_all(bool trim, int most_lines) {
+void CompositeGrid::connect_all(bool trim, int most_lines, Orphaned points) {
   counts_ = {};
   orphans_ = {};
   for (InterpolationList& list : interpolation_) list.clear();
@@ -60,9 +60,9 @@ void CompositeGrid::connect_all(bool trim, int most_lines) {
     limit_lines(grid, lines);
     counts_.lines_left_out += static_cast<std::size_t>(body(grid).n2 - lines);
   }
-  connect_grid(0);
+  connect_grid(0, points);
   if (trim) trim_lines();
-  for (int grid = 1; grid < grids(); ++grid) connect_grid(grid);
+  for (int grid = 1; grid < grids(); ++grid) connect_grid(grid, points);
 }
 
 /// Where curves come near each other, lines that reach behind another curve have holes, and the points around
@@ -72,10 +72,10 @@ void CompositeGrid::connect_with_fewer_lines() {
   int most = 0;
   for (const BodyFittedGrid& grid : bodies_) most = std::max(most, grid.n2);
   for (int lines = most - 1; lines >= options_.layers + 3; --lines) {
-    connect_all(false, lines);
+    connect_all(false, lines, Orphaned::stop_at_first);
     if (orphans_.count == 0) return;
   }
-  connect_all(false, most);
+  connect_all(false, most, Orphaned::count_all);
 }
 
 /// Leaves as many lines as the background's donors need, and the interpolation points around them.
@@ -94,9 +94,10 @@ void CompositeGrid::trim_lines() {
   }
 }
 
-void CompositeGrid::connect_grid(int grid) {
+void CompositeGrid::connect_grid(int grid, Orphaned points) {
   const PointSets& sets = part(grid).now;
   for (int j = 0; j < part(grid).layout.n2; ++j) {
+    if (points == Orphaned::stop_at_first && orphans_.count > 0) return;
     if (sets.valid.row(j).size() == sets.discretised.row(j).size() &&
         std::ranges::equal(sets.valid.row(j), sets.discretised.row(j))) {
       continue;

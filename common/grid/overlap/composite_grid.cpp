@@ -129,8 +129,8 @@ void CompositeGrid::connect_now(double t) {
   cut_background();
   for (int grid = 1; grid < grids(); ++grid) cut_body(grid);
   constexpr int all_lines = std::numeric_limits<int>::max();
-  connect_all(options_.trim, all_lines);
-  if (options_.trim && orphans_.count > 0) connect_all(false, all_lines);
+  connect_all(options_.trim, all_lines, Orphaned::stop_at_first);
+  if (options_.trim && orphans_.count > 0) connect_all(false, all_lines, Orphaned::stop_at_first);
   if (orphans_.count > 0) connect_with_fewer_lines();
   report_orphans(t, "without a donor in any other grid: the overlap is too small");
   solve_for_implicit(t);

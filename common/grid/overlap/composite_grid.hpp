@@ -182,9 +182,11 @@ class CompositeGrid {
   bool touches(int grid, int other);
   bool cut_away(const Vec2& x, int spared) const;
   void limit_lines(int grid, int lines);
-  void connect_all(bool trim, int most_lines);
+  /// How far a connection goes on that will not do: the number of orphans is for messages.
+  enum class Orphaned : std::uint8_t { stop_at_first, count_all };
+  void connect_all(bool trim, int most_lines, Orphaned points);
   void connect_with_fewer_lines();
-  void connect_grid(int grid);
+  void connect_grid(int grid, Orphaned points);
   void trim_lines();
   void find_exposed();
   void connect_run(int grid, int j, Interval run, const Level& level, std::vector<InterpolationList>& lists);

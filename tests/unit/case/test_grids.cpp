@@ -115,6 +115,27 @@ TEST(ChosenGrids, ABendThatTakesTooManyPointsIsNamedWithItsPlace) {
             std::string::npos);
 }
 
+/// Its outline takes 3727 points and a hundred lines, and none of fifty choices before connects: the watchdog of
+/// this program ends it where each of them is looked at to its last line.
+TEST(ChosenGrids, AVeryThinBodyIsDecidedSoon) {
+  const Case problem = load_text(std::string(head) +
+                                 "solids: {body: {law: rigid, rho: 10, shape: {kind: ellipse, semi_axes: "
+                                 "[0.5722, 0.0178], angle: 159.3}}}\n");
+  EXPECT_NEAR((problem.fluids.front().grid.x_b - problem.fluids.front().grid.x_a) /
+                  (problem.fluids.front().grid.n1 - 1),
+              0.015, 1e-4);
+  EXPECT_EQ(problem.fluids.front().body_fitted[0].lines, 100);
+  EXPECT_EQ(problem.fluids.front().body_fitted[0].spacing, 0.00049);
+}
+
+const std::string on_wall = "    boundary: {left: free, right: free, bottom: clamped, top: free}\n";
+
+TEST(ChosenGrids, ALowFootGetsTheFinerBackgroundThatItNeeds) {
+  const std::string shape =
+      "{kind: polygon, corners: [[-1, -2], [-1, -1.92], [1, -1.6], [1, -2]], walls: [bottom, bottom]}";
+  EXPECT_EQ(mistake_in(bodies_case({shape}, on_wall)), "");
+}
+
 TEST(OpenOutlines, AWallIsTheSmallerPartOfTheGasWhicheverWayItIsListed) {
   // A ramp up from the lower left: gas above it.
   const Case up = load_text(wall_case("[[-2, -2], [0, -2], [2, -1.6]]", "[left, right]"));
