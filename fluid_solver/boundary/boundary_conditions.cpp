@@ -190,8 +190,22 @@ class BoundaryConditions {
       state.segment<2>(1) += change * normal;
       state[0] *= std::pow(a_ratio, 2 / (gamma - 1));
       state[3] *= std::pow(a_ratio, 2 * gamma / (gamma - 1));
+      if (forcing() != nullptr) bring_in(state, side, wall, static_cast<int>(k));
       store(q_, at, state);
     }
+  }
+
+  /// Gas with a chosen solution may come in through a wall, and brings entropy and shear with it: three waves
+  /// come in there, and a condition for one of them leaves the others to extrapolation, from which errors at
+  /// corners grow.
+  void bring_in(StateVector& state, const SidePoints& side, const WallMotion& wall, int k) const {
+    const auto n = wall.velocity.size() / 2, point = static_cast<std::size_t>(k);
+    const StateVector chosen = exact(position(x_, side, k, 0));
+    const Vec2 normal(wall.normal[point], wall.normal[n + point]),
+        own(wall.velocity[point], wall.velocity[n + point]);
+    if (normal.dot(Vec2(chosen.segment<2>(1)) - own) <= 0) return;
+    state[0] = chosen[0] * std::pow(state[3] / chosen[3], 1 / task_.options.gamma);
+    state.segment<2>(1) = chosen.segment<2>(1);
   }
 
   void set_symmetry(const SidePoints& side) {
