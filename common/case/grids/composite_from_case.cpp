@@ -31,6 +31,18 @@ Vec2 direction_along(Side wall) {
   return direction_of(wall) == 0 ? Vec2(0, 1) : Vec2(1, 0);
 }
 
+/// Do curve and wall meet at less than 35 degrees, with the grid between them?
+bool comes_down_flat(const BodyFittedSpec& spec, const Vec2& wall, std::size_t end) {
+  const auto n = static_cast<std::size_t>(spec.curve.points());
+  const auto at = [&](std::size_t k) { return Vec2(spec.curve.x[k], spec.curve.x[n + k]); };
+  const Vec2 away = end == 0 ? Vec2(at(1) - at(0)) : Vec2(at(n - 2) - at(n - 1));
+  const Vec2 left(-away[1], away[0]);  // of the curve at its first end, right of it at its last one
+  const Vec2 inwards = (end == 0) == (spec.side == Side::bottom) ? left : Vec2(-left);
+  const Vec2 along = inwards.dot(wall) > 0 ? wall : Vec2(-wall);
+  constexpr double cosine = 0.82;
+  return away.dot(along) > cosine * away.norm() * along.norm();
+}
+
 /// What is wrong with the ghost lines behind a curve, through which fluxes go and from which values are
 /// continued, and about which part of the distance of its lines would do.
 struct Trouble {
@@ -198,6 +210,7 @@ grid::GridDescription grid_of(const BodyFittedSpec& spec) {
     for (std::size_t end : {0U, 1U}) {
       march.walls[end] =
           spec.curve.on.empty() ? direction_along((*spec.curve.walls)[end]) : spec.curve.along[end];
+      march.flat_ends[end] = comes_down_flat(spec, *march.walls[end], end);
     }
   }
   grid::GridDescription description = grid::marched_from(march, spec.curve.x);

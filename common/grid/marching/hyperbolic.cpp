@@ -224,6 +224,10 @@ void HyperbolicMarch::blend_into_walls() {
   for (std::size_t end = 0; end < 2; ++end) {
     const std::optional<Vec2>& direction = grid_.walls[end];
     if (!direction) continue;
+    if (grid_.flat_ends[end]) {
+      shift_along_curve(end);
+      continue;
+    }
     const std::size_t reach = std::min(static_cast<std::size_t>(grid_.blend), line_.size() / 2);
     for (std::size_t k = 0; k <= reach; ++k) {
       LinePoint& here = line_[end == 0 ? k : line_.size() - 1 - k];
@@ -235,12 +239,34 @@ void HyperbolicMarch::blend_into_walls() {
   }
 }
 
+/// A step along n + c t moves a line by as much as one along n, parallel to the curve, and its points by c
+/// along it: with c the cotangent of the angle between curve and wall the end stays on the wall. From
+/// there c falls to zero over a way on which the lines' points keep at least half their distance.
+///
+///     o---o---o---o---o---o   curve
+///      `-_ `-_ `-. \  |   |
+///     ====`-_=`-_=`.\=|===|=  wall
+void HyperbolicMarch::shift_along_curve(std::size_t end) {
+  const auto at = [&](std::size_t k) { return end == 0 ? k : line_.size() - 1 - k; };
+  const LinePoint foot = line_[at(0)];
+  const double sine = std::abs(foot.normal.dot(*grid_.walls[end]));
+  const double shift = std::abs(foot.tangent.dot(*grid_.walls[end])) / std::max(sine, 0.05);
+  const double way = 2 * depth() * shift;
+  double gone = 0;
+  for (std::size_t k = 0; k < line_.size() / 2 && gone < way; gone += arc_[at(k++)]) {
+    LinePoint& here = line_[at(k)];
+    const double share = 1 - gone / way;
+    here.normal += (end == 0 ? shift : -shift) * share * here.tangent;
+    here.blend = std::max(here.blend, share);
+  }
+}
+
 /// Where the curve leans over the wall on which its end slides, lines would run into the wall: near the end a
 /// normal descends over the whole depth by no more than half the point's height above the wall.
 void HyperbolicMarch::keep_off_walls(ConstFieldView x, int j) {
   const double reach = 2 * depth();
   for (std::size_t end = 0; end < 2; ++end) {
-    if (!grid_.walls[end]) continue;
+    if (!grid_.walls[end] || grid_.flat_ends[end]) continue;
     const auto index = [&](std::size_t k) { return end == 0 ? k : line_.size() - 1 - k; };
     const auto position = [&](std::size_t k) { return point(x, static_cast<int>(index(k)), j); };
     Vec2 up(-(*grid_.walls[end])[1], (*grid_.walls[end])[0]);

@@ -31,6 +31,9 @@ struct HyperbolicGrid {
   /// Open: direction of the wall on which an end slides, at the first and at the last point; without one the
   /// end goes along the curve's normal.
   std::array<std::optional<Vec2>, 2> walls = {};
+  /// Ends at which the curve comes down to its wall so flat that lines along normals would run into the wall:
+  /// lines stay parallel to the curve there, and shift along it as far as they must to end on the wall.
+  std::array<bool, 2> flat_ends = {false, false};
   double smoothing =
       0.1;  ///< eps of x_rr for lines as far apart as the points are, in proportion for closer ones [-]
   double end_smoothing = 0.01;  ///< the same at the ends [-]
@@ -70,7 +73,7 @@ class HyperbolicMarch {
   /// One point of the line marched from.
   struct LinePoint {
     Vec2 tangent;      ///< unit
-    Vec2 normal;       ///< unit, towards the next line
+    Vec2 normal;       ///< unit, towards the next line; longer where lines shift along the curve
     double blend = 0;  ///< 1 where the wall alone decides on the normal, 0 where the curve does [-]
   };
 
@@ -97,6 +100,7 @@ class HyperbolicMarch {
   double concave_smoothing(std::size_t k, double d) const;
   void keep_off_walls(ConstFieldView x, int j);
   void blend_into_walls();
+  void shift_along_curve(std::size_t end);
   void fill_rows(ConstFieldView x, int j, double d);
   void fill_end(std::size_t k, double d);
   void place(FieldView x, int j, int j_next);

@@ -130,6 +130,13 @@ TEST(ChosenGrids, AVeryThinBodyIsDecidedSoon) {
 
 const std::string on_wall = "    boundary: {left: free, right: free, bottom: clamped, top: free}\n";
 
+TEST(ChosenGrids, ABodyThatComesDownFlatOnItsWallTakesNoFinerGridsThanItsBends) {
+  const Case problem = load_text(bodies_case(
+      {"{kind: polygon, corners: [[0, -2], [1, -1.8], [1, -2]], walls: [bottom, bottom]}"}, on_wall));
+  const GridSpec& core = problem.solids[0].grid;
+  EXPECT_LT(core.n1 * core.n2, 100000);  // a sharp tip between its wall and a ring would take millions
+}
+
 TEST(ChosenGrids, ALowFootGetsTheFinerBackgroundThatItNeeds) {
   const std::string shape =
       "{kind: polygon, corners: [[-1, -2], [-1, -1.92], [1, -1.6], [1, -2]], walls: [bottom, bottom]}";

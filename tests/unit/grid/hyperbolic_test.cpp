@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "common/core/failure.hpp"
 #include "common/grid/geometry/quality.hpp"
@@ -163,6 +166,42 @@ TEST(HyperbolicMarch, LinesStayOffTheWallOverWhichTheirCurveLeans) {
     EXPECT_GT(cell_quality(x.view()), 0.85 * std::cos(lean)) << lean;  // the corner at the wall has cos(lean)
     EXPECT_GT(x(1, 1, 0), 0.5 * x(1, 1, lines - 1)) << lean;
   }
+}
+
+/// Inside of a wedge of 11 degrees on a wall, whose tip is the last point of the curve.
+Field wedge_inside(bool flat) {
+  constexpr int points = 131, lines = 7;
+  std::vector<double> curve(2 * points);
+  for (std::size_t k = 0; k < points; ++k) {
+    const double s = 1 - static_cast<double>(k) / (points - 1);
+    curve[k] = s;
+    curve[points + k] = 0.2 * s;
+  }
+  HyperbolicGrid grid{.name = "wedge",
+                      .points = points,
+                      .lines = lines,
+                      .curve = Side::bottom,
+                      .ends = Curve::open,
+                      .spacing = 2e-3,
+                      .walls = {std::nullopt, Vec2(1, 0)}};
+  grid.flat_ends = {false, flat};
+  Field x(Layout(points, lines), 2);
+  HyperbolicMarch(grid).march(curve, x.view(), 0);
+  return x;
+}
+
+TEST(HyperbolicMarch, LinesStayParallelToACurveThatComesDownFlatOnItsWall) {
+  const Field x = wedge_inside(true);
+  const double slope = std::hypot(1, 0.2), way = 2e-3 * slope / 0.2;  // to the wall, for each line
+  for (int j = 1; j < 7; ++j) {
+    // The end goes as far as its neighbour does, which is 1/15 of the way on which the shift falls to zero from it.
+    EXPECT_NEAR(x(0, 130, j), j * way, way * j / 15);
+    EXPECT_NEAR(x(1, 130, j), 0, 1e-14);
+    for (int i = 1; i < 130; ++i) {
+      EXPECT_NEAR((0.2 * x(0, i, j) - x(1, i, j)) / slope, 2e-3 * j, 1e-4 * j) << i << " " << j;
+    }
+  }
+  EXPECT_THROW(wedge_inside(false), NumbersBroke);  // lines along normals run into the wall
 }
 
 TEST(CellQuality, IsOneOfRectanglesTheSineOfAParallelogramsAngleAndZeroWhereACellFolds) {
