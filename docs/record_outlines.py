@@ -1,9 +1,10 @@
-"""The study of record_results.py about random outlines: does what `check` calls fine run?"""
+"""The studies of record_results.py about outlines: does what `check` calls fine run, on finer grids too?"""
 
 import shlex
 import subprocess
 
 COMMAND = ["tests/regression/robustness/campaign.py"]
+DOUBLED = ["tests/regression/robustness/doubled.py", "nozzle", "airfoil", "panel_on_step", "elastic_ramp", "elastic_wedge", "two_cylinders"]
 
 
 def campaign(root):
@@ -18,5 +19,14 @@ def campaign(root):
             + ("\nNot run to the end:\n\n```\n" + "\n".join(wrong) + "\n```\n" if wrong else ""))
 
 
+def doubled(root):
+    """The table of cases whose resolution is doubled twice."""
+    answer = subprocess.run(DOUBLED, cwd=root, capture_output=True, text=True, check=False)
+    if "|" not in answer.stdout:
+        return f"exit code {answer.returncode}: {answer.stderr.strip()[-300:]}\n"
+    return f"`{shlex.join(DOUBLED)}`, exit code {answer.returncode}\n\n{answer.stdout}"
+
+
 def studies(tools):
     yield "Random outlines met by a shock", lambda: campaign(tools.ROOT)
+    yield "Outlines alone, the resolution doubled twice", lambda: doubled(tools.ROOT)
