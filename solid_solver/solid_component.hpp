@@ -376,8 +376,10 @@ std::string SolidComponent<L>::breakdown_at(int i, int j, double dt) const {
       return fmt::format("det F = {:.4g}: {}", J, L::end_of_law);
   }
   if (!(J > 0)) return fmt::format("det F = {:.4g}", J);
-  if (!(phi_s > 0)) return fmt::format("no longer hyperbolic, phi_s = {:.4g}", phi_s);
-  return {};
+  if (phi_s > 0) return {};
+  const std::string lost = fmt::format("no longer hyperbolic, phi_s = {:.4g}", phi_s);
+  if constexpr (requires { L::where_soft; }) return fmt::format("{}: {}", lost, L::where_soft);
+  return lost;
 }
 
 }  // namespace fsi::solid

@@ -10,6 +10,8 @@ namespace fsi::solid {
 struct SaintVenantKirchhoff {
   static constexpr std::string_view name = "saint_venant_kirchhoff";
   static constexpr bool objective = true;
+  static constexpr std::string_view where_soft =
+      "this law loses its stiffness where it is pressed together; `neo_hookean` does not";
 
   double lambda = 0;  ///< Lame constant [pressure]
   double mu = 0;      ///< shear modulus [pressure]

@@ -155,6 +155,8 @@ class SolidParticipant final : public Participant {
       if (beta->rate == 0 && beta->scaled == 0)
         return fmt::format("{} without `{}`, whose default damps what no wave carries", path, key);
     }
+    if constexpr (requires { L::where_soft; })
+      return fmt::format("--solid {}=neo_hookean, unless the strains are small", spec_.name);
     if (scheme.relaxation.scaled < 0.5) return path + ".relaxation: {scaled: 0.5}";
     return "a smaller time.cfl";
   }

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "common/core/failure.hpp"
 #include "tests/convergence/solid/skewed_grid.hpp"
@@ -190,6 +191,30 @@ TEST(BrokenNumbers, AreNamedWithTimeGridAndPointOfTheReference) {
     EXPECT_NEAR(place.position.at(0), 0.1 * place.point[0], 1e-12) << "points of the reference are 0.1 apart";
     EXPECT_NE(failure.cause().find("det F"), std::string::npos) << failure.cause();
   }
+}
+
+/// Pressed together to 0.45 of its length in its middle, as it was at its free sides.
+template <class L>
+std::string words_about_a_pressed_block() {
+  const auto pressed = [](double x, double y, double) -> Vec2 {
+    return {-0.55 * (x - 0.5) * std::pow(16 * x * (1 - x) * y * (1 - y), 4), 0};
+  };
+  Boundaries all_free;
+  SolidSolver<L> solver(test::unit_square(20), L{.lambda = 1, .mu = 1}, {}, all_free, 0);
+  try {
+    solver.assign_initial_conditions(pressed, [](double, double, double) -> Vec2 { return {0, 0}; });
+    advance(solver, 3);
+  } catch (const NumbersBroke& failure) {
+    return failure.cause();
+  }
+  return "";
+}
+
+TEST(BrokenNumbers, OfALawThatIsSoftUnderPressureNameTheLaw) {
+  EXPECT_NE(words_about_a_pressed_block<SaintVenantKirchhoff>().find("`neo_hookean` does not"),
+            std::string::npos)
+      << words_about_a_pressed_block<SaintVenantKirchhoff>();
+  EXPECT_EQ(words_about_a_pressed_block<NeoHookean>(), "");
 }
 
 TEST(SolidOptions, ThatCanNeverBeStableAreRefused) {
