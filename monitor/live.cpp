@@ -26,7 +26,7 @@ constexpr double summary_s = 3;
 }  // namespace
 
 Live::Live(RunEntry run, const std::string& record)
-    : run_(std::move(run)), listener_(run_.run, run_.key), host_(bus::host_name()) {
+    : run_(std::move(run)), listener_(run_.run, run_.key, run_.network), host_(bus::host_name()) {
   if (!record.empty()) recorder_ = std::make_unique<Recorder>(record, run_, now());
 }
 

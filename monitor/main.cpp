@@ -135,7 +135,8 @@ void replay(const Wishes& wishes) {
 }
 
 void send(const std::string& request, const RunEntry& run) {
-  bus::send_control(run.run, run.key, request);
+  constexpr double patience_s = 3;
+  bus::send_control(run.run, run.key, request, patience_s, run.network);
   fmt::print("{} has heard: {}\n", run.run, request);
   if (request == "checkpoint" || request == "stop")
     fmt::print("the checkpoint goes to {}/checkpoints\n", run.dir);

@@ -56,6 +56,7 @@ std::optional<RunEntry> read_entry(const fs::path& path) {
                     .pid = entry.at("pid").get<int>(),
                     .born = entry.value("born", std::uint64_t{0}),
                     .key = entry.value("key", ""),
+                    .network = entry.value("network", ""),
                     .participants = entry.value("participants", std::vector<std::string>{})};
   } catch (const nlohmann::json::exception&) {
     return std::nullopt;

@@ -15,6 +15,7 @@ struct RunEntry {
   int pid = 0;             ///< the launcher
   std::uint64_t born = 0;  ///< start time of its process in clock ticks since boot; 0: not told
   std::string key{};       ///< of the run; never shown, never recorded
+  std::string network{};   ///< where its programs meet, if they are on several machines (bus::BusOptions)
   std::vector<std::string> participants{};  ///< who will speak; empty: not told
 };
 

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <cstdlib>
 #include <fstream>
+#include <sstream>
+#include <string>
 
 #include "common/bus/options.hpp"
 
@@ -42,21 +44,43 @@ std::string escaped(const std::string& text) {
   return result;
 }
 
+/// On which interface, in what pieces, and where the others are looked for.
+struct Ways {
+  std::string interface = R"(name="lo")", message = "65500B", fragment = "65000B";
+  std::string peers = R"(<Peer Address="127.0.0.1"/>)";
+};
+
+/// What is lost on a network is one packet then, and not the whole of a message that was cut into packets.
+Ways ways_of(const std::string& network) {
+  Ways ways;
+  if (network.empty()) return ways;
+  ways = {.message = "14720B", .fragment = "1344B", .peers = ""};
+  std::istringstream addresses(network);
+  for (std::string address; std::getline(addresses, address, ',');) {
+    if (ways.peers.empty()) ways.interface = fmt::format(R"(address="{}")", escaped(address));
+    ways.peers += fmt::format(R"(<Peer Address="{}"/>)", escaped(address));
+  }
+  return ways;
+}
+
 }  // namespace
 
-std::string configuration_xml(const std::string& run, double participant_lease_s) {
-  std::string xml = fmt::format(R"(<CycloneDDS><Domain Id="any">
+std::string configuration_xml(const std::string& run, double participant_lease_s,
+                              const std::string& network) {
+  const Ways ways = ways_of(network);
+  std::string xml =
+      fmt::format(R"(<CycloneDDS><Domain Id="any">
   <General>
-    <Interfaces><NetworkInterface name="lo"/></Interfaces>
+    <Interfaces><NetworkInterface {}/></Interfaces>
     <AllowMulticast>false</AllowMulticast>
-    <MaxMessageSize>65500B</MaxMessageSize>
-    <FragmentSize>65000B</FragmentSize>
+    <MaxMessageSize>{}</MaxMessageSize>
+    <FragmentSize>{}</FragmentSize>
   </General>
   <Discovery>
     <Tag>{}</Tag>
     <ParticipantIndex>auto</ParticipantIndex>
     <MaxAutoParticipantIndex>31</MaxAutoParticipantIndex>
-    <Peers><Peer Address="127.0.0.1"/></Peers>
+    <Peers>{}</Peers>
     <LeaseDuration>{}s</LeaseDuration>
   </Discovery>
   <Internal>
@@ -67,7 +91,7 @@ std::string configuration_xml(const std::string& run, double participant_lease_s
     <HeartbeatInterval min="1ms" minsched="2ms">10ms</HeartbeatInterval>
   </Internal>
 </Domain></CycloneDDS>)",
-                                escaped(run), participant_lease_s);
+                  ways.interface, ways.message, ways.fragment, escaped(run), ways.peers, participant_lease_s);
   const char* environment =
       std::getenv("CYCLONEDDS_URI");  // NOLINT(concurrency-mt-unsafe): nobody sets it here
   if (environment != nullptr && *environment != '\0') xml += std::string(",") + environment;

@@ -1,12 +1,14 @@
 #pragma once
-/// How Cyclone DDS is set up for lock-step exchange on one machine.
+/// How Cyclone DDS is set up for lock-step exchange, on one machine or between several.
 
 #include <string>
 
 namespace fsi::bus {
 
-/// The configuration of a run's domain: loopback only, no multicast, large fragments, the run as discovery
-/// tag. What the environment variable CYCLONEDDS_URI says comes after it and wins.
-std::string configuration_xml(const std::string& run, double participant_lease_s);
+/// The configuration of a run's domain: no multicast, the run as discovery tag; without a `network`
+/// (BusOptions) loopback only, with large fragments, else the interface of its first address, with fragments
+/// that fit into a packet of a network, and all its addresses as peers. What the environment variable
+/// CYCLONEDDS_URI says comes after it and wins.
+std::string configuration_xml(const std::string& run, double participant_lease_s, const std::string& network);
 
 }  // namespace fsi::bus

@@ -102,7 +102,7 @@ struct Members<wire::Hello> {
       Member{&Sample::role, &Ours::role},         Member{&Sample::name, &Ours::name},
       Member{&Sample::law, &Ours::law},           Member{&Sample::config_digest, &Ours::config_digest},
       Member{&Sample::host, &Ours::host},         Member{&Sample::pid, &Ours::pid},
-      Member{&Sample::points, &Ours::points}};
+      Member{&Sample::points, &Ours::points},     Member{&Sample::build, &Ours::build}};
 };
 
 /// But for step and t, which it may lack.

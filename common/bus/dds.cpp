@@ -127,7 +127,8 @@ std::string last_log_line() {
   return LastLine::instance().get();
 }
 
-std::shared_ptr<const Entity> join_domain(const std::string& run, double participant_lease_s) {
+std::shared_ptr<const Entity> join_domain(const std::string& run, double participant_lease_s,
+                                          const std::string& network) {
   static std::mutex mutex;
   static std::map<std::uint32_t, OpenDomain> open;
   const std::lock_guard lock(mutex);
@@ -142,7 +143,7 @@ std::shared_ptr<const Entity> join_domain(const std::string& run, double partici
   }
   const std::uint32_t id = domain_of(run);
   const dds_entity_t handle =
-      checked_place(dds_create_domain(id, configuration_xml(run, participant_lease_s).c_str()), run);
+      checked_place(dds_create_domain(id, configuration_xml(run, participant_lease_s, network).c_str()), run);
   auto entity = std::make_shared<const Entity>(handle, "domain");
   domain = {run, entity};
   return entity;

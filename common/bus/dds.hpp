@@ -57,7 +57,8 @@ Qos writer_qos(Delivery delivery);
 Qos reader_qos(Delivery delivery);
 
 /// Handle of the run's domain, shared by all sessions of this process.
-std::shared_ptr<const Entity> join_domain(const std::string& run, double participant_lease_s);
+std::shared_ptr<const Entity> join_domain(const std::string& run, double participant_lease_s,
+                                          const std::string& network = {});
 
 /// A participant in the run's domain; `role` becomes its identity where the run is protected.
 /// @throws PeerLost when the machine has no place for one more

@@ -19,6 +19,12 @@ struct BusOptions {
   /// What the programs of the run know and nobody else does (credentials.hpp); empty: anybody on this machine
   /// can take part, and falsify it.
   std::string key = {};
+  /// Where the programs of a run of several machines meet: "OWN,OTHER,..", the address of this machine and those of
+  /// the others; empty: the loopback interface.
+  std::string network = {};
+  /// What the numbers of this program depend on besides the case; the coupler lets nobody in who says something else.
+  /// Empty: not told.
+  std::string build = {};
   /// A peer whose liveliness lease expired (stopped, starved) has this long to return [s].
   double peer_timeout_s = 4;
   /// Who has not joined is lost after this time, in which it neither computed nor read from a disk [s].

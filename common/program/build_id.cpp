@@ -60,4 +60,16 @@ std::string processor_kind() {
   return "sse2";
 }
 
+std::string instruction_set() {
+#if defined(__AVX512F__)
+  return "avx512f";
+#elif defined(__AVX2__) && defined(__FMA__)
+  return "avx2 fma";
+#elif defined(__AVX2__)
+  return "avx2";
+#else
+  return "sse2";
+#endif
+}
+
 }  // namespace fsi

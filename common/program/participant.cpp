@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "common/program/build_id.hpp"
 #include "common/program/picture.hpp"
 #include "common/program/run/driver.hpp"
 
@@ -14,6 +15,8 @@ namespace fsi {
 bus::BusOptions bus_options(const Setup& setup) {
   return {.run = setup.run,
           .key = setup.key,
+          .network = setup.network,
+          .build = "built for " + instruction_set() + " on a processor with " + processor_kind(),
           .peer_timeout_s = setup.problem.time.peer_timeout,
           .hello_timeout_s = setup.problem.time.join_timeout,
           .pids = setup.pids,

@@ -48,6 +48,11 @@ void catch_signals() {
   prctl(PR_SET_PDEATHSIG, SIGTERM);      // the launcher's death ends the run
 }
 
+std::string from_environment(const char* name) {
+  const char* value = std::getenv(name);  // NOLINT(concurrency-mt-unsafe): nobody sets it here
+  return value == nullptr ? "" : value;
+}
+
 ExitCode note(const Failure& failure, io::Part& part) {
   part.status = "failed";
   part.reason = failure.what();
@@ -284,7 +289,8 @@ int run_program(int argc, char** argv, const std::string& default_name, const st
   }
 
   catch_signals();
-  if (const char* key = std::getenv("AMP_FSI_KEY")) setup.key = key;  // NOLINT(concurrency-mt-unsafe)
+  setup.key = from_environment("AMP_FSI_KEY");
+  setup.network = from_environment("AMP_FSI_NETWORK");
   io::Part part;
   part.participant = setup.name;
   part.role = role;

@@ -27,6 +27,7 @@ struct Setup {
   std::string name;          ///< participant's name: "fluid", "coupler" or the solid's name
   std::string restart = {};  ///< folder of the checkpoint the run goes on from; empty: it begins
   std::string key = {};      ///< of the run, from the environment's AMP_FSI_KEY
+  std::string network = {};  ///< of a run on several machines, from AMP_FSI_NETWORK (bus::BusOptions)
   std::optional<std::uint64_t> pause_at = {};  ///< the run pauses after so many steps
   std::map<std::string, int> pids = {};        ///< coupler: the processes of the others, where they are known
   std::shared_ptr<Ranks> ranks = one_rank();   ///< who computes this participant

@@ -12,7 +12,7 @@
 
 namespace fsi::wire {
 
-inline constexpr std::uint32_t protocol_version = 11;
+inline constexpr std::uint32_t protocol_version = 12;
 
 /// Where one program meets the gas or a solid.
 struct InterfaceInfo {
@@ -33,6 +33,7 @@ struct Hello {
   std::string host;
   std::int32_t pid = 0;
   std::uint64_t points = 0;  ///< grid points
+  std::string build;         ///< what its numbers depend on besides the case; empty: not told
   std::vector<InterfaceInfo> interfaces;
 };
 

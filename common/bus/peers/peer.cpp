@@ -80,19 +80,23 @@ std::string host_name() {
   return name.data();
 }
 
-Peer::Peer(std::string label, const std::string& host, int pid) : label_(std::move(label)), pid_(pid) {
-  if (host == host_name()) born_ = start_time(pid);
+Peer::Peer(std::string label, const std::string& host, int pid)
+    : label_(std::move(label)), called_(fmt::format("{} (pid {})", label_, pid)), pid_(pid) {
+  if (host == host_name()) {
+    born_ = start_time(pid);
+  } else {
+    host_ = host;
+    called_ = fmt::format("{} (pid {} on {})", label_, pid, host);
+  }
 }
 
 void Peer::check_process() const {
-  if (born_ != 0 && start_time(pid_) != born_)
-    throw PeerLost(fmt::format("{} (pid {}) has died", label_, pid_));
+  if (born_ != 0 && start_time(pid_) != born_) throw PeerLost(fmt::format("{} has died", called_));
 }
 
 void Peer::check(int matched, int alive, double timeout_s) {
   check_process();
-  if (matched == 0)
-    throw PeerLost(fmt::format("{} (pid {}) has left the run without saying why", label_, pid_));
+  if (matched == 0) throw PeerLost(fmt::format("{} has left the run without saying why", called_));
   if (alive > 0) {
     silent_since_.reset();
     check_pulse(timeout_s);
@@ -101,8 +105,9 @@ void Peer::check(int matched, int alive, double timeout_s) {
   const auto now = std::chrono::steady_clock::now();
   if (!silent_since_ || goes_on()) silent_since_ = now;
   if (std::chrono::duration<double>(now - *silent_since_).count() > timeout_s) {
-    throw PeerLost(fmt::format("{} (pid {}) has been silent for {} s (time.peer_timeout); is it stopped?",
-                               label_, pid_, timeout_s));
+    throw PeerLost(fmt::format(
+        "{} has been silent for {} s (time.peer_timeout); is it stopped{}?", called_, timeout_s,
+        host_.empty() ? "" : fmt::format(", or {} switched off, or the network to it cut", host_)));
   }
 }
 
@@ -126,9 +131,9 @@ void Peer::check_step(std::uint64_t step, double step_timeout_s) {
   if (now && !step_began_) step_began_ = now;
   if (now) work_s_ = work_between(*step_began_, *now);
   if (work_s_ <= limit && waited <= clock_over_work * limit) return;
-  throw PeerLost(fmt::format(
-      "{} (pid {}) lives but has not finished step {} within {:.3g} s{} (time.step_timeout)", label_, pid_,
-      step, waited, now ? fmt::format(", of which it computed for {:.3g} s", work_s_) : ""));
+  throw PeerLost(fmt::format("{} lives but has not finished step {} within {:.3g} s{} (time.step_timeout)",
+                             called_, step, waited,
+                             now ? fmt::format(", of which it computed for {:.3g} s", work_s_) : ""));
 }
 
 void Peer::check_endless(double step_timeout_s) {
@@ -136,9 +141,8 @@ void Peer::check_endless(double step_timeout_s) {
   if (!now) return;
   if (!last_nap_ || now->waited != last_nap_->waited) last_nap_ = now;
   if (work_between(*last_nap_, *now) <= step_timeout_s) return;
-  throw PeerLost(
-      fmt::format("{} (pid {}) hangs: it computes without end, for {:g} s (time.step_timeout) by now", label_,
-                  pid_, step_timeout_s));
+  throw PeerLost(fmt::format("{} hangs: it computes without end, for {:g} s (time.step_timeout) by now",
+                             called_, step_timeout_s));
 }
 
 bool Peer::rested(double seconds) {
@@ -178,9 +182,9 @@ void Peer::check_pulse(double timeout_s) {
   if (!asleep_since_) asleep_since_ = time;
   if (std::chrono::duration<double>(time - *asleep_since_).count() > timeout_s) {
     throw PeerLost(
-        fmt::format("{} (pid {}) hangs: it lives, but for {} s (time.peer_timeout) it has neither "
+        fmt::format("{} hangs: it lives, but for {} s (time.peer_timeout) it has neither "
                     "computed nor answered",
-                    label_, pid_, timeout_s));
+                    called_, timeout_s));
   }
 }
 

@@ -68,6 +68,8 @@ class Peer {
 
  private:
   std::string label_;
+  std::string called_;  ///< with its process
+  std::string host_;    ///< where that is, if not here
   int pid_;
   std::uint64_t born_ = 0;  ///< start time of the process; 0: not visible from here, only liveliness tells
   std::optional<std::chrono::steady_clock::time_point> silent_since_, asleep_since_, quiet_since_;

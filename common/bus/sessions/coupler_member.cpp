@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "common/bus/peers/peer.hpp"
 #include "common/core/failure.hpp"
 
 namespace fsi::bus {
@@ -35,7 +36,8 @@ std::vector<wire::Traffic> traffic_of(const std::deque<Member>& members) {
   return all;
 }
 
-void check_fits(const std::string& label, const wire::Hello& hello, const std::string& digest) {
+void check_fits(const std::string& label, const wire::Hello& hello, const std::string& digest,
+                const std::string& build) {
   if (hello.protocol != wire::protocol_version) {
     throw PeerLost(fmt::format("{} speaks protocol {}, the coupler speaks {}: build them from one version",
                                label, hello.protocol, wire::protocol_version));
@@ -43,6 +45,13 @@ void check_fits(const std::string& label, const wire::Hello& hello, const std::s
   if (hello.config_digest != digest) {
     throw PeerLost(fmt::format("{} read another case than the coupler (digest {}, not {})", label,
                                hello.config_digest, digest));
+  }
+  if (!build.empty() && !hello.build.empty() && hello.build != build) {
+    throw Failure(
+        ExitCode::user_mistake,
+        fmt::format("{} on {} is {}, the coupler on {} is {}: they would not get the numbers of one machine; "
+                    "start the same build on processors of one kind (FSI_MARCH)",
+                    label, hello.host, hello.build, host_name(), build));
   }
 }
 

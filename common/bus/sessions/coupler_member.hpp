@@ -76,8 +76,10 @@ struct Member {
 /// What came in from everybody.
 std::vector<wire::Traffic> traffic_of(const std::deque<Member>& members);
 
-/// @throws PeerLost the program speaks another protocol or has read another case
-void check_fits(const std::string& label, const wire::Hello& hello, const std::string& digest);
+/// `digest` of the case and `build` of the coupler. @throws PeerLost the program speaks another protocol or has read
+/// another case. @throws Failure it would compute other numbers (a mistake of the user's)
+void check_fits(const std::string& label, const wire::Hello& hello, const std::string& digest,
+                const std::string& build);
 
 /// Who has not joined after `seconds`, in words.
 std::string who_is_missing(const std::deque<Member>& members, const std::vector<std::string>& strangers,

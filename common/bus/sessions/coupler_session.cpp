@@ -157,7 +157,7 @@ struct CouplerSession::Implementation {
       throw Failure(ExitCode::user_mistake, fmt::format("two programs call themselves {} (pids {} and {})",
                                                         label, member.hello.pid, hello.pid));
     }
-    check_fits(label, hello, digest);
+    check_fits(label, hello, digest, link.options().build);
     member.peer = std::make_unique<Peer>(label, hello.host, hello.pid);
     member.newcomer.joined();
     for (const wire::InterfaceInfo& info : hello.interfaces) {

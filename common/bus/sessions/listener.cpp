@@ -39,9 +39,9 @@ void deliver(const wire::Control& request, const Entity& participant, double tim
 }  // namespace
 
 struct Listener::Implementation {
-  Implementation(std::string run_id, const std::string& key)
+  Implementation(std::string run_id, const std::string& key, const std::string& network)
       : run(std::move(run_id)),
-        domain(join_domain(run, participant_lease_s)),
+        domain(join_domain(run, participant_lease_s, network)),
         participant(create_participant(run, parse_key(key), "monitor")),
         waitset(participant),
         telemetry_reader(participant, telemetry_topic, Delivery::listening),
@@ -99,8 +99,8 @@ struct Listener::Implementation {
   std::vector<wire::Picture> pictures;
 };
 
-Listener::Listener(const std::string& run, const std::string& key)
-    : implementation_(std::make_unique<Implementation>(run, key)) {}
+Listener::Listener(const std::string& run, const std::string& key, const std::string& network)
+    : implementation_(std::make_unique<Implementation>(run, key, network)) {}
 Listener::Listener(Listener&&) noexcept = default;
 Listener& Listener::operator=(Listener&&) noexcept = default;
 Listener::~Listener() = default;
@@ -130,8 +130,8 @@ void Listener::request(const std::string& command, double timeout_s) {
 }
 
 void send_control(const std::string& run, const std::string& key, const std::string& command,
-                  double timeout_s) {
-  const auto domain = join_domain(run, participant_lease_s);
+                  double timeout_s, const std::string& network) {
+  const auto domain = join_domain(run, participant_lease_s, network);
   const Entity participant = create_participant(run, parse_key(key), "control");
   deliver({.run = run, .command = command}, participant, timeout_s);
 }

@@ -13,8 +13,8 @@ namespace fsi::bus {
 /// Best-effort reader of everybody's telemetry: a listener that freezes costs the run nothing.
 class Listener {
  public:
-  /// `key` is that of the run; without it a protected run cannot be heard.
-  explicit Listener(const std::string& run, const std::string& key = {});
+  /// `key` is that of the run; without it a protected run cannot be heard. `network`: BusOptions.
+  explicit Listener(const std::string& run, const std::string& key = {}, const std::string& network = {});
   Listener(Listener&&) noexcept;
   Listener& operator=(Listener&&) noexcept;
   ~Listener();
@@ -42,6 +42,6 @@ class Listener {
 /// protected run hears only who knows its `key`.
 /// @throws PeerLost nobody takes requests for that run within `timeout_s`
 void send_control(const std::string& run, const std::string& key, const std::string& command,
-                  double timeout_s = 3);
+                  double timeout_s = 3, const std::string& network = {});
 
 }  // namespace fsi::bus

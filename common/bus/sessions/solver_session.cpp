@@ -63,6 +63,7 @@ struct SolverSession::Implementation {
     self.run = link.options().run;
     self.host = host_name();
     self.pid = getpid();
+    self.build = link.options().build;
     link.waitset().attach(welcome_reader.condition());
     try {
       open_channels();

@@ -117,15 +117,17 @@ TEST(Convert, HelloKeepsItsInterfaces) {
                           .host = "h",
                           .pid = 3,
                           .points = 4,
+                          .build = "b",
                           .interfaces = {{.name = "a", .dimension = 2, .x = {1, 2}, .n = {0, 1}},
                                          {.name = "b", .dimension = 1, .x = {3}, .n = {}}}};
   const wire::Hello in = carried(hello);
   ASSERT_EQ(in.interfaces.size(), 2U);
   EXPECT_EQ(in.interfaces[0].n, hello.interfaces[0].n);
   EXPECT_EQ(in.interfaces[1].x, hello.interfaces[1].x);
-  EXPECT_EQ(std::tie(in.run, in.role, in.name, in.law, in.config_digest, in.host, in.pid, in.points),
-            std::tie(hello.run, hello.role, hello.name, hello.law, hello.config_digest, hello.host, hello.pid,
-                     hello.points));
+  EXPECT_EQ(
+      std::tie(in.run, in.role, in.name, in.law, in.config_digest, in.host, in.pid, in.points, in.build),
+      std::tie(hello.run, hello.role, hello.name, hello.law, hello.config_digest, hello.host, hello.pid,
+               hello.points, hello.build));
 }
 
 /// Telemetry without interfaces, every number of its own.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "common/bus/configuration.hpp"
 #include "common/bus/convert.hpp"
 #include "common/bus/dds.hpp"
 #include "common/bus/sessions/link.hpp"
@@ -42,6 +43,23 @@ TEST(Handshake, SolverOfAnotherCaseIsTurnedAwayByName) {
   for (const End& end : {coupler.get(), fluid.get(), beam.get()}) {
     EXPECT_EQ(end.code, ExitCode::peer_lost);
     EXPECT_TRUE(says(end.reason, "solid 'beam' read another case")) << end.reason;
+  }
+}
+
+TEST(Handshake, SolverThatWouldGetOtherNumbersIsTurnedAwayByName) {
+  const std::string run = own_run();
+  const auto built = [&](const std::string& what) {
+    BusOptions result = options(run);
+    result.build = what;
+    return result;
+  };
+  auto fluid = in_thread([&] { const SolverSession session(built("built for avx2"), gas()); });
+  auto coupler = in_thread([&] {
+    const CouplerSession session(built("built for sse2"), {{.role = "fluid", .name = "fluid"}}, "one case");
+  });
+  for (const End& end : {coupler.get(), fluid.get()}) {
+    EXPECT_EQ(end.code, ExitCode::user_mistake);
+    EXPECT_TRUE(says(end.reason, "is built for avx2, the coupler on")) << end.reason;
   }
 }
 
@@ -157,6 +175,20 @@ TEST(Handshake, WaitingEndsByTheCallersOwnException) {
   interrupted.throw_if_interrupted = [] { throw Failure(ExitCode::terminated, "ended on request"); };
   auto fluid = in_thread([&] { const SolverSession session(interrupted, gas()); });
   EXPECT_EQ(fluid.get().code, ExitCode::terminated);
+}
+
+TEST(Configuration, OfSeveralMachinesTakesTheInterfaceOfItsOwnAddressAndAsksAllOthers) {
+  const std::string here = configuration_xml("r", 10, ""),
+                    several = configuration_xml("r", 10, "10.0.0.2,10.0.0.1,10.0.0.3");
+  EXPECT_TRUE(says(here, R"(<NetworkInterface name="lo"/>)") &&
+              says(here, R"(<Peers><Peer Address="127.0.0.1"/></Peers>)"))
+      << here;
+  EXPECT_TRUE(says(several, R"(<NetworkInterface address="10.0.0.2"/>)")) << several;
+  EXPECT_TRUE(says(
+      several,
+      R"(<Peers><Peer Address="10.0.0.2"/><Peer Address="10.0.0.1"/><Peer Address="10.0.0.3"/></Peers>)"))
+      << several;
+  EXPECT_FALSE(says(several, "lo\"") || says(several, "127.0.0.1")) << several;
 }
 
 }  // namespace
