@@ -33,7 +33,7 @@ def _run(options):
     result = run(Request(case=options.case, overrides=options.overrides, laws=options.laws, out=options.out,
                          overwrite=options.overwrite, restart=options.restart, progress=options.progress, pause_at=options.pause_at,
                          monitor=options.monitor, protection=options.protection, frames=options.movie,
-                         ranks=options.ranks))
+                         ranks=options.ranks, hosts=options.hosts, remote_shell=options.remote_shell))
     if options.movie and result.code == DONE:
         from fsi_launch import plot
         plot.draw_movie(result.directory)
@@ -207,10 +207,15 @@ def _parser():
                       "or to attach a debugger, at the same place every time")
     verb.add_argument("--ranks", metavar="NAME=N,..", help="let N processes compute a gas together, e.g. --ranks fluid=4; auto: as many "
                       "as there are cores for. The numbers are the same to the bit. Takes Open MPI (docs/scaling.md)")
+    verb.add_argument("--hosts", metavar="NAME=HOST,..", help="let participants run on other machines, e.g. --hosts fluid=node2,disk=node3; "
+                      "HOST is what ssh takes, or HOST/ADDRESS where its programs shall meet the others at another address. Takes a "
+                      "login without password, and a file system that all see at the same place (docs/scaling.md)")
+    verb.add_argument("--remote-shell", metavar="COMMAND", help="what starts a command on a machine, in place of ssh: it gets HOST and "
+                      "a line for sh (default: $FSI_RSH, or ssh)")
     verb.add_argument("--movie", action="store_true", help="more output times, and an animated file DIR/plots/movie.mp4 of "
                       "them (.gif without ffmpeg)")
     protection = verb.add_mutually_exclusive_group()
-    protection.add_argument("--encrypt", dest="protection", action="store_const", const="encrypt", default="sign",
+    protection.add_argument("--encrypt", dest="protection", action="store_const", const="encrypt",
                             help="nobody else on this machine can read what the programs say to each other; that they "
                             "cannot falsify it is so by default")
     protection.add_argument("--no-security", dest="protection", action="store_const", const="off",

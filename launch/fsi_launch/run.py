@@ -11,7 +11,7 @@ from pathlib import Path
 
 from fsi_launch import case as cases
 from fsi_launch import paths
-from fsi_launch.living import interrupts, ranks, registry
+from fsi_launch.living import hosts, interrupts, ranks, registry
 from fsi_launch.results import probes, restart, summary, verdict
 from fsi_launch.failure import (DONE, EXPECTATION_MISSED, Failure, NUMBERS_BROKE, OUTPUT_FAILED, USER_MISTAKE, UserMistake)
 from fsi_launch.living.progress import Progress
@@ -40,8 +40,10 @@ class Request:
     pause_at: int = None    # after so many steps
     quiet: bool = False
     judge: bool = True      # hold the results against the case's expectations
-    protection: str = "sign"    # of the bus: off, sign or encrypt
+    protection: str = None  # of the bus: off, sign or encrypt; None: sign, between machines encrypt
     ranks: str = None       # NAME=N,.. or auto: processes that compute a participant together
+    hosts: str = None       # NAME=HOST,..: participants that run on other machines
+    remote_shell: str = None    # how they are reached
     frames: bool = False    # output times for a movie besides those of the case, unless the overrides say how many
 
 
@@ -103,7 +105,9 @@ def _make_directory(request, name):
 def _programs(case, directory, entry, checkpoint, reports, request):
     """`reports`: {name: file in memory} for a copy of what each leaves."""
     asked = ranks.wanted(request.ranks, case)
-    cores = ranks.cores(asked)
+    far = hosts.wanted(request.hosts, case)
+    networks = hosts.networks(far)
+    cores = ranks.cores({name: number for name, number in asked.items() if name not in far})
     for former in directory.glob("parts/*.rank*.json"):
         former.unlink(missing_ok=True)
     common = ["--case", str(directory / "case.yaml"), "--run-dir", str(directory), "--run", entry.run]
@@ -113,10 +117,13 @@ def _programs(case, directory, entry, checkpoint, reports, request):
     programs = []
     for name, program in case.programs.items():
         command, number = [paths.program(program), *common, "--name", name, *own.get(name, [])], asked.get(name, 1)
+        environment = {"AMP_FSI_KEY": entry.key} | (ranks.environment() if number > 1 else {})
+        if networks:
+            environment["AMP_FSI_NETWORK"] = networks[far[name].address if name in far else ""]
         programs.append(Program(
-            name, command if number == 1 else ranks.command(command, number), listen=name == case.speaker(),
-            environment={"AMP_FSI_KEY": entry.key} | (ranks.environment() if number > 1 else {}), report=reports[name],
-            tell_pids=name == COUPLER, ranks=number, cores=cores.get(name)))
+            name, command if number == 1 else ranks.command(command, number), listen=name == case.speaker(), environment=environment,
+            report=reports[name], tell_pids=name == COUPLER, ranks=number, cores=cores.get(name),
+            place=hosts.Place(far[name], request.remote_shell) if name in far else None))
     return programs
 
 
@@ -220,6 +227,9 @@ def _resolved(request, path, former=None):
     for program in case.programs.values():
         paths.program(program)
     ranks.expect_mpi(ranks.wanted(request.ranks, case))
+    if far := hosts.wanted(request.hosts, case, request.ranks, request.protection):
+        hosts.expect_shell(request.remote_shell)
+        hosts.networks(far)
     return case
 
 
@@ -243,7 +253,23 @@ def _begin(request, say):
                               "a restart can only go on")
         restart.prepare(directory)
     (directory / "case.yaml").write_text(case.text, encoding="utf-8")
+    if far := hosts.wanted(request.hosts, case):
+        _look_around(far, case, directory, request)
     return case, directory, checkpoint
+
+
+def _look_around(far, case, directory, request):
+    """All machines see what the programs need. Throws UserMistake, and leaves no new folder then."""
+    ranked = ranks.wanted(request.ranks, case)
+    programs = {name: [paths.program(program), *([shutil.which("mpirun")] if name in ranked else [])]
+                for name, program in case.programs.items()}
+    try:
+        hosts.expect_all(far, request.remote_shell, directory, programs)
+    except UserMistake:
+        if not request.restart:
+            _remove_former_run(directory)
+            directory.rmdir()
+        raise
 
 
 def run(request):
@@ -255,7 +281,10 @@ def run(request):
 
     start = time.monotonic()
     with _in_memory(case.programs) as reports:
-        entered = registry.Entry(identity, directory.resolve(), case.name, request.protection, case.programs)
+        far = hosts.wanted(request.hosts, case)
+        protection = request.protection or ("encrypt" if far else "sign")
+        network = hosts.networks(far).get("", "")
+        entered = registry.Entry(identity, directory.resolve(), case.name, protection, case.programs, network)
         with interrupts.held(), entered as entry, interrupts.heard():
             programs = _programs(case, directory, entry, checkpoint, reports, request)
             outcome = _watched(case, directory, programs, identity, request, say)

@@ -41,15 +41,16 @@ PATIENT = "from fsi_launch.living import supervise\nsupervise.GRACE = supervise.
 
 class Launched:
     """A running `./launch/fsi run`; its results go to `directory`, or where the arguments say if `out` is None. `script`: lines of
-    Python that the launcher executes before."""
+    Python that the launcher executes before. `before`: words before its command."""
 
-    def __init__(self, folder, *arguments, out="run", script=None):
+    def __init__(self, folder, *arguments, out="run", script=None, before=()):
+        self.before = before
         self.directory = folder / (out or "")
         self.runtime = folder / "runtime"
         self.runtime.mkdir(exist_ok=True)
         main = "import sys\nfrom fsi_launch import cli\nsys.exit(cli.main(sys.argv[1:]))"
         begin = [str(FSI)] if script is None else ["/usr/bin/python3", "-s", "-B", "-c", f"{script}\n{main}"]
-        command = [*begin, "run", *arguments, *(["--out", str(self.directory)] if out else [])]
+        command = [*before, *begin, "run", *arguments, *(["--out", str(self.directory)] if out else [])]
         environment = os.environ | {"FSI_BIN": str(BIN), "XDG_RUNTIME_DIR": str(self.runtime), "PYTHONPATH": str(ROOT / "launch")}
         self.process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                                         stderr=subprocess.PIPE, text=True, env=environment, cwd=folder)
@@ -94,7 +95,7 @@ class Launched:
     def ctl(self, word):
         """Asks the run for something."""
         environment = os.environ | {"FSI_BIN": str(BIN), "XDG_RUNTIME_DIR": str(self.runtime)}
-        subprocess.run([str(FSI), "ctl", str(self.directory), word], check=True, env=environment, timeout=WATCHDOG,
+        subprocess.run([*self.before, str(FSI), "ctl", str(self.directory), word], check=True, env=environment, timeout=WATCHDOG,
                        capture_output=True, stdin=subprocess.DEVNULL)
 
     def checkpoints(self):
@@ -118,7 +119,9 @@ class Launched:
 
 
 class EndToEnd(unittest.TestCase):
-    """Each test gets an empty folder; runs still going on when it ends are killed."""
+    """Each test gets an empty folder; runs still going on when it ends are killed. `before`: of their commands."""
+
+    before = ()
 
     def setUp(self):
         scratch = tempfile.TemporaryDirectory(prefix="fsi-test-")
@@ -126,7 +129,7 @@ class EndToEnd(unittest.TestCase):
         self.folder = Path(scratch.name)
 
     def launch(self, *arguments, out="run", script=None):
-        run = Launched(self.folder, *arguments, out=out, script=script)
+        run = Launched(self.folder, *arguments, out=out, script=script, before=self.before)
         self.addCleanup(self._end, run)
         return run
 

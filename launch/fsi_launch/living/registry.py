@@ -45,14 +45,15 @@ def _make_folder(path):
 
 class Entry:
     """A run's entry; exists while the context is open. `key`: what programs and monitors of the run share
-    (common/bus/peers/credentials.hpp). `protection`: "off", "sign" or "encrypt". `participants`: names of those who will speak."""
+    (common/bus/peers/credentials.hpp). `protection`: "off", "sign" or "encrypt". `participants`: names of those who will speak. `network`: where they meet, if they
+    are on several machines."""
 
-    def __init__(self, run, directory, case, protection, participants):
+    def __init__(self, run, directory, case, protection, participants, network=""):
         self.path = folder() / f"{run}.json"
         self.run = run
         self.key = "" if protection == "off" else f"{protection}:{secrets.token_hex(KEY_BYTES)}"
         self.content = {"run": run, "dir": str(directory), "case": case, "pid": os.getpid(),
-                        "born": processes.start_time(os.getpid()), "key": self.key, "participants": list(participants)}
+                        "born": processes.start_time(os.getpid()), "key": self.key, "participants": list(participants)} | ({"network": network} if network else {})
 
     def __enter__(self):
         _make_folder(self.path.parent)

@@ -15,8 +15,8 @@ import subprocess
 import time
 from dataclasses import dataclass, field
 
-from fsi_launch.failure import INTERRUPTED, TERMINATED
-from fsi_launch.living import interrupts, processes, ranks
+from fsi_launch.failure import INTERRUPTED, PEER_LOST, TERMINATED
+from fsi_launch.living import hosts, interrupts, processes, ranks
 
 GRACE = 4.0         # [s] from a program's failure to SIGTERM for the others: they should have ended by then
 NOT_BEGUN = 0.5     # [s] the same before everybody has joined
@@ -44,18 +44,25 @@ class Program:
     report: int = None  # descriptor of a file in memory for a copy of what it leaves (AMP_FSI_REPORT)
     ranks: int = 1      # more: the command is an mpirun
     cores: set = None   # on which it may run; None: on all
+    place: hosts.Place = None   # another machine
+
+    @property
+    def child_setup(self):
+        """For the process that is started for it here."""
+        return child_setup(os.getpid(), self.cores)
 
 
 @dataclass
 class Ending:
     """How a program ended. `ours`: the supervisor sent it the signal. `early`: it ended as if all were well, but the run had
-    not begun."""
+    not begun. `cut`: it ran on another machine, and why nothing is known of its end."""
 
     name: str
     code: int
     when: float
     ours: bool = False
     early: bool = False
+    cut: str = ""
 
     def lost(self):
         return self.code < 0 and not self.ours
@@ -69,7 +76,7 @@ class Outcome:
     signal: int = 0
 
 
-def _child_setup(parent, cores):
+def child_setup(parent, cores):
     """Runs in the child: it dies with its launcher, even if that is killed with SIGKILL."""
 
     def prepare():
@@ -96,6 +103,8 @@ class Supervisor:
         self._pidfds = {}
         self._signalled = set()
         self._ranked = set()        # names of those that several processes compute
+        self._far = {}              # {name: lines from the other machine} of those that run on one
+        self._reports = {}
         self._terminate_at = self._kill_at = float("inf")
         self._outcome = Outcome()
         self._begun = True          # everybody has joined, as far as one knows
@@ -124,27 +133,35 @@ class Supervisor:
 
     def _start(self, program):
         environment, command = os.environ | program.environment, list(program.command)
+        self._reports[program.name] = program.report
         if program.report is not None:
             # mpirun passes no open files on.
             environment["AMP_FSI_REPORT"] = str(program.report) if program.ranks == 1 else f"/proc/{os.getpid()}/fd/{program.report}"
         if program.tell_pids:
-            command += ["--pids", ",".join(f"{name}={process.pid}" for name, process in self._processes.items() if name not in self._ranked)]
-        with contextlib.ExitStack() as stack:
-            log = stack.enter_context(open(self._log_dir / f"{program.name}.out", "ab"))
-            process = subprocess.Popen(
-                command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE if program.listen else log,
-                stderr=log, start_new_session=True, preexec_fn=_child_setup(os.getpid(), program.cores), env=environment,
-                pass_fds=() if program.report is None else (program.report,))
+            command += ["--pids", ",".join(f"{name}={process.pid}" for name, process in self._processes.items()
+                                           if name not in self._ranked and name not in self._far)]
+        with open(self._log_dir / f"{program.name}.out", "ab") as log:
+            if program.place:
+                process = hosts.Far(program, command, log)
+                self._far[program.name] = []
+            else:
+                process = subprocess.Popen(
+                    command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE if program.listen else log,
+                    stderr=log, start_new_session=True, preexec_fn=program.child_setup, env=environment,
+                    pass_fds=() if program.report is None else (program.report,))
         self._processes[program.name] = process
         if program.ranks > 1:
             self._ranked.add(program.name)
         pidfd = os.pidfd_open(process.pid)
         self._pidfds[program.name] = pidfd
         self._selector.register(pidfd, selectors.EVENT_READ, lambda: self._ended(program.name))
-        if program.listen:
-            self._listen(process.stdout)
+        if program.place:
+            self._listen(process.stdout, self._far[program.name].append)
+        elif program.listen:
+            self._drain = self._listen(process.stdout, self._heard)
 
-    def _listen(self, pipe):
+    def _listen(self, pipe, heard):
+        """Its lines go to `heard`. Returns what takes in some of those that have come; false when there are none."""
         with contextlib.suppress(OSError):  # room for a launcher that is stopped for a while
             fcntl.fcntl(pipe, fcntl.F_SETPIPE_SZ, PIPE_SIZE)
         os.set_blocking(pipe.fileno(), False)
@@ -152,20 +169,22 @@ class Supervisor:
 
         def read():
             if pipe.closed:
-                return
+                return False
             data = pipe.read(65536)
             if data == b"":
-                self._selector.unregister(pipe)
+                with contextlib.suppress(KeyError):
+                    self._selector.unregister(pipe)
                 pipe.close()
-                return
+                return False
             rest.extend(data or b"")
             *lines, tail = rest.split(b"\n")
             rest[:] = tail
             for line in lines:
-                self._heard(line.decode("utf-8", "replace"))
+                heard(line.decode("utf-8", "replace"))
+            return bool(data)
 
         self._selector.register(pipe, selectors.EVENT_READ, read)
-        self._drain = read
+        return read
 
     def _heard(self, line):
         self._begun = self._begun or line.startswith(("joined", "progress "))
@@ -188,17 +207,33 @@ class Supervisor:
         os.close(self._pidfds.pop(name))
         if not self._begun:
             self._drain()
-        if name in self._ranked:    # its ranks do not outlive it
+        if name in self._ranked and name not in self._far:    # its ranks do not outlive it
             for pid in ranks.members(process.pid):
                 processes.signal_to(pid, signal.SIGKILL)
-        code = process.wait()
+        code, cut = process.wait(), ""
+        if name in self._far:
+            code, cut = self._far_end(name, process, code)
         if name in self._ranked and code > 128 and code not in (INTERRUPTED, TERMINATED):
             code = 128 - code       # as mpirun tells of a rank that a signal ended
-        ending = Ending(name, code, time.monotonic(), name in self._signalled)
+        ending = Ending(name, code, time.monotonic(), name in self._signalled, cut=cut)
         ending.early = ending.code == 0 and not self._begun
         self._outcome.endings.append(ending)
         grace = self._grace_after(ending)
         self._end_by(ending.when + grace, ending.when + grace + KILL_AFTER)
+
+    def _far_end(self, name, connection, code):
+        """(exit code, why nothing is known of its end) of a program on another machine. Its report becomes one of ours."""
+        if not connection.stdout.closed:
+            rest = self._selector.unregister(connection.stdout)
+            while rest.data():
+                continue
+        connection.close()
+        told = hosts.last_word("\n".join(self._far[name]))
+        if told is None:
+            return PEER_LOST, connection.cut(code)
+        if self._reports[name] is not None:
+            os.pwrite(self._reports[name], told["report"].encode(), 0)
+        return told["code"], ""
 
     def _grace_after(self, ending):
         """[s] that the others have then."""
@@ -236,16 +271,19 @@ class Supervisor:
             process = self._processes[name]
             self._signalled.add(name)
             with contextlib.suppress(ProcessLookupError):
-                if name in self._ranked:
+                if name in self._ranked and name not in self._far:
                     ranks.send(process, number)
                     continue
                 process.send_signal(number)
-                process.send_signal(signal.SIGCONT)  # a stopped program must hear it too
+                if name not in self._far:
+                    process.send_signal(signal.SIGCONT)  # a stopped program must hear it too
 
     def _end_everything(self):
         """Only after an error of our own is anything left here."""
         self._send(signal.SIGKILL)
         for name in list(self._processes):
+            if name in self._far:
+                self._processes[name].kill()
             self._ended(name)
         self._selector.close()
 

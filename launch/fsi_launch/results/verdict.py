@@ -25,7 +25,7 @@ class Verdict:
 
 def _is_consequence(ending):
     """Programs that end because another one did: by losing it, or by our signal."""
-    return not ending.early and (ending.ours or ending.code in (PEER_LOST, INTERRUPTED, TERMINATED))
+    return not ending.early and not (ending.cut and not ending.ours) and (ending.ours or ending.code in (PEER_LOST, INTERRUPTED, TERMINATED))
 
 
 def root_cause(endings, origins=None):
@@ -84,6 +84,8 @@ def _explain(ending, case, directory, part):
     if ending.early:
         return PEER_LOST, (f"lost {label}: it ended before the run began, with exit code {ending.code}"
                            f"{_last_words(directory, ending.name)}")
+    if ending.cut:
+        return PEER_LOST, f"lost {label}: {ending.cut}{_last_words(directory, ending.name)}"
     if ending.ours:
         return PEER_LOST, f"lost {label}: it did not end by itself"
     reason = _of_ranks(ending.name, directory, part.get("reason") or _last_line(directory, ending.name))

@@ -28,7 +28,7 @@ class Completion(unittest.TestCase):
 
     def test_options_and_cases(self):
         self.begun = "--re"
-        self.assertEqual(self.offered("fsi", "run"), {"--restart"})
+        self.assertEqual(self.offered("fsi", "run"), {"--restart", "--remote-shell"})
         self.begun = "so"
         self.assertEqual(self.offered("fsi", "gallery"), {"sod"})
         self.assertLessEqual({"--outline", "--material"}, self.all_after("new"))
