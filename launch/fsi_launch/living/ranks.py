@@ -23,6 +23,7 @@ OPTIONS = {
     "btl": "self,vader", "pml": "ob1", "oob_tcp_if_include": "lo",      # nothing leaves this machine
     "btl_vader_single_copy_mechanism": "none",      # the other ones want the right to look into other processes
     "mpi_yield_when_idle": "1", "odls_base_sigkill_timeout": "1",
+    "ras": "^slurm", "plm": "^slurm", "ess": "^slurm",      # inside a job of Slurm too: all ranks are where mpirun is
 }
 
 
