@@ -40,6 +40,11 @@ def _run(options):
     return result.code
 
 
+def _submit(options):
+    from fsi_launch import submit
+    return submit.main(options)
+
+
 def _check(options):
     from fsi_launch import check
     return check.main(options)
@@ -177,6 +182,24 @@ def _add_new(verbs):
     verb.set_defaults(act=_new)
 
 
+def _add_submit(verbs):
+    verb = verbs.add_parser("submit", description="Writes a script with which sbatch runs a case on a cluster with Slurm, and submits nothing. "
+                            "With several nodes it is a heterogeneous job. Untested with a real Slurm (docs/scaling.md).")
+    _add_case(verb)
+    verb.add_argument("--nodes", metavar="N", type=_jobs, default=1, help="nodes: one for the coupler and whatever else, one for each of the "
+                      "programs with most ranks (default: 1)")
+    verb.add_argument("--ranks", metavar="NAME=N,..", help="as for fsi run")
+    verb.add_argument("--time", metavar="HH:MM:SS", help="limit; two minutes before it the run writes a checkpoint and ends (default: the "
+                      "partition's, without a checkpoint)")
+    verb.add_argument("--option", metavar="OPTION", action="append", default=[], help="further option of sbatch, for each node, such as "
+                      "--option=--partition=short (repeatable)")
+    verb.add_argument("--results", metavar="DIR", help="folder of the results, as --out of fsi run")
+    verb.add_argument("--print", action="store_true", help="print the script")
+    verb.add_argument("--out", metavar="FILE", help="file of the script (default: CASE.sbatch)")
+    verb.add_argument("--overwrite", action="store_true", help="replace that file")
+    verb.set_defaults(act=_submit)
+
+
 def _add_gallery(verbs):
     verb = verbs.add_parser("gallery", description="Validated problems: without NAME lists them; with it runs the case, compares it with exact, "
                             "published or measured numbers, and writes a table and a picture. Exit 1 where a comparison fails.")
@@ -257,6 +280,7 @@ def _parser():
     verb.set_defaults(act=_study)
 
     _add_gallery(verbs)
+    _add_submit(verbs)
 
     verb = verbs.add_parser("test", description="Builds everything and runs the tests: unit, programs, convergence, "
                             "regression.")
