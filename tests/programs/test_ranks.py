@@ -4,6 +4,8 @@ after a restart on other ranks; and when a rank is killed or stopped, or mpirun 
 
 test_ranks.py --kills N [SEED]           so many runs with three ranks, of which somebody is killed or stopped at a random moment
 test_ranks.py --all [RANKS..] [CASE..]  all shipped cases, or these, for some steps, with so many ranks (default: 2 3 4 7)
+test_ranks.py --restarts [RANKS..] [CASE..]  the same, from a checkpoint of the first number of ranks on with the second, and so on around
+                                        (default: 3 2 4)
 """
 
 import os
@@ -107,7 +109,7 @@ class Faults(OnRanks):
         self.assertRegex(self.lose(1, signal.SIGSTOP), r"rank 1 of fluid \(process \d+\): it has been stopped for 4\.?\d* s")
 
     def test_killed_mpirun(self):
-        self.assertIn("lost fluid", self.lose(None, signal.SIGKILL))
+        self.assertRegex(self.lose(None, signal.SIGKILL), r"lost fluid|lost mpirun \(process \d+\), which started the ranks of fluid")
 
     def test_end_on_request_leaves_a_checkpoint(self):
         run = self.launch(*LASTING)
@@ -166,22 +168,65 @@ def digest_of(directory):
     return results(directory), numbers(run.summary()), health(directory), state
 
 
+def shipped(cases):
+    """(path, name, its gases) of the shipped cases with a gas, or those of them that are named."""
+    for path in sorted((ROOT / "configs").glob("*.yaml")):
+        if path.stem in SOLIDS_ONLY or path.stem == "template" or cases and path.stem not in cases:
+            continue
+        yield path, path.stem, [word for word in ("fluid", "left", "right", "above", "below", "in", "out")
+                                if re.search(rf"^  {word}:|^{word}:", path.read_text(encoding="utf-8"), flags=re.M)]
+
+
+def on_ranks(gases, number):
+    return ["--ranks", ",".join(f"{name}={number}" for name in gases)] if number > 1 else []
+
+
+def restart_all(numbers_of_ranks, cases, steps=16):
+    """The names of cases whose restart on other ranks is not the run that was never interrupted."""
+    failed = []
+    for path, case, gases in shipped(cases):
+        with tempfile.TemporaryDirectory() as scratch:
+            options = few_steps(f"configs/{path.name}", steps)
+            whole = Launched(Path(scratch), case, *options, out="whole")
+            verdicts = [] if whole.wait() == 0 else [f"1: {whole.stderr.strip().splitlines()[-1]}"]
+            for before, after in zip(numbers_of_ranks, [*numbers_of_ranks[1:], numbers_of_ranks[0]]):
+                if verdicts and "same" not in verdicts[-1]:
+                    break
+                verdicts.append(restarted(Path(scratch), case, [*options, *on_ranks(gases, before)], on_ranks(gases, after), whole))
+                verdicts[-1] = f"{before} -> {after}: {verdicts[-1]}"
+        failed += [] if all("same" in verdict for verdict in verdicts) else [case]
+        print(f"{case:25} {', '.join(verdicts)}", flush=True)
+    return failed
+
+
+def restarted(scratch, case, options, ranks, whole):
+    """What became of a run that goes on from its first checkpoint on other ranks, in a word."""
+    for every in (10, 4, 2):    # of few steps
+        run = Launched(scratch, case, *options, "--set", f"output.checkpoint_every={every}", out=f"run{len(list(scratch.iterdir()))}")
+        if run.wait() != 0:
+            return run.stderr.strip().splitlines()[-1]
+        if len(run.checkpoints()) > 1:
+            break
+    for step in run.checkpoints()[1:]:
+        shutil.rmtree(next(one for one in run.directory.glob("checkpoints/*") if int(one.name) == step))
+    again = Launched(scratch, "--restart", str(run.directory), *ranks, out=None)
+    again.directory = run.directory
+    if again.wait() != 0:
+        return again.stderr.strip().splitlines()[-1]
+    same = [mine == its for mine, its in zip(digest_of(whole.directory)[:3], digest_of(again.directory)[:3])]
+    return f"same from step {run.checkpoints()[0]}" if all(same) else f"DIFFERENT {same}"
+
+
 def compare_all(numbers_of_ranks, cases, steps=16):
     failed = []
     with tempfile.TemporaryDirectory() as scratch:
-        for path in sorted((ROOT / "configs").glob("*.yaml")):
-            case = path.stem
-            if case in SOLIDS_ONLY or case == "template" or cases and case not in cases:
-                continue
-            gases = [word for word in ("fluid", "left", "right", "above", "below", "in", "out")
-                     if re.search(rf"^  {word}:|^{word}:", path.read_text(encoding="utf-8"), flags=re.M)]
+        for path, case, gases in shipped(cases):
             verdicts = []
             whole = None
             for number, every in [(1, 0), *((n, 0) for n in numbers_of_ranks), (numbers_of_ranks[-1], 5)]:
                 folder = Path(scratch) / case / f"{number}_{every}"
                 folder.mkdir(parents=True)
-                asked = [f"{name}={number}" for name in gases] if gases else []
-                run = Launched(folder, case, *few_steps(f"configs/{path.name}", steps), *(["--ranks", ",".join(asked)] if number > 1 else []),
+                run = Launched(folder, case, *few_steps(f"configs/{path.name}", steps), *on_ranks(gases, number),
                                script=RECUT.format(every=every) if every else None)
                 if run.wait() != 0:
                     verdicts.append(f"{number}: {run.stderr.strip().splitlines()[-1]}")
@@ -221,8 +266,9 @@ def kill_again_and_again(runs, seed):
 if __name__ == "__main__":
     if "--kills" in sys.argv:
         sys.exit(1 if kill_again_and_again(int(sys.argv[2]), int((sys.argv[3:] or [1])[0])) else 0)
-    if "--all" in sys.argv:
-        words = sys.argv[2:]
-        counts = [int(word) for word in words if word.isdecimal()] or [2, 3, 4, 7]
-        sys.exit(1 if compare_all(counts, [word for word in words if not word.isdecimal()]) else 0)
+    for option, compare, default in (("--all", compare_all, [2, 3, 4, 7]), ("--restarts", restart_all, [3, 2, 4])):
+        if option in sys.argv:
+            words = sys.argv[2:]
+            counts = [int(word) for word in words if word.isdecimal()] or default
+            sys.exit(1 if compare(counts, [word for word in words if not word.isdecimal()]) else 0)
     unittest.main()
