@@ -17,19 +17,20 @@ struct DiskGrids {
   std::vector<grid::BodyFittedGrid> bodies;
 };
 
-/// `cells` per unit length, in the background and along the outline; `rim` is the condition on the outline,
+/// `cells` per `unit` of length, in the background and along the outline; `rim` is the condition on the outline,
 /// side bottom of grid 1.
-inline DiskGrids body_of(const grid::PlaneCurve& outline, int cells, Boundary rim, int lines = 9) {
-  const double h = 1.0 / cells;
-  const int points = static_cast<int>(grid::length_of(outline) * cells) + 1;
+inline DiskGrids body_of(const grid::PlaneCurve& outline, int cells, Boundary rim, int lines = 9,
+                         double unit = 1) {
+  const double h = unit / cells;
+  const int points = static_cast<int>(grid::length_of(outline) / unit * cells) + 1;
   const grid::HyperbolicGrid annulus{.name = "annulus", .points = points, .lines = lines, .spacing = h};
   Boundaries nothing, sides;
   for (Boundary& boundary : nothing) boundary.kind = Boundary::Kind::none;
   sides[0].kind = sides[1].kind = Boundary::Kind::periodic;
   sides[2] = std::move(rim);
   sides[3].kind = Boundary::Kind::none;
-  const double low = -1.25, high = 1.25;
-  const int n = static_cast<int>(std::lround((high - low) * cells)) + 1;
+  const double low = -1.25 * unit, high = 1.25 * unit;
+  const int n = static_cast<int>(std::lround((high - low) / h)) + 1;
   DiskGrids disk;
   disk.parts.push_back({grid::MovingGrid({.name = "inside",
                                           .n1 = n,
@@ -45,8 +46,8 @@ inline DiskGrids body_of(const grid::PlaneCurve& outline, int cells, Boundary ri
   return disk;
 }
 
-inline DiskGrids disk_of(int cells, Boundary rim, int lines = 9) {
-  return body_of(grid::circle({0, 0}, 1), cells, std::move(rim), lines);
+inline DiskGrids disk_of(int cells, Boundary rim, int lines = 9, double unit = 1) {
+  return body_of(grid::circle({0, 0}, unit), cells, std::move(rim), lines, unit);
 }
 
 }  // namespace fsi::solid::test
