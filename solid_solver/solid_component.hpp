@@ -82,6 +82,7 @@ class SolidComponent {
   void evaluate_source(double t);
   void add_source(double weight);
   void add_relaxation_offset(double t, double dt);
+  void keep_tractions(double t, double dt);
 
   grid::MovingGrid grid_;
   SolidPoints points_;
@@ -226,6 +227,18 @@ void SolidComponent<L>::add_relaxation_offset(double t, double dt) {
   }
 }
 
+/// Of loaded sides, where paper eq. (41) must not change them.
+template <Law L>
+void SolidComponent<L>::keep_tractions(double t, double dt) {
+  const double beta = options_.relaxation.at(dt), half = t + 0.5 * dt;
+  if (beta == 0) return;
+  if (metrics_.cartesian()) {
+    boundary_.template correct_relaxation<CartesianGradient4>(q_.view(), next_.view(), beta, half);
+  } else {
+    boundary_.template correct_relaxation<MappedGradient4>(q_.view(), next_.view(), beta, half);
+  }
+}
+
 template <Law L>
 template <class Row, class Gradient>
 SweepResult SolidComponent<L>::sweep_with(double dt, Look look) {
@@ -300,6 +313,7 @@ void SolidComponent<L>::complete(double t, double dt) {
   const double beta_u = options_.displacement.at(dt);
   if (beta_u != 0) boundary_.correct_displacement_dissipation(q_.view(), next_.view(), beta_u);
   if (chosen_) add_relaxation_offset(t + 0.5 * dt, dt);
+  keep_tractions(t, dt);
   std::swap(q_, next_);
   added_ = 0;
   if (!chosen_) return;

@@ -63,6 +63,10 @@ class SolidBoundary {
   /// Takes back what paper eq. (40) across loaded sides, with beta = beta^u, did to their own points on the way
   /// from q to `next`: the ghost displacement there makes the traction right, it does not continue the field.
   void correct_displacement_dissipation(ConstFieldView q, FieldView next, double beta) const;
+  /// Takes back what paper eq. (41) with beta = beta^r did on the way from q to `next` to the traction of loaded sides,
+  /// as far as it would make noise grow (traction_share). `t`: of the offset of a chosen solution.
+  template <class Gradient>
+  void correct_relaxation(ConstFieldView q, FieldView next, double beta, double t) const;
 
   Kind kind(Side side) const { return kinds_[index(side)]; }
   /// Displacement and velocity of point k of a side where it also lies on a side whose motion is given.

@@ -2,6 +2,8 @@
 /// SolidBoundary, third part: the order of its work, and ghost
 /// points that make stress and displacement fit together.
 
+#include <algorithm>
+
 #include "solid_solver/boundary/solid_boundary.hpp"
 #include "solid_solver/kernels/dissipation.hpp"
 
@@ -28,9 +30,25 @@ void SolidBoundary<L>::apply(FieldView q, double t, std::span<const InterfaceVal
   fill_frame(q, t);
 }
 
+/// 1 beside cells whose sides are as 1 to 1.1 or nearer, and less the longer or the flatter they are [-].
+inline double squareness(const SideMetrics& m) {
+  const double squared_ratio = m.across.squaredNorm() / m.along.squaredNorm();
+  const double shape = std::min(squared_ratio, 1.0 / squared_ratio);
+  return std::min(1.0, 1.5 * shape * shape);
+}
+
+/// How much of paper eq. (41) the traction of a loaded side takes [-]. The traction of P(F) is right with the second
+/// differences of (43), (41) has fourth-order ones. What they differ by moves the side along the characteristics and
+/// makes noise grow where cells are far from square, or where beta^r takes nearly all of it
+/// (docs/theory_solid.md, stability).
+inline double traction_share(const SideMetrics& m, double beta) {
+  return squareness(m) * std::clamp(2.5 * (0.9 - beta), 0.0, 1.0);
+}
+
 /// A ghost point of paper eq. (43) contains differences along the side, times the cell's depth over its length:
 /// what (40) makes of them on the side itself is no dissipation, and grows on deep cells. So the side's own
-/// points take none across the side.
+/// points take none across the side, and beside cells that are not square the next line takes it with an extrapolated
+/// ghost point.
 template <Law L>
 void SolidBoundary<L>::correct_displacement_dissipation(ConstFieldView q, FieldView next, double beta) const {
   const double factor = 0.5 * beta;
@@ -38,11 +56,40 @@ void SolidBoundary<L>::correct_displacement_dissipation(ConstFieldView q, FieldV
     if (!loaded(side)) continue;
     const SideIndex& line = line_of(side);
     for (const int k : points(side)) {
+      const auto [i, j] = grid_point(layout(), side, k);
+      const int step = at_upper_end(side) ? -1 : 1;
+      const bool first = direction_of(side) == 0;
+      const bool has_next = grid_.points->is_discretised(first ? i + step : i, first ? j : j + step);
+      const double unlike = has_next ? factor * (1.0 - squareness(at(side, k))) : 0.0;
       for (int p = plane::u1; p <= plane::u2; ++p) {
         const double* values = q.plane(p);
         const auto u = [&](int m) { return values[line.at(k, m)]; };
+        const double beyond = u(-1) - extrapolated(u(0), u(1), u(2), limiter_);
         next.plane(p)[line.at(k, 0)] += factor * fourth_difference(u(-2), u(-1), u(0), u(1), u(2));
+        next.plane(p)[line.at(k, 1)] += unlike * fourth_difference(beyond, 0, 0, 0, 0);
       }
+    }
+  }
+}
+
+template <Law L>
+template <class Gradient>
+void SolidBoundary<L>::correct_relaxation(ConstFieldView q, FieldView next, double beta, double t) const {
+  for (const Side side : all_sides) {
+    if (!loaded(side)) continue;
+    for (const int k : points(side)) {
+      const SideMetrics& m = at(side, k);
+      const double back = 1.0 - traction_share(m, beta);
+      if (back == 0) continue;
+      const auto [i, j] = grid_point(layout(), side, k);
+      const WideRow u1(q, plane::u1, j), u2(q, plane::u2, j);
+      const Gradient gradient(grid_.x, *grid_.metrics, j);
+      const std::ptrdiff_t a = layout().at(i, j);
+      const Tensor2 P = minus(load(q, a).P, chosen_offset(a, t));
+      const Vec2 taken = traction_of(surplus(law_, gradient(i, u1.first(i), u2.first(i)), P, beta), m.n0);
+      SolidState s = load(next, a);
+      s.P = plus_dyad(s.P, m.n0, back * taken);
+      store(next, a, s);
     }
   }
 }
