@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <limits>
@@ -54,6 +55,16 @@ void write_positions(Hdf5& group, const GridOutput& grid, const std::array<std::
   group.write("x", both, std::array{shape[0], shape[1], std::uint64_t{2}}, packing);
 }
 
+/// What each point is, for readers of the file and for VTK.
+void write_kinds(Hdf5& group, const GridOutput& grid, const std::array<std::uint64_t, 2>& shape) {
+  const std::vector<double> kinds(grid.kinds.begin(), grid.kinds.end());
+  group.write("kind", kinds, shape, packing_of(grid));
+  constexpr std::uint8_t shown = 0, hidden = 2;  // vtkDataSetAttributes::HIDDENPOINT
+  std::vector<std::uint8_t> ghost_type(grid.kinds.size());
+  std::ranges::transform(grid.kinds, ghost_type.begin(), [](int kind) { return kind == 0 ? hidden : shown; });
+  group.write(std::string(vtk_ghost_type), ghost_type, shape, packing_of(grid));
+}
+
 void write_grid(Hdf5 group, const GridOutput& grid) {
   const std::array shape{static_cast<std::uint64_t>(grid.x.layout.n2),
                          static_cast<std::uint64_t>(grid.x.layout.n1)};
@@ -65,9 +76,7 @@ void write_grid(Hdf5 group, const GridOutput& grid) {
     }
     group.write(field.name, values, shape, packing_of(grid));
   }
-  if (grid.kinds.empty()) return;
-  const std::vector<double> kinds(grid.kinds.begin(), grid.kinds.end());
-  group.write("kind", kinds, shape, packing_of(grid));
+  if (!grid.kinds.empty()) write_kinds(group, grid, shape);
 }
 
 /// @throws OutputFailed where an output of a series that goes on is not there or cannot be read

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "common/core/archive.hpp"
@@ -24,6 +25,9 @@ struct NamedPlane {
   int plane = 0;
 };
 
+/// Dataset of bytes that VTK's programs, ParaView among them, look for: points they leave out, with their cells.
+inline constexpr std::string_view vtk_ghost_type = "vtkGhostType";
+
 /// What is written of one component grid. Ghost lines are left out.
 struct GridOutput {
   std::string grid;  ///< name of the component grid
@@ -31,7 +35,7 @@ struct GridOutput {
   ConstFieldView u;  ///< planes 0, 1: displacement of a solid; empty for a gas
   std::vector<NamedPlane> fields;
   /// What each point is, row by row: 0 unused, 1 discretised, 2 interpolated; empty where all are
-  /// discretised. Written as `kind`; fields are not a number at unused points.
+  /// discretised. Written as `kind`, and as `vtkGhostType`; fields are not a number at unused points.
   std::vector<std::uint8_t> kinds = {};
   bool sparse = false;  ///< most points are unused: compressed
 };

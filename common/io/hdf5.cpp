@@ -156,11 +156,11 @@ void Hdf5::link(const std::string& name, const std::string& file, const std::str
   require(status >= 0, path_, fmt::format("cannot link '{}' to '{}'", name, file));
 }
 
-void Hdf5::write(const std::string& name, std::span<const double> values,
-                 std::span<const std::uint64_t> shape, Packing packing) {
+void Hdf5::write_values(const std::string& name, const Values& values, std::span<const std::uint64_t> shape,
+                        Packing packing) {
   const auto expected = std::accumulate(shape.begin(), shape.end(), std::uint64_t{1}, std::multiplies<>());
-  if (expected != values.size()) {
-    throw std::logic_error(fmt::format("dataset '{}': {} values do not fill its shape", name, values.size()));
+  if (expected != values.count) {
+    throw std::logic_error(fmt::format("dataset '{}': {} values do not fill its shape", name, values.count));
   }
   const std::vector<hsize_t> extent(shape.begin(), shape.end());
   const Handle space(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), H5Sclose);
@@ -168,11 +168,21 @@ void Hdf5::write(const std::string& name, std::span<const double> values,
   H5Pset_obj_track_times(timeless.get(), false);
   if (packing == Packing::deflated) deflate(timeless, extent);
   const Handle dataset(
-      H5Dcreate2(id_, name.c_str(), H5T_IEEE_F64LE, space.get(), H5P_DEFAULT, timeless.get(), H5P_DEFAULT),
+      H5Dcreate2(id_, name.c_str(), values.in_file, space.get(), H5P_DEFAULT, timeless.get(), H5P_DEFAULT),
       H5Dclose);
-  require(dataset &&
-              H5Dwrite(dataset.get(), H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0,
-          path_, fmt::format("cannot write the dataset '{}'", name));
+  require(
+      dataset && H5Dwrite(dataset.get(), values.in_memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data) >= 0,
+      path_, fmt::format("cannot write the dataset '{}'", name));
+}
+
+void Hdf5::write(const std::string& name, std::span<const double> values,
+                 std::span<const std::uint64_t> shape, Packing packing) {
+  write_values(name, {values.data(), values.size(), H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE}, shape, packing);
+}
+
+void Hdf5::write(const std::string& name, std::span<const std::uint8_t> values,
+                 std::span<const std::uint64_t> shape, Packing packing) {
+  write_values(name, {values.data(), values.size(), H5T_STD_U8LE, H5T_NATIVE_UINT8}, shape, packing);
 }
 
 void Hdf5::write(const std::string& name, std::span<const double> values) {

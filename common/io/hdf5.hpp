@@ -42,6 +42,9 @@ class Hdf5 {
   void write(const std::string& name, std::span<const double> values, std::span<const std::uint64_t> shape,
              Packing packing = Packing::plain);
   void write(const std::string& name, std::span<const double> values);
+  /// Small whole numbers, a byte each.
+  void write(const std::string& name, std::span<const std::uint8_t> values,
+             std::span<const std::uint64_t> shape, Packing packing = Packing::plain);
   Array read(const std::string& name) const;
 
   void write_attribute(const std::string& name, double value);
@@ -63,9 +66,19 @@ class Hdf5 {
   Hdf5(std::string path, std::int64_t id, bool is_file)
       : path_(std::move(path)), id_(id), is_file_(is_file) {}
 
+  /// Values and the types they have, in the library's numbers.
+  struct Values {
+    const void* data;
+    std::size_t count;
+    std::int64_t in_file, in_memory;
+  };
+
   std::string path_;
   std::int64_t id_ = -1;
   bool is_file_ = false;
+
+  void write_values(const std::string& name, const Values& values, std::span<const std::uint64_t> shape,
+                    Packing packing);
 };
 
 }  // namespace fsi::io

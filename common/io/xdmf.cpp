@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "common/io/atomic_file.hpp"
+#include "common/io/grid_writer.hpp"
 #include "common/io/hdf5.hpp"
 
 namespace fsi::io {
@@ -24,9 +25,9 @@ struct Block {
 };
 
 std::string data_item(const std::string& reference, const std::string& dimensions) {
-  return fmt::format(
-      R"(<DataItem Dimensions="{}" NumberType="Float" Precision="8" Format="HDF">{}</DataItem>)", dimensions,
-      reference);
+  const bool bytes = reference.ends_with(vtk_ghost_type);
+  return fmt::format(R"(<DataItem Dimensions="{}" NumberType="{}" Precision="{}" Format="HDF">{}</DataItem>)",
+                     dimensions, bytes ? "UChar" : "Float", bytes ? 1 : 8, reference);
 }
 
 bool is_position(std::string_view name) {

@@ -136,6 +136,21 @@ TEST_F(GridSeries, XdmfReferencesArraysThatExistWithTheShapeItStates) {
   EXPECT_EQ(all_between(text, "<Time Value=\"", "\""), (std::vector<std::string>{"0", "0.5", "1"}));
 }
 
+TEST_F(GridSeries, UnusedPointsAreHiddenFromWhateverIsBuiltOnVtk) {
+  GridWriter writer(dir, "fluid");
+  GridOutput grid{.grid = "channel", .x = x.view(), .u = {}, .fields = {{"rho", q.view(), 0}}};
+  for (std::uint8_t k = 0; k < n1 * n2; ++k) grid.kinds.push_back(k % 3);
+  writer.write(0, 0, {&grid, 1});
+  write_xdmf(dir);
+  const Array kind = Hdf5::open(dir + "/fluid.h5").read("000000/channel/kind");
+  const Array hidden = Hdf5::open(dir + "/fluid.h5").read("000000/channel/vtkGhostType");
+  ASSERT_EQ(hidden.shape, kind.shape);
+  for (std::size_t k = 0; k < kind.values.size(); ++k)
+    EXPECT_EQ(hidden.values[k], kind.values[k] == 0 ? 2 : 0);
+  EXPECT_EQ(all_between(content(dir + "/run.xmf"), R"(NumberType="UChar" Precision="1" Format="HDF">)", "<"),
+            (std::vector<std::string>{"fields/fluid_000000.h5:/channel/vtkGhostType"}));
+}
+
 TEST_F(GridSeries, XdmfOfAnInterruptedRunShowsWhatIsThereAndIsRepeatable) {
   GridWriter fluid(dir, "fluid"), solid(dir, "solid_beam");
   write_fluid(fluid, 0, 0);

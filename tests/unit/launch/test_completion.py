@@ -2,6 +2,7 @@
 """Completion for bash offers verbs, options and cases."""
 
 import subprocess
+import tempfile
 import unittest
 
 import launcher  # noqa: F401  the path of the modules
@@ -12,8 +13,9 @@ from fsi_launch import cli, completion
 class Completion(unittest.TestCase):
     def offered(self, *words):
         ask = f'COMP_WORDS=({" ".join(words)} "$1"); COMP_CWORD={len(words)}; _fsi; printf "%s\\n" "${{COMPREPLY[@]}}"'
-        answer = subprocess.run(["bash", "-c", completion.script(cli._parser()) + ask, "bash", self.begun], capture_output=True,
-                                text=True, check=True)
+        with tempfile.TemporaryDirectory() as empty:  # names of files are offered too
+            answer = subprocess.run(["bash", "-c", completion.script(cli._parser()) + ask, "bash", self.begun], cwd=empty,
+                                    capture_output=True, text=True, check=True)
         return set(answer.stdout.split())
 
     def all_after(self, verb):

@@ -9,7 +9,7 @@ import numpy as np
 
 from fsi_launch.failure import UserMistake
 
-NOT_FIELDS = ("x", "x1", "x2", "kind")  # "x" holds x1 and x2 side by side, for ParaView
+NOT_FIELDS = ("x", "x1", "x2", "kind", "vtkGhostType")  # "x" holds x1 and x2 side by side, for ParaView
 UNUSED, DISCRETISED, INTERPOLATED = 0, 1, 2
 SAME_TIME = 1e-9    # part of the time (or time, below 1) by which an output may differ from the one asked for
 
