@@ -102,7 +102,9 @@ def _unreadable(directory):
     for path in directory.glob("*.h5"):
         try:
             with h5py.File(path) as file:
-                if file.attrs["outputs"] != sum("t" in output.attrs for output in file.values()):
+                outputs = sum("t" in output.attrs for output in file.values())
+                # What is written once at the end, whole, is no series.
+                if outputs != (len(file) if path.name == "reference.h5" else file.attrs["outputs"]):
                     yield f"{path.name} lacks outputs"
         except (OSError, KeyError) as error:
             yield f"{path.name} does not open: {error}"
