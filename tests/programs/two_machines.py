@@ -72,7 +72,8 @@ class Machines:
             self._server.stdout.close()
             self._server.stderr.close()
         for space in self._spaces:
-            subprocess.run(["ip", "netns", "delete", space], check=False, capture_output=True)
+            with contextlib.suppress(OSError):  # there may be no ip
+                subprocess.run(["ip", "netns", "delete", space], check=False, capture_output=True)
 
 
 def _serve(address):
