@@ -27,6 +27,8 @@ struct Member {
   InSample Sample::*in_sample;
   InMessage Message::*in_message;
 };
+template <class Sample, class InSample, class Message, class InMessage>
+Member(InSample Sample::*, InMessage Message::*) -> Member<Sample, InSample, Message, InMessage>;
 
 /// `list`: the Member pairs of a message; sequences of structures are none of them. `Sample`: its C structure.
 template <class Message>
