@@ -171,7 +171,7 @@ TEST(HyperbolicMarch, LinesStayOffTheWallOverWhichTheirCurveLeans) {
 /// Inside of a wedge of 11 degrees on a wall, whose tip is the last point of the curve.
 Field wedge_inside(bool flat) {
   constexpr int points = 131, lines = 7;
-  std::vector<double> curve(2 * points);
+  std::vector<double> curve(2 * static_cast<std::size_t>(points));
   for (std::size_t k = 0; k < points; ++k) {
     const double s = 1 - static_cast<double>(k) / (points - 1);
     curve[k] = s;
