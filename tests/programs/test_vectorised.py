@@ -7,6 +7,7 @@ scalar code for the points that are left over, one by one in a loop or unrolled.
 pass as the scalar code does per point; then nothing of the loop was left out of it, whatever the width of the vectors.
 """
 
+import json
 import os
 import re
 import subprocess
@@ -118,6 +119,16 @@ class Kernels(unittest.TestCase):
         for program in sorted(path.name for path in Path(os.environ["FSI_BIN"]).glob("solid_solver_*")):
             if program not in ("solid_solver_rigid", "solid_solver_beam"):  # which have no grid of points
                 self.check(program, SOLID)
+
+
+class Options(unittest.TestCase):
+    """g++ takes the optimisation of precompiled headers for that of the source: -O3 and the rounding of one source would be lost."""
+
+    def test_sources_with_an_optimisation_of_their_own_have_no_precompiled_headers(self):
+        commands = json.loads((Path(os.environ["FSI_BIN"]).parent / "compile_commands.json").read_text(encoding="utf-8"))
+        own = [entry for entry in commands if re.search(r" -O3 | -ffp-contract=off ", entry["command"])]
+        self.assertGreater(len(own), 10)
+        self.assertEqual([entry["file"] for entry in own if "cmake_pch" in entry["command"]], [])
 
 
 class Measure(unittest.TestCase):
