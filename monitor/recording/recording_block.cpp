@@ -198,72 +198,91 @@ wire::Traffic traffic_from(std::span<const double> row, const TextOf& text) {
           .latency_p99_us = row[7]};
 }
 
+/// The tables of a block, filled message by message.
+class Tables {
+ public:
+  void add(double at, const wire::Telemetry& m) {
+    add_state(at, m);
+    for (const wire::StepsLimited& limit : m.limits)
+      limits_.row(std::array{texts_.number(limit.by), count(limit.steps)});
+    for (const wire::Traffic& line : m.traffic) {
+      traffic_.row(std::array{texts_.number(line.interface), texts_.number(line.from), count(line.messages),
+                              count(line.bytes), count(line.missing), count(line.dropped),
+                              line.latency_p50_us, line.latency_p99_us});
+    }
+    for (const Side& side : m.interfaces) add_side(side);
+  }
+  void add(double at, const wire::Abort& abort) {
+    aborts_.row(std::array{at, texts_.number(abort.from), static_cast<double>(abort.exit_code),
+                           texts_.number(abort.reason())});
+  }
+  void write(io::Hdf5& group) const {
+    for (const Table* table : {&messages_, &sides_, &profiles_, &traffic_, &limits_, &aborts_})
+      table->write(group);
+    for (std::size_t k = 0; k < texts_.all().size(); ++k)
+      group.write_attribute(fmt::format("text_{}", k), texts_.all()[k]);
+  }
+
+ private:
+  Texts texts_;
+  Table messages_{.name = "messages", .columns = message_columns};
+  Table sides_{.name = "interfaces", .columns = interface_columns};
+  Table profiles_{.name = "profiles", .columns = profile_columns};
+  Table traffic_{.name = "traffic", .columns = traffic_columns};
+  Table limits_{.name = "limits", .columns = limit_columns};
+  Table aborts_{.name = "aborts", .columns = abort_columns};
+
+  void add_state(double at, const wire::Telemetry& m) {
+    messages_.row(std::array{at,
+                             texts_.number(m.from),
+                             texts_.number(m.role),
+                             texts_.number(m.state),
+                             texts_.number(m.host),
+                             static_cast<double>(m.pid),
+                             count(m.step),
+                             m.t,
+                             m.t_end,
+                             m.dt,
+                             texts_.number(m.dt_reason),
+                             m.compute_s,
+                             m.wait_s,
+                             m.point_updates_per_s,
+                             m.health.min_rho,
+                             m.health.min_p,
+                             m.health.min_det_F,
+                             m.health.min_cell_quality,
+                             count(m.health.first_order_fallbacks),
+                             count(m.health.floors),
+                             count(m.messages),
+                             count(m.bytes),
+                             m.round_trip_p50_us,
+                             m.round_trip_p99_us,
+                             count(m.interfaces.size()),
+                             texts_.number(m.noise),
+                             m.dt_bid,
+                             texts_.number(m.limited_by),
+                             count(m.traffic.size()),
+                             count(m.limits.size())});
+  }
+
+  void add_side(const Side& side) {
+    sides_.row(std::array{texts_.number(side.name), side.velocity_jump, side.traction_jump, side.gap,
+                          side.power, side.p_min, side.p_max, side.v_min, side.v_max, side.closed ? 1.0 : 0.0,
+                          count(side.s.size()), side.p_predicted_solid.empty() ? 0.0 : 1.0, side.shear,
+                          side.velocity_scale, side.traction_scale});
+    add_profile(profiles_, side);
+  }
+};
+
 }  // namespace
 
 void write_block(io::Hdf5& group, const std::vector<Heard>& heard) {
-  Texts texts;
-  Table messages{.name = "messages", .columns = message_columns};
-  Table sides{.name = "interfaces", .columns = interface_columns};
-  Table profiles{.name = "profiles", .columns = profile_columns};
-  Table traffic{.name = "traffic", .columns = traffic_columns};
-  Table limits{.name = "limits", .columns = limit_columns};
-  Table aborts{.name = "aborts", .columns = abort_columns};
+  Tables tables;
   for (const Heard& one : heard) {
-    if (const auto& m = one.telemetry) {
-      messages.row(std::array{one.at,
-                              texts.number(m->from),
-                              texts.number(m->role),
-                              texts.number(m->state),
-                              texts.number(m->host),
-                              static_cast<double>(m->pid),
-                              count(m->step),
-                              m->t,
-                              m->t_end,
-                              m->dt,
-                              texts.number(m->dt_reason),
-                              m->compute_s,
-                              m->wait_s,
-                              m->point_updates_per_s,
-                              m->health.min_rho,
-                              m->health.min_p,
-                              m->health.min_det_F,
-                              m->health.min_cell_quality,
-                              count(m->health.first_order_fallbacks),
-                              count(m->health.floors),
-                              count(m->messages),
-                              count(m->bytes),
-                              m->round_trip_p50_us,
-                              m->round_trip_p99_us,
-                              count(m->interfaces.size()),
-                              texts.number(m->noise),
-                              m->dt_bid,
-                              texts.number(m->limited_by),
-                              count(m->traffic.size()),
-                              count(m->limits.size())});
-      for (const wire::StepsLimited& limit : m->limits)
-        limits.row(std::array{texts.number(limit.by), count(limit.steps)});
-      for (const wire::Traffic& line : m->traffic) {
-        traffic.row(std::array{texts.number(line.interface), texts.number(line.from), count(line.messages),
-                               count(line.bytes), count(line.missing), count(line.dropped),
-                               line.latency_p50_us, line.latency_p99_us});
-      }
-      for (const Side& side : m->interfaces) {
-        sides.row(std::array{texts.number(side.name), side.velocity_jump, side.traction_jump, side.gap,
-                             side.power, side.p_min, side.p_max, side.v_min, side.v_max,
-                             side.closed ? 1.0 : 0.0, count(side.s.size()),
-                             side.p_predicted_solid.empty() ? 0.0 : 1.0, side.shear, side.velocity_scale,
-                             side.traction_scale});
-        add_profile(profiles, side);
-      }
-    }
-    if (const auto& abort = one.abort) {
-      aborts.row(std::array{one.at, texts.number(abort->from), static_cast<double>(abort->exit_code),
-                            texts.number(abort->reason())});
-    }
+    if (one.telemetry) tables.add(one.at, *one.telemetry);
+    if (one.abort) tables.add(one.at, *one.abort);
   }
-  for (const Table* table : {&messages, &sides, &profiles, &traffic, &limits, &aborts}) table->write(group);
-  for (std::size_t k = 0; k < texts.all().size(); ++k)
-    group.write_attribute(fmt::format("text_{}", k), texts.all()[k]);
+  tables.write(group);
 }
 
 std::vector<Heard> read_block(const io::Hdf5& group) {
