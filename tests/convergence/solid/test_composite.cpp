@@ -4,8 +4,10 @@
 
 #include <numbers>
 #include <string>
+#include <vector>
 
 #include "tests/convergence/solid/disk.hpp"
+#include "tests/convergence/solid/errors_in_time.hpp"
 #include "tests/convergence/solid/manufactured_motion.hpp"
 #include "tests/convergence/solid/solvers.hpp"
 
@@ -47,21 +49,9 @@ Errors run(Boundary::Kind kind, int cells) {
   SolidSolver<L> solver(std::move(disk.parts), disk.bodies, law, options, 0);
   solver.set_body_force([&](double x, double y, double t) { return motion.force(x, y, t); });
   solver.assign_initial_conditions(exact);
-  double t = 0;
-  Errors largest;
-  for (int check = 1; check <= checks; ++check) {
-    const double t_check = check * t_end / checks;
-    while (t < t_check - 1e-12) {
-      const double left = t_check - t, dt = left / std::ceil(left / solver.compute_time_step().dt);
-      solver.advance_solid(t, dt);
-      t += dt;
-      solver.apply_solid_bcs(t);
-    }
-    const Errors now = solver.errors(exact, t);
-    largest = {
-        .u = std::max(largest.u, now.u), .v = std::max(largest.v, now.v), .P = std::max(largest.P, now.P)};
-  }
-  return largest;
+  std::vector<double> times;
+  for (int check = 1; check <= checks; ++check) times.push_back(check * t_end / checks);
+  return largest_errors(solver, exact, times);
 }
 
 /// Mean rates over two halvings: where the points of the two grids fall in one another's cells changes from

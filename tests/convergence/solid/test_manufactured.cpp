@@ -10,6 +10,7 @@
 #include <string>
 
 #include "solid_solver/measures/manufactured.hpp"
+#include "tests/convergence/solid/errors_in_time.hpp"
 #include "tests/convergence/solid/manufactured_motion.hpp"
 #include "tests/convergence/solid/skewed_grid.hpp"
 #include "tests/convergence/solid/solvers.hpp"
@@ -47,7 +48,7 @@ Boundary boundary_of(const Setup& setup, Side side, const ManufacturedMotion<L>&
   return boundary;
 }
 
-/// Largest errors over four times: those of a single one go up and down with the waves of the error.
+/// Largest errors over four times.
 template <class L>
 Errors run(const Setup& setup, int cells) {
   constexpr double t_end = 0.8;
@@ -65,20 +66,7 @@ Errors run(const Setup& setup, int cells) {
   SolidSolver<L> solver(grid_of(setup.shape, cells), law, options, boundaries, 0);
   solver.set_body_force([&](double x, double y, double t) { return motion.force(x, y, t); });
   solver.assign_initial_conditions(exact);
-  double t = 0;
-  Errors largest;
-  for (const double t_check : {0.25, 0.5, 0.75, 1.0}) {
-    while (t < t_check * t_end - 1e-12) {
-      const double left = t_check * t_end - t, dt = left / std::ceil(left / solver.compute_time_step().dt);
-      solver.advance_solid(t, dt);
-      t += dt;
-      solver.apply_solid_bcs(t);
-    }
-    const Errors now = solver.errors(exact, t);
-    largest = {
-        .u = std::max(largest.u, now.u), .v = std::max(largest.v, now.v), .P = std::max(largest.P, now.P)};
-  }
-  return largest;
+  return largest_errors(solver, exact, std::array{0.25 * t_end, 0.5 * t_end, 0.75 * t_end, t_end});
 }
 
 /// Rates between the two grids at least 1.9, and errors below bounds that are about one and a half times what
@@ -189,14 +177,8 @@ Errors run_chosen(const std::array<Boundary::Kind, 4>& kinds, int cells) {
   SolidSolver<L> solver(grid_of(square, cells), law, options, chosen_sides(kinds, fields, chosen.state), 0);
   solver.choose(chosen);
   solver.assign_initial_conditions(chosen.state);
-  constexpr double t_end = 0.5;
   double t = 0;
-  while (t < t_end - 1e-12) {
-    const double left = t_end - t, dt = left / std::ceil(left / solver.compute_time_step().dt);
-    solver.advance_solid(t, dt);
-    t += dt;
-    solver.apply_solid_bcs(t);
-  }
+  advance_to(solver, t, 0.5);
   return solver.errors(chosen.state, t);
 }
 

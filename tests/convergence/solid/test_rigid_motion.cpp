@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "tests/convergence/solid/errors_in_time.hpp"
 #include "tests/convergence/solid/skewed_grid.hpp"
 #include "tests/convergence/solid/solvers.hpp"
 
@@ -32,12 +33,7 @@ Errors rotate(int cells, double t_end) {
   solver.set_body_force([](double x, double y, double t) -> Vec2 { return -turned(t, x, y); });
   solver.assign_initial_conditions(exact);
   double t = 0;
-  while (t < t_end - 1e-12) {
-    const double left = t_end - t, dt = left / std::ceil(left / solver.compute_time_step().dt);
-    solver.advance_solid(t, dt);
-    t += dt;
-    solver.apply_solid_bcs(t);
-  }
+  advance_to(solver, t, t_end);
   return solver.errors(exact, t);
 }
 

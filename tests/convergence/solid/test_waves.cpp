@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/convergence/solid/errors_in_time.hpp"
 #include "tests/convergence/solid/skewed_grid.hpp"
 #include "tests/convergence/solid/solvers.hpp"
 
@@ -50,12 +51,7 @@ Errors run(int axis, int cells) {
   SolidSolver<L> solver(unit_square(cells), law, {.rho = rho}, boundaries, 0);
   solver.assign_initial_conditions(exact);
   double t = 0;
-  while (t < t_end - 1e-12) {
-    const double left = t_end - t, dt = left / std::ceil(left / solver.compute_time_step().dt);
-    solver.advance_solid(t, dt);
-    t += dt;
-    solver.apply_solid_bcs(t);
-  }
+  advance_to(solver, t, t_end);
   return solver.errors(exact, t);
 }
 
