@@ -3,6 +3,7 @@
 
     docs/record_results.py [WORD ...]             all studies, or those whose title contains one of the words
     docs/record_results.py --check [WORD ...]     runs them and writes nothing, but says which recorded numbers do not repeat
+    docs/record_results.py --list [WORD ...]      their titles
 
 Studies that are not run keep the text they have in docs/results.md. Nothing in that file is typed by hand.
 """
@@ -477,11 +478,8 @@ How to read it:
 - Without a reference, grids are compared with each other: a negative order means that the difference grew. The elastic ellipse sheds vortices that
   differ from grid to grid from about t = 2 on, so its later differences have no order.
 - Defects of mass, momentum and energy: [what they hold](output.md#budgets).
-- The sections about the shock and the ellipse but for the symmetries are older than the case's present angle: the long axis then stood at +45 degrees,
-  the mirror image. `--set parameters.angle=45` repeats them; now `centre2`, `velocity2` and `angle` have the other sign.
-- Sections with a deforming solid are older than the solid's present step (the mean velocity in (37), the slide of the interface), unless they begin with
-  "Elastic piston, density ratio", "Manufactured piston", "piston_", "Solid: manufactured" or "Rotating disk" and a delta or a law. Elsewhere errors changed by some
-  per cent. The commands are the same.
+- A section ends with the commit of the programs that gave it. Those without one are older than 23 November 2026; where a deforming solid is loaded or held, the
+  present programs give errors that differ by some per cent. The commands are the same.
 - Times in seconds come from machines with two cores. Those in tables of errors were taken beside other work and say nothing but the order of size; those of
   "time of each program" and of the benchmarks come from a quiet machine and vary by some per cent.
 
@@ -528,16 +526,31 @@ def check(words):
     return 1 if wrong or not count else 0
 
 
-def main(words):
-    if words[:1] == ["--check"]:
-        return check(words[1:])
+def recorded_with():
+    """The line that says which programs gave a section."""
+    said = subprocess.run(["./launch/fsi", "--version"], cwd=ROOT, capture_output=True, text=True, check=True).stdout
+    return f"Recorded with{said.splitlines()[0].partition(',')[2]}.\n\n"
+
+
+def record(words):
+    """Runs the studies whose title has one of the words, all without any, and writes each as soon as it is there; the exit code."""
     sections, studies = kept_sections(), all_studies()
-    for title, study in studies:
-        if not words or any(word in title for word in words):
-            print(title, flush=True)
-            sections[title] = "\n" + study().strip() + "\n\n"
-            write(sections, [name for name, _ in studies if name in sections])
-    return 0
+    chosen = [(title, study) for title, study in studies if not words or any(word in title for word in words)]
+    for title, study in chosen:
+        print(title, flush=True)
+        sections[title] = "\n" + study().strip() + "\n\n" + recorded_with()
+        write(sections, [name for name, _ in studies if name in sections])
+    return 0 if chosen else 1
+
+
+def main(words):
+    if {"-h", "--help"} & set(words):
+        print(__doc__)
+        return 0
+    if words[:1] == ["--list"]:
+        print("\n".join(title for title, _ in all_studies() if not words[1:] or any(word in title for word in words[1:])))
+        return 0
+    return check(words[1:]) if words[:1] == ["--check"] else record(words)
 
 
 if __name__ == "__main__":
