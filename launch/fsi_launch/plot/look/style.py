@@ -20,9 +20,9 @@ SIGNED_MAP = "RdBu_r"
 SOLID_FILL = "#d9d4cb"
 SOLID_EDGE = "#5c5346"
 GAS_EDGE = "#2f6f9f"
-# The paper's colours of grids: background and body-fitted.
-GAS_GRIDS = ("#2b5ea8", "#1d8a3d")
-SOLID_GRIDS = ("#b5281e", "#e0559f")
+# The paper's colours of grids: background and body-fitted; the latter in turn, where there are several.
+GAS_GRIDS = ("#2b5ea8", ("#1d8a3d", "#0f8f93", "#8a8a12", "#59a14f"))
+SOLID_GRIDS = ("#b5281e", ("#e0559f", "#e07b39", "#8c4fb0", "#a0522d"))
 GAS_LINE, SOLID_LINE = "#2b5ea8", "#b5281e"
 MARGIN = 0.06       # around a picture [inch]
 NUMBER = 0.55       # room of a number beside its neighbours [inch]

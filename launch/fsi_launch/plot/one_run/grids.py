@@ -28,19 +28,32 @@ def _lines(grid, step):
     return lines
 
 
-def _look(one, index, grid):
-    """(colour, label) of a component grid of a program: a body-fitted one differs from the background."""
-    background, fitted = style.GAS_GRIDS if one.is_gas() else style.SOLID_GRIDS
-    alone = len(one.outputs[index].grids) == 1
-    return background if alone or grid.is_cartesian() else fitted, f"{'gas' if one.is_gas() else one.name}: {grid.name}"
+def _looks(series, index):
+    """{(program, grid): (colour, label)} of all component grids: body-fitted ones differ from the background and from each other, bodies
+    of one grid from other bodies."""
+    looks, turn = {}, {style.GAS_GRIDS: 0, style.SOLID_GRIDS: 0}
+    bodies = 0
+    for one in series:
+        grids = one.outputs[index].grids
+        colours = style.GAS_GRIDS if one.is_gas() else style.SOLID_GRIDS
+        background, fitted = colours
+        plain = len(grids) == 1 and (one.is_gas() or bodies == 0)
+        bodies += not one.is_gas()
+        for grid in grids:
+            colour = background
+            if not (plain or grid.is_cartesian()):
+                colour = fitted[turn[colours] % len(fitted)]
+                turn[colours] += 1
+            looks[one.name, grid.name] = colour, f"{'gas' if one.is_gas() else one.name}: {grid.name}"
+    return looks
 
 
 def _draw(axes, series, index, step, width):
     """All component grids at output `index`; returns handles for the legend."""
-    handles = []
+    handles, looks = [], _looks(series, index)
     for one in series:
         for grid in one.outputs[index].grids:
-            colour, label = _look(one, index, grid)
+            colour, label = looks[one.name, grid.name]
             axes.add_collection(LineCollection(_lines(grid, step), colors=colour, linewidths=width))
             handles.append(Line2D([], [], color=colour, label=label))
     return handles
@@ -48,12 +61,12 @@ def _draw(axes, series, index, step, width):
 
 def _mark_interpolated(axes, series, index):
     """Dots at interpolation points; returns handles for the legend."""
-    shown = False
+    shown, looks = False, _looks(series, index)
     for one in series:
         for grid in one.outputs[index].grids:
             at = grid.kind == INTERPOLATED
             shown = shown or at.any()
-            axes.plot(grid.x1[at], grid.x2[at], color=_look(one, index, grid)[0], **DOT)
+            axes.plot(grid.x1[at], grid.x2[at], color=looks[one.name, grid.name][0], **DOT)
     return [Line2D([], [], color="black", label="interpolated", **DOT)] if shown else []
 
 
@@ -94,11 +107,15 @@ def _spacing(series, index):
     return max(grid.spacing() for one in series for grid in one.outputs[index].grids if grid.level == 0)
 
 
-def _frame(axes, centre, half, box):
-    """A square window, cut where everything ends."""
+def _window(centre, half, box):
+    """(lower left, upper right) of a square, cut where everything ends."""
+    return np.maximum(np.subtract(centre, half), box[0::2]), np.minimum(np.add(centre, half), box[1::2])
+
+
+def _frame(axes, low, high):
     axes.set_aspect("equal")
-    axes.set_xlim(max(centre[0] - half, box[0]), min(centre[0] + half, box[1]))
-    axes.set_ylim(max(centre[1] - half, box[2]), min(centre[1] + half, box[3]))
+    axes.set_xlim(low[0], high[0])
+    axes.set_ylim(low[1], high[1])
 
 
 def _place_picture(series, index, box, place):
@@ -108,16 +125,16 @@ def _place_picture(series, index, box, place):
     middle = 0.5 * (points.min(axis=0) + points.max(axis=0))
     whole = 0.5 * np.ptp(points, axis=0).max() + CLOSE_UP * h
     at = points[points.sum(axis=1).argmax()] if closed else points[len(points) // 2]
-    half = min(CLOSE_UP * h, 0.6 * whole)
+    close = _window(at, min(CLOSE_UP * h, 0.6 * whole), box)
     figure, (left, right) = pyplot.subplots(1, 2, figsize=(11.2, 4.9))
     handles = _draw(left, series, index, 1, 0.3)
-    _frame(left, middle, whole, box)
-    left.add_patch(Rectangle(at - half, 2 * half, 2 * half, fill=False, edgecolor="black", linewidth=0.9, zorder=3))
+    _frame(left, *_window(middle, whole, box))
+    left.add_patch(Rectangle(close[0], *(close[1] - close[0]), fill=False, edgecolor="black", linewidth=0.9, zorder=3, clip_on=False))
     left.set_title(f"grids around {name}, {units.moment(series[0].outputs[index].t)}", loc="left")
     _draw(right, series, index, 1, 0.7)
     handles += _mark_interpolated(right, series, index)
-    _frame(right, at, half, box)
-    right.set_title("the square on the left", loc="left")
+    _frame(right, *close)
+    right.set_title("the part framed on the left", loc="left")
     _legend(right, handles)
     style.name_axes(np.array([[left, right]]))
     return figure
