@@ -54,21 +54,32 @@ def _beams(tools, factor):
     return f"last row: `{typed}`\n\n" + _table(heading, rows) + "\n" + tools.costs(runs)
 
 
-def _centrelines(tools, beam):
-    """Largest distance between the centrelines of two grids."""
+# Grids of the beam that are refined as the gas's; the case's own are as fine at j = 8, and not finer before j = 32.
+REFINED = ("solids.beam.grid.spacing=0.32 * h", "solids.beam.body_fitted.spacing=0.24 * h",
+           "solids.beam.body_fitted.lines=round(0.018 / (0.24 * h)) + 1")
+
+
+def _order(coarse, fine):
+    return f"{np.log2(coarse / fine):.2f}" if coarse > 0 and fine > 0 else "-"
+
+
+def _centrelines(tools, beam, name="beam", settings=()):
+    """Largest distance between the centrelines of two grids, and the order it falls with."""
     from fsi_launch.plot.one_run import beams
     from fsi_launch.plot.reading import data
-    runs, typed = [], ""
+    runs, kept, typed = [], [], ""
     for factor in (8, 16, 32):
-        directory, _, typed = _run(tools, f"beam-{factor}-{beam[0]}-{beam[1]}", "beam",
-                                   [f"grid.factor={factor}", *_parameters(beam)])
+        directory, _, typed = _run(tools, f"{name}-{factor}-{beam[0]}-{beam[1]}", "beam",
+                                   [f"grid.factor={factor}", *_parameters(beam), *settings])
+        kept.append((f"j = {factor}", directory))
         runs.append(beams.run_of(data.all_series(directory), (directory / "case.yaml").read_text(encoding="utf-8")))
     pairs = [beams.distances(coarse.beams[0], fine.beams[0]) for coarse, fine in zip(runs, runs[1:])]
     ends = runs[-1].beams[0].lines
-    rows = [[f"{t:g}", *(f"{pair[t]:.1e}" for pair in pairs), f"({ends[t][-1][0]:.3f}, {ends[t][-1][1]:.3f})"]
+    rows = [[f"{t:g}", *(f"{pair[t]:.1e}" for pair in pairs), _order(*(pair[t] for pair in pairs)),
+             f"({ends[t][-1][0]:.3f}, {ends[t][-1][1]:.3f})"]
             for t in sorted(ends) if t > 0 and all(t in pair for pair in pairs)]
-    heading = ["t", "j = 8 against 16", "j = 16 against 32", "the end of the beam, j = 32"]
-    return f"`{typed}`\n\n" + _table(heading, rows) + "\n" + tools.costs([("j = 32", directory)])
+    heading = ["t", "j = 8 against 16", "j = 16 against 32", "order", "the end of the beam, j = 32"]
+    return f"`{typed}`\n\n" + _table(heading, rows) + "\n" + tools.costs(kept)
 
 
 # --- alone
@@ -187,6 +198,8 @@ def studies(tools):
     for beam in (("100", "100"), ("10", "10")):
         yield (f"Beam ({beam[0]}, {beam[1]}): largest distance between the centrelines of two grids",
                lambda b=beam: _centrelines(tools, b))
+        yield (f"Beam ({beam[0]}, {beam[1]}): centrelines, grids of the beam as fine as the gas's",
+               lambda b=beam: _centrelines(tools, b, "fine-beam", REFINED))
     yield "Beam: variants, h = 1/80", lambda: _variants(tools)
     yield "Clamped beam alone: frequencies of its first two bending modes", lambda: _swings(tools)
     yield "Clamped beam alone: deflection under an end load, h = 1/80", lambda: _loads(tools)
