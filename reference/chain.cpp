@@ -12,27 +12,25 @@ namespace fsi::reference {
 
 namespace {
 
-/// The law named so among the alternatives from the k-th on.
+/// The material's law among the alternatives from the k-th on.
 template <std::size_t k = 0>
-std::optional<AnyLaw> law_among(const std::string& name, double lambda, double mu,
-                                const std::map<std::string, double>& own) {
+std::optional<AnyLaw> law_among(const Material& material) {
   if constexpr (k == std::variant_size_v<AnyLaw>) {
     return std::nullopt;
   } else {
     using L = std::variant_alternative_t<k, AnyLaw>;
-    if (L::name == name) return solid::law_with<L>(lambda, mu, own);
-    return law_among<k + 1>(name, lambda, mu, own);
+    if (L::name == material.law) return solid::law_with<L>(material.lambda, material.mu, material.own);
+    return law_among<k + 1>(material);
   }
 }
 
 }  // namespace
 
-AnyLaw law_named(const std::string& name, double lambda, double mu,
-                 const std::map<std::string, double>& own) {
-  if (const auto law = law_among(name, lambda, mu, own)) return *law;
+AnyLaw law_of(const Material& material) {
+  if (const auto law = law_among(material)) return *law;
   throw UserMistake(fmt::format(
       "the one-dimensional reference knows no law '{}'; write one of laws with a stress, such as neo_hookean",
-      name));
+      material.law));
 }
 
 Difference error_from(Difference difference) {

@@ -1,7 +1,9 @@
 #pragma once
-/// What the one-dimensional references share: the laws, values
-/// at masses from springs, differences of two runs.
+/// What the one-dimensional references share: the solid and its law, steps in time,
+/// values at masses from springs, differences of two runs.
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <span>
 #include <string>
@@ -17,9 +19,15 @@ namespace fsi::reference {
 
 using AnyLaw = solid::EveryLaw;
 
-/// The law of that name; `own`: its numbers besides lambda and mu. @throws UserMistake for an unknown one
-AnyLaw law_named(const std::string& name, double lambda, double mu,
-                 const std::map<std::string, double>& own = {});
+/// What the solid is made of.
+struct Material {
+  std::string law = {};
+  double rho_bar = 1, lambda = 1, mu = 1;  ///< [mass/volume], [pressure], [pressure]
+  std::map<std::string, double> own = {};  ///< numbers of the law besides lambda and mu
+};
+
+/// @throws UserMistake for an unknown law
+AnyLaw law_of(const Material& material);
 
 /// Largest errors of the fields, or differences between two solutions.
 struct Difference {
@@ -66,7 +74,22 @@ auto run_with_law(const Problem& problem, int points) {
       [&]<class L>(const L& law) {
         return run_while_sound(problem.times, [&] { return Chain<L>(problem, law, points); });
       },
-      law_named(problem.law, problem.lambda, problem.mu, problem.own));
+      law_of(problem.material));
+}
+
+/// Goes on from `t` to `end` by equal steps no longer than 0.9 of `stable_step()`, which is measured again
+/// after some of them. `step(dt)` is one of leapfrog in its kick-drift-kick form, which may change its length at any time.
+template <class StableStep, class Step>
+void leapfrog(double& t, double end, const StableStep& stable_step, const Step& step) {
+  constexpr double safety = 0.9;
+  constexpr int block = 32;
+  while (t < end) {
+    const double left = end - t;
+    const double steps = std::ceil(left / (safety * stable_step()));
+    const int now = static_cast<int>(std::min<double>(block, steps));
+    for (int k = 0; k < now; ++k) step(left / steps);
+    if (now == static_cast<int>(steps)) t = end;
+  }
 }
 
 /// All outputs of a run. @throws NumbersBroke where one was not reached

@@ -125,11 +125,7 @@ DiskProblem disk_from_case(const Case& problem) {
   expect_unloaded_start(problem, solid);
   expect_rotation(problem, solid, omega_0);
   DiskProblem disk;
-  disk.law = solid.law;
-  disk.rho_bar = solid.rho;
-  disk.lambda = solid.lambda;
-  disk.mu = solid.mu;
-  disk.own = solid.data;
+  disk.material = {solid.law, solid.rho, solid.lambda, solid.mu, solid.data};
   disk.load_on_reference = load_on_reference(solid);
   disk.b = number_or(problem, "b", 0);
   if (disk.b != 0 && disk.b <= 1) {

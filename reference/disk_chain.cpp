@@ -16,11 +16,6 @@ namespace {
 
 using Row = std::vector<double>;
 
-/// Part of the largest stable step that is used.
-constexpr double safety = 0.9;
-/// Steps after which the stable step is measured again.
-constexpr int block = 32;
-
 /// The ring at the interface: a solid ring that turns and half a shell of gas that slips along it, so that
 /// its mass along the radius differs from the one across it.
 /// Its free flight is therefore in polar coordinates.
@@ -111,7 +106,7 @@ void Rings<L>::place_solid() {
     }
   }
   for (std::size_t k = 0; k < n_solid_; ++k) {
-    const double half = 0.25 * problem_.rho_bar * h_solid_ * (r_bar_[k] + r_bar_[k + 1]);
+    const double half = 0.25 * problem_.material.rho_bar * h_solid_ * (r_bar_[k] + r_bar_[k + 1]);
     m_[k] += half;
     m_[k + 1] += half;
   }
@@ -191,7 +186,7 @@ double Rings<L>::fastest_solid_wave() const {
     const solid::Stiffness K = law_.K(F_k);  // acoustic tensor across the rings: K1111, K1121, K1221
     const double mean = 0.5 * (K.k1111 + K.k1221);
     const double largest = mean + std::hypot(0.5 * (K.k1111 - K.k1221), K.k1121);
-    fastest = std::max(fastest, 4 * largest / (problem_.rho_bar * h_solid_ * h_solid_));
+    fastest = std::max(fastest, 4 * largest / (problem_.material.rho_bar * h_solid_ * h_solid_));
   }
   return fastest;
 }
@@ -213,7 +208,7 @@ double Rings<L>::fastest_gas_wave() const {
 
 template <solid::Law L>
 double Rings<L>::stable_step() const {
-  return safety * 2 / std::sqrt(std::max(fastest_solid_wave(), fastest_gas_wave()));
+  return 2 / std::sqrt(std::max(fastest_solid_wave(), fastest_gas_wave()));
 }
 
 template <solid::Law L>
@@ -255,23 +250,17 @@ void Rings<L>::show_rim() {
   r_.front() = rim_.a;
 }
 
-/// Leapfrog in its kick-drift-kick form, which may change its step at any time.
 template <solid::Law L>
 void Rings<L>::run_to(double t) {
-  while (t_ < t) {
-    const double left = t - t_;
-    const double steps = std::ceil(left / stable_step());
-    const double dt = left / steps;
-    const int now = static_cast<int>(std::min<double>(block, steps));
-    for (int k = 0; k < now; ++k) {
-      kick(0.5 * dt);
-      drift(dt);
-      compute_stress();
-      compute_pressure();
-      kick(0.5 * dt);
-    }
-    if (now == static_cast<int>(steps)) t_ = t;
-  }
+  leapfrog(
+      t_, t, [this] { return stable_step(); },
+      [this](double dt) {
+        kick(0.5 * dt);
+        drift(dt);
+        compute_stress();
+        compute_pressure();
+        kick(0.5 * dt);
+      });
 }
 
 template <solid::Law L>

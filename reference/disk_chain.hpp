@@ -11,8 +11,6 @@
 /// gradient is the same function of q for every law, objective or not.
 
 #include <functional>
-#include <map>
-#include <string>
 #include <vector>
 
 #include "reference/chain.hpp"
@@ -21,9 +19,7 @@ namespace fsi::reference {
 
 /// What the rotating disk is. The disk has radius 1. Smooth flow: the gas keeps its entropy.
 struct DiskProblem {
-  std::string law = "saint_venant_kirchhoff";
-  double rho_bar = 1, lambda = 1, mu = 1;    ///< of the solid [mass/volume], [pressure], [pressure]
-  std::map<std::string, double> own;         ///< numbers of the law besides lambda and mu
+  Material material = {.law = "saint_venant_kirchhoff"};
   double gamma = 1.4, rho_0 = 1.4, p_0 = 1;  ///< of the gas at rest, t = 0 [-], [mass/volume], [pressure]
   double p_e = 1;                            ///< pressure that leaves the solid without stress [pressure]
   bool load_on_reference = false;            ///< the gas presses on the rim at rest: its area and its normal

@@ -1,9 +1,8 @@
 #include "reference/disk_file.hpp"
 
 #include <algorithm>
+#include <utility>
 
-#include "common/io/atomic_file.hpp"
-#include "common/io/grid_writer.hpp"
 #include "common/io/hdf5.hpp"
 #include "reference/reference_main.hpp"
 
@@ -20,21 +19,17 @@ void write_output(io::Hdf5 group, const DiskOutput& output, const Difference& er
   group.write_attribute("gas_energy", output.totals.gas);
   group.write_attribute("angular_momentum", output.totals.angular_momentum);
   write_errors(group, error);
-  io::Hdf5 solid = group.make_group("solid");
-  solid.write("r_bar", output.r_bar);
-  solid.write("u1", output.u1);
-  solid.write("u2", output.u2);
-  solid.write("v1", output.v1);
-  solid.write("v2", output.v2);
-  solid.write("P11", output.P11);
-  solid.write("P12", output.P12);
-  solid.write("P21", output.P21);
-  solid.write("P22", output.P22);
-  io::Hdf5 gas = group.make_group("gas");
-  gas.write("r", output.r);
-  gas.write("rho", output.rho);
-  gas.write("v", output.v);
-  gas.write("p", output.p);
+  write_columns(group.make_group("solid"), {{"r_bar", output.r_bar},
+                                            {"u1", output.u1},
+                                            {"u2", output.u2},
+                                            {"v1", output.v1},
+                                            {"v2", output.v2},
+                                            {"P11", output.P11},
+                                            {"P12", output.P12},
+                                            {"P21", output.P21},
+                                            {"P22", output.P22}});
+  write_columns(group.make_group("gas"),
+                {{"r", output.r}, {"rho", output.rho}, {"v", output.v}, {"p", output.p}});
 }
 
 }  // namespace
@@ -57,15 +52,9 @@ std::vector<Difference> estimated_errors(const std::vector<DiskOutput>& fine,
 }
 
 void write_disk_table(const std::string& path, const DiskRun& run, const std::vector<Difference>& errors) {
-  io::Hdf5 file = io::Hdf5::create(io::aside(path));
-  write_errors(file, largest(errors));
-  if (!run.broke.empty()) file.write_attribute("broke", run.broke);
-  for (std::size_t k = 0; k < run.outputs.size(); ++k) {
-    const bool known = k < errors.size();
-    write_output(file.make_group(io::output_name(k)), run.outputs[k], known ? errors[k] : Difference{});
-  }
-  file.close();
-  io::rename_into_place(path);
+  write_table(path, run, largest(errors), [&](io::Hdf5 group, std::size_t k) {
+    write_output(std::move(group), run.outputs[k], k < errors.size() ? errors[k] : Difference{});
+  });
 }
 
 }  // namespace fsi::reference

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <cstdio>
 #include <string>
+#include <utility>
 
 #include "common/case/case.hpp"
 #include "common/io/atomic_file.hpp"
-#include "common/io/grid_writer.hpp"
 #include "common/io/hdf5.hpp"
 #include "reference/piston_case.hpp"
 #include "reference/reference_main.hpp"
@@ -19,27 +19,13 @@ namespace {
 
 void write_output(io::Hdf5 group, const PistonOutput& output) {
   group.write_attribute("t", output.t);
-  io::Hdf5 solid = group.make_group("solid");
-  solid.write("x_bar", output.x_bar);
-  solid.write("u", output.u);
-  solid.write("v", output.v_bar);
-  solid.write("P11", output.P11);
-  solid.write("P22", output.P22);
-  io::Hdf5 gas = group.make_group("gas");
-  gas.write("x", output.x);
-  gas.write("rho", output.rho);
-  gas.write("v", output.v);
-  gas.write("p", output.p);
-}
-
-void write_table(const std::string& path, const PistonRun& run, const Difference& error) {
-  io::Hdf5 file = io::Hdf5::create(io::aside(path));
-  write_errors(file, error);
-  if (!run.broke.empty()) file.write_attribute("broke", run.broke);
-  for (std::size_t k = 0; k < run.outputs.size(); ++k)
-    write_output(file.make_group(io::output_name(k)), run.outputs[k]);
-  file.close();
-  io::rename_into_place(path);
+  write_columns(group.make_group("solid"), {{"x_bar", output.x_bar},
+                                            {"u", output.u},
+                                            {"v", output.v_bar},
+                                            {"P11", output.P11},
+                                            {"P22", output.P22}});
+  write_columns(group.make_group("gas"),
+                {{"x", output.x}, {"rho", output.rho}, {"v", output.v}, {"p", output.p}});
 }
 
 /// Order of accuracy seen in three runs, each with half the points
@@ -59,7 +45,8 @@ void run(const std::string& case_path, const std::string& run_dir) {
       observed_rate(difference, compare(half, solve_piston_while_sound(piston, points / 4).outputs));
   const Difference error = error_from(difference);
   io::make_directory(run_dir);
-  write_table(run_dir + "/reference.h5", fine, error);
+  write_table(run_dir + "/reference.h5", fine, error,
+              [&](io::Hdf5 group, std::size_t k) { write_output(std::move(group), fine.outputs[k]); });
   if (!fine.broke.empty())
     fmt::print(stderr, "reference_piston: warning: {}; no errors from then on\n", fine.broke);
   fmt::print("reference_piston: {} points per unit length; observed order {:.2f}; estimated errors {}\n",

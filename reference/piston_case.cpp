@@ -111,11 +111,7 @@ PistonProblem piston_from_case(const Case& problem) {
   }
 
   PistonProblem piston;
-  piston.law = solid.law;
-  piston.rho_bar = solid.rho;
-  piston.lambda = solid.lambda;
-  piston.mu = solid.mu;
-  piston.own = solid.data;
+  piston.material = {solid.law, solid.rho, solid.lambda, solid.mu, solid.data};
   piston.x_a = solid.grid.x_a;
   piston.x_b = solid.grid.x_b;
   piston.x_end = fluid.grid.x_b;

@@ -16,11 +16,6 @@ namespace {
 
 using Row = std::vector<double>;
 
-/// Part of the largest stable step that is used.
-constexpr double safety = 0.9;
-/// Steps after which the stable step is measured again.
-constexpr int block = 32;
-
 solid::Tensor2 uniaxial(double stretch) {
   return {.a11 = stretch, .a12 = 0, .a21 = 0, .a22 = 1};
 }
@@ -105,8 +100,8 @@ template <solid::Law L>
 void Chain<L>::weigh() {
   Row mass(x_.size(), 0.0);
   for (std::size_t k = 0; k < n_solid_; ++k) {
-    mass[k] += 0.5 * problem_.rho_bar * h_solid_;
-    mass[k + 1] += 0.5 * problem_.rho_bar * h_solid_;
+    mass[k] += 0.5 * problem_.material.rho_bar * h_solid_;
+    mass[k + 1] += 0.5 * problem_.material.rho_bar * h_solid_;
   }
   p_0_.resize(n_gas_);
   for (std::size_t k = 0; k < n_gas_; ++k) {
@@ -137,7 +132,8 @@ double Chain<L>::stable_step() const {
   double fastest = 0;  // waves, in springs per unit time, squared
   for (std::size_t k = 0; k < n_solid_; ++k) {
     const double J = (x_[k + 1] - x_[k]) / h_solid_;
-    fastest = std::max(fastest, law_.K(uniaxial(J)).k1111 / (problem_.rho_bar * h_solid_ * h_solid_));
+    fastest =
+        std::max(fastest, law_.K(uniaxial(J)).k1111 / (problem_.material.rho_bar * h_solid_ * h_solid_));
     if (!(J > 0)) {
       throw NumbersBroke(
           fmt::format("one-dimensional reference: t = {}, x_bar = {}: F11 = {}", t_, label_[k], J));
@@ -153,7 +149,7 @@ double Chain<L>::stable_step() const {
           fmt::format("one-dimensional reference: t = {}, gas at x = {} is folded", t_, x_[i]));
     }
   }
-  return safety / std::sqrt(fastest);
+  return 1 / std::sqrt(fastest);
 }
 
 template <solid::Law L>
@@ -170,22 +166,16 @@ void Chain<L>::drift(double dt) {
   x_.back() = x_wall_ + v_wall_ * t_;
 }
 
-/// Leapfrog in its kick-drift-kick form, which may change its step at any time.
 template <solid::Law L>
 void Chain<L>::run_to(double t) {
-  while (t_ < t) {
-    const double left = t - t_;
-    const double steps = std::ceil(left / stable_step());
-    const double dt = left / steps;
-    const int now = static_cast<int>(std::min<double>(block, steps));
-    for (int k = 0; k < now; ++k) {
-      kick(0.5 * dt);
-      drift(dt);
-      compute_stress();
-      kick(0.5 * dt);
-    }
-    if (now == static_cast<int>(steps)) t_ = t;
-  }
+  leapfrog(
+      t_, t, [this] { return stable_step(); },
+      [this](double dt) {
+        kick(0.5 * dt);
+        drift(dt);
+        compute_stress();
+        kick(0.5 * dt);
+      });
 }
 
 template <solid::Law L>

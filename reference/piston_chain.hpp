@@ -10,8 +10,6 @@
 /// upwinding, no moving grid.
 
 #include <functional>
-#include <map>
-#include <string>
 #include <vector>
 
 #include "common/exact/riemann.hpp"
@@ -21,12 +19,10 @@ namespace fsi::reference {
 
 /// What a piston is. Smooth flow: the gas keeps its entropy.
 struct PistonProblem {
-  std::string law = "linear_elastic";
-  double rho_bar = 1, lambda = 1, mu = 1;  ///< of the solid [mass/volume], [pressure], [pressure]
-  std::map<std::string, double> own;       ///< numbers of the law besides lambda and mu
-  double x_a = -1, x_b = 0;                ///< reference domain of the solid [length]
-  double x_end = 1.5;                      ///< where the gas ends at t = 0 [length]
-  double gamma = 1.4, p_e = 0;             ///< [-], [pressure]
+  Material material = {.law = "linear_elastic"};
+  double x_a = -1, x_b = 0;     ///< reference domain of the solid [length]
+  double x_end = 1.5;           ///< where the gas ends at t = 0 [length]
+  double gamma = 1.4, p_e = 0;  ///< [-], [pressure]
   bool wall = true;  ///< a rigid wall at x_end; otherwise the gas goes on beyond the reach of any wave
   std::function<double(double t)> drive;            ///< displacement of the solid's left end
   std::function<double(double x_bar)> u_0, v_0;     ///< initial displacement and velocity of the solid

@@ -18,6 +18,10 @@ void write_errors(io::Hdf5& group, const Difference& error) {
   group.write_attribute("estimated_error_P_bar", error.P_bar);
 }
 
+void write_columns(io::Hdf5 group, std::initializer_list<Column> columns) {
+  for (const Column& column : columns) group.write(column.name, column.values);
+}
+
 std::string words_of(const Difference& error) {
   return fmt::format("rho {:.1e}, v {:.1e}, p {:.1e}, u_bar {:.1e}, v_bar {:.1e}, P_bar {:.1e}", error.rho,
                      error.v, error.p, error.u_bar, error.v_bar, error.P_bar);

@@ -68,9 +68,9 @@ output: {times: [0.25, 0.5]}
 TEST_F(PistonCase, TakesMaterialGasAndTimesFromTheFile) {
   const Case problem = read("slip_wall", "{kind: displacement, value: [\"0.1 * t^4\", 0]}");
   const PistonProblem piston = piston_from_case(problem);
-  EXPECT_EQ(piston.law, "neo_hookean");
-  EXPECT_EQ(piston.rho_bar, 2);
-  EXPECT_EQ(piston.lambda, 3);
+  EXPECT_EQ(piston.material.law, "neo_hookean");
+  EXPECT_EQ(piston.material.rho_bar, 2);
+  EXPECT_EQ(piston.material.lambda, 3);
   EXPECT_EQ(piston.x_end, 1.5);
   EXPECT_DOUBLE_EQ(piston.p_e, 1 / 1.4);
   EXPECT_TRUE(piston.wall);

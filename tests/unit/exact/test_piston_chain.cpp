@@ -14,8 +14,8 @@ namespace {
 
 PistonProblem exact_problem(const exact::ElasticPiston& piston, double t_end) {
   PistonProblem problem;
-  problem.rho_bar = piston.rho_bar();
-  problem.lambda = problem.mu = piston.lambda();
+  problem.material.rho_bar = piston.rho_bar();
+  problem.material.lambda = problem.material.mu = piston.lambda();
   problem.p_e = piston.p_e();
   problem.wall = false;
   problem.drive = [&](double t) { return piston.solid(-1, 0, t).u[0]; };
@@ -71,9 +71,9 @@ TEST(PistonChain, OpenEndSendsNothingBack) {
 /// A solid at rest whose left end is pushed smoothly by `amplitude`.
 PistonProblem pushed(const std::string& law, double amplitude) {
   PistonProblem problem;
-  problem.law = law;
-  problem.rho_bar = 1;
-  problem.lambda = problem.mu = 0.5;
+  problem.material.law = law;
+  problem.material.rho_bar = 1;
+  problem.material.lambda = problem.material.mu = 0.5;
   problem.gamma = 1.4;
   problem.p_e = 1 / 1.4;
   problem.drive = [=](double t) { return amplitude * std::pow(std::sin(2 * t), 4); };

@@ -19,7 +19,7 @@ inline DiskProblem papers_disk(double delta, double omega_0, std::vector<double>
 }
 
 inline DiskProblem with_law(DiskProblem disk, const std::string& law) {
-  disk.law = law;
+  disk.material.law = law;
   return disk;
 }
 

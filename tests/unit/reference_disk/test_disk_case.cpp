@@ -74,10 +74,10 @@ output: {times: [0.5]}
 TEST_F(DiskCase, TakesMaterialGasMotionAndTimesFromTheFile) {
   const Case problem = read(rotation, "omega_0: omega_0, b: 1.75, points: 400");
   const DiskProblem disk = disk_from_case(problem);
-  EXPECT_EQ(disk.law, "neo_hookean");
-  EXPECT_EQ(disk.rho_bar, 2);
-  EXPECT_EQ(disk.lambda, 3);
-  EXPECT_EQ(disk.mu, 4);
+  EXPECT_EQ(disk.material.law, "neo_hookean");
+  EXPECT_EQ(disk.material.rho_bar, 2);
+  EXPECT_EQ(disk.material.lambda, 3);
+  EXPECT_EQ(disk.material.mu, 4);
   EXPECT_EQ(disk.gamma, 1.4);
   EXPECT_EQ(disk.rho_0, 14);
   EXPECT_EQ(disk.p_0, 10);

@@ -52,8 +52,8 @@ TEST_P(DiskOfLaw, SmallTwistIsABesselModeOfTheLinearWaveEquation) {
   // rho w_tt = mu (w'' + w' / r - w / r^2) with a free rim, w' - w / r = -k J2(k r) = 0 at r = 1.
   const double k = zero_of([](double x) { return std::cyl_bessel_j(2.0, x); }, 4, 6), amplitude = 1e-6;
   DiskProblem disk = with_law(papers_disk(1, 0, {1}), GetParam());
-  disk.rho_bar = 2;
-  disk.mu = 0.5;
+  disk.material.rho_bar = 2;
+  disk.material.mu = 0.5;
   const double frequency = k * 0.5;  // sqrt(mu / rho)
   disk.v_theta = [=](double r) { return amplitude * frequency * std::cyl_bessel_j(1.0, k * r); };
   const auto out = solve_disk(disk, 100).back();
@@ -70,12 +70,12 @@ TEST_P(DiskOfLaw, SmallBreathingInAThinGasIsABesselModeOfTheLinearWaveEquation) 
   // Free rim: (lambda + 2 mu) u' + lambda u / r = 0 at r = 1 for u = J1(k r).
   DiskProblem disk = with_law(papers_disk(1, 0, {1}), GetParam());
   disk.rho_0 = disk.p_0 = disk.p_e = 1e-10;
-  disk.lambda = 2;
-  const double M = disk.lambda + 2 * disk.mu;
+  disk.material.lambda = 2;
+  const double M = disk.material.lambda + 2 * disk.material.mu;
   const double k = zero_of(
       [&](double x) {
         const double J1 = std::cyl_bessel_j(1.0, x);
-        return M * (x * std::cyl_bessel_j(0.0, x) - J1) + disk.lambda * J1;
+        return M * (x * std::cyl_bessel_j(0.0, x) - J1) + disk.material.lambda * J1;
       },
       1, 3.5);
   const double amplitude = 1e-6, frequency = k * std::sqrt(M);
