@@ -63,6 +63,41 @@ void append_rates(const GridSpec& spec, std::vector<CellRate>& rates) {
   }
 }
 
+/// Area a body's outline encloses, closed along the wall where it stands on one [length^2].
+double area_within(const CurveSpec& curve) {
+  const int n = curve.points();
+  double twice = 0;
+  for (int i = 0; i < n; ++i) {
+    const auto k = static_cast<std::size_t>(i), next = static_cast<std::size_t>((i + 1) % n);
+    const std::size_t y = static_cast<std::size_t>(n);
+    twice += curve.x[k] * curve.x[y + next] - curve.x[next] * curve.x[y + k];
+  }
+  return 0.5 * std::abs(twice);
+}
+
+/// The lattice's points that lie within an area of that size, all of them at most. [-]
+double points_within(double area, const GridSpec& lattice) {
+  const double cells = (lattice.n1 - 1.0) * (lattice.n2 - 1.0);
+  const double whole = (lattice.x_b - lattice.x_a) * (lattice.y_b - lattice.y_a);
+  return std::min(cells * area / whole, static_cast<double>(lattice.n1) * lattice.n2);
+}
+
+/// Points of a lattice that a gas's bodies, or what lies outside a solid's outline, leave unused.
+double unused_points(const FluidSpec& fluid) {
+  if (fluid.grid.kind != GridSpec::Kind::rectangle) return 0;
+  double unused = 0;
+  for (const BodyFittedSpec& fitted : fluid.body_fitted) {
+    if (!fitted.solid.empty()) unused += points_within(area_within(fitted.curve), fluid.grid);
+  }
+  return unused;
+}
+
+double unused_points(const SolidSpec& solid) {
+  if (solid.body_fitted.size() != 1 || solid.grid.kind != GridSpec::Kind::rectangle) return 0;
+  return static_cast<double>(solid.grid.n1) * solid.grid.n2 -
+         points_within(area_within(solid.body_fitted.front().curve), solid.grid);
+}
+
 template <class Owner>
 StepCost step_of(const std::string& program, const Owner& owner, double speed) {
   std::vector<CellRate> rates;
@@ -79,7 +114,7 @@ StepCost step_of(const std::string& program, const Owner& owner, double speed) {
   const CellRate& worst = rates.front();
   const double lattice = static_cast<double>(owner.grid.n1) * owner.grid.n2;
   StepCost cost{.program = program,
-                .points = fitted_points + lattice,
+                .points = fitted_points + lattice - unused_points(owner),
                 .dt = 1 / (speed * worst.rate),
                 .grid = *worst.grid,
                 .x = worst.x,

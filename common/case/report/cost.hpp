@@ -15,7 +15,7 @@ struct StepCost {
   std::string program;  ///< "fluid", or the name of a gas or a solid
   bool is_gas = false;
   int levels = 1;            ///< of the background; with more, `points` are those of the finest everywhere
-  double points = 0;         ///< of all its grids [-]
+  double points = 0;         ///< of all its grids, without those that outlines leave unused [-]
   double dt = 0;             ///< infinite for a program that takes any step [time]
   std::string grid = {};     ///< whose cell sets it
   Vec2 x = Vec2::Zero();     ///< where

@@ -244,6 +244,25 @@ TEST(CostOfARun, IsThatOfTheWavesThroughTheSmallestCell) {
   EXPECT_EQ(cost.programs[0].points, 121);
 }
 
+TEST(CostOfARun, CountsNoPointsWhereTheGasOrTheSolidIsNot) {
+  const Case problem = load_text(bodies_case({circle}));
+  const auto all = [](const auto& owner) {
+    const BodyFittedSpec& ring = owner.body_fitted.front();
+    return static_cast<double>(owner.grid.n1) * owner.grid.n2 + 1.0 * ring.curve.points() * ring.lines;
+  };
+  const auto cell = [](const GridSpec& grid) {
+    return (grid.x_b - grid.x_a) / (grid.n1 - 1) * (grid.y_b - grid.y_a) / (grid.n2 - 1);
+  };
+  const FluidSpec& gas = problem.fluids.front();
+  const SolidSpec& solid = problem.solids.front();
+  const double disk = 3.14159 * 0.5 * 0.5;
+  const double around_disk = (solid.grid.x_b - solid.grid.x_a) * (solid.grid.y_b - solid.grid.y_a) - disk;
+  const RunCost cost = cost_of(problem);
+  EXPECT_NEAR(cost.programs[0].points, all(gas) - disk / cell(gas.grid), 0.01 * all(gas));
+  EXPECT_NEAR(cost.programs[1].points, all(solid) - around_disk / cell(solid.grid), 0.05 * all(solid));
+  EXPECT_LT(cost.programs[1].points, 0.95 * all(solid));
+}
+
 TEST(CostOfARun, CountsTheSubstepsOfAStiffSolid) {
   const std::string stiff = bodies_case({circle});
   const RunCost alike = cost_of(load_text(stiff, {"time.multirate=false"}));
