@@ -167,7 +167,12 @@ FIGURES = (
            sections=("Beam: the four of the paper, h = 1/160",)),
     Figure("23", "the beam from grid to grid", (beams_from_grid_to_grid((10, 10)),),
            sections=("Beam (100, 100): largest distance between the centrelines of two grids",
-                     "Beam (10, 10): largest distance between the centrelines of two grids")),
+                     "Beam (100, 100): centrelines, grids of the beam as fine as the gas's",
+                     "Beam (10, 10): largest distance between the centrelines of two grids"),
+           text="The paper says excellent agreement. (10, 10) agrees; (100, 100), which swings twice as long, does so until t = 6, and differs by a "
+                "tenth of its deflection at t = 14. Grids of the beam that are as fine again leave that as it is: what differs from grid to "
+                "grid is the gas, whose vortices leave the rounded tip where the grid lets them. From t = 9 on the difference falls with "
+                "the orders in the table, between one and two."),
 )
 
 
