@@ -18,7 +18,7 @@
 #include "fluid_solver/gas_options.hpp"
 #include "fluid_solver/kernels/sweep.hpp"
 #include "fluid_solver/measures/shocks.hpp"
-#include "fluid_solver/ranks/rank_rows.hpp"
+#include "common/ranks/rows/rank_rows.hpp"
 
 namespace fsi::fluid {
 

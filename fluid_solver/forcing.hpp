@@ -10,7 +10,7 @@
 
 #include "common/core/field.hpp"
 #include "fluid_solver/gas_options.hpp"
-#include "fluid_solver/ranks/rank_rows.hpp"
+#include "common/ranks/rows/rank_rows.hpp"
 #include "fluid_solver/state_vector.hpp"
 
 namespace fsi::fluid {

@@ -21,7 +21,7 @@
 #include "fluid_solver/component.hpp"
 #include "fluid_solver/gas_options.hpp"
 #include "fluid_solver/levels/gas_levels.hpp"
-#include "fluid_solver/ranks/share.hpp"
+#include "common/ranks/rows/share.hpp"
 
 namespace fsi::fluid {
 

@@ -16,7 +16,7 @@
 
 #include "common/grid/overlap/interpolation.hpp"
 #include "fluid_solver/kernels/sweep.hpp"
-#include "fluid_solver/ranks/rank_rows.hpp"
+#include "common/ranks/rows/rank_rows.hpp"
 
 namespace fsi::fluid {
 

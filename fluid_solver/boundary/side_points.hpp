@@ -8,7 +8,7 @@
 
 #include "common/core/field.hpp"
 #include "common/core/types.hpp"
-#include "fluid_solver/ranks/rank_rows.hpp"
+#include "common/ranks/rows/rank_rows.hpp"
 
 namespace fsi::fluid {
 

@@ -6,7 +6,7 @@
 
 #include "common/core/field.hpp"
 #include "common/grid/intervals.hpp"
-#include "fluid_solver/ranks/rank_rows.hpp"
+#include "common/ranks/rows/rank_rows.hpp"
 
 namespace fsi::fluid {
 

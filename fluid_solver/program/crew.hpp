@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "common/program/program.hpp"
+#include "common/ranks/orders.hpp"
 #include "common/ranks/ranks.hpp"
 #include "fluid_solver/gas_solver.hpp"
 
@@ -20,7 +21,7 @@ namespace fsi::fluid {
 
 class Crew {
  public:
-  Crew(std::shared_ptr<Ranks> ranks, GasSolver& solver) : ranks_(std::move(ranks)), solver_(solver) {}
+  Crew(std::shared_ptr<Ranks> ranks, GasSolver& solver) : foreman_(std::move(ranks)), solver_(solver) {}
   Crew(const Crew&) = delete;
   Crew& operator=(const Crew&) = delete;
   Crew(Crew&&) = delete;
@@ -28,7 +29,7 @@ class Crew {
   /// Lets the others go.
   ~Crew();
 
-  bool alone() const { return ranks_->alone(); }
+  bool alone() const { return foreman_.alone(); }
   void apply_bcs(double t, std::span<const InterfaceValues> interfaces);
   void move(double t_new, double dt, std::span<const grid::SideCommand> commands);
   void advance(double t, double dt);
@@ -41,13 +42,10 @@ class Crew {
   void loaded();
 
  private:
-  std::shared_ptr<Ranks> ranks_;
+  Foreman foreman_;
   GasSolver& solver_;
   bool looked_ = false, collected_ = false;  ///< since the state changed last
-  bool broken_ = false;                      ///< the ranks cannot be reached any more
 
-  template <class Action>
-  void with_all(std::vector<double> order, const Action& action);
   void state_changes() { looked_ = collected_ = false; }
 };
 

@@ -12,7 +12,7 @@
 
 #include "common/core/failure.hpp"
 #include "tests/unit/fluid/moving_body.hpp"
-#include "tests/unit/fluid/thread_ranks.hpp"
+#include "tests/unit/ranks/thread_ranks.hpp"
 
 namespace fsi::fluid {
 namespace {

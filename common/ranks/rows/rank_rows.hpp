@@ -15,7 +15,7 @@
 #include "common/grid/intervals.hpp"
 #include "common/ranks/ranks.hpp"
 
-namespace fsi::fluid {
+namespace fsi {
 
 struct RankRows {
   /// Rows around one's own whose values are complete before a step: two for the fluxes, and one more for the
@@ -36,4 +36,4 @@ struct RankRows {
   }
 };
 
-}  // namespace fsi::fluid
+}  // namespace fsi

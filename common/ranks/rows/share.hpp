@@ -16,11 +16,11 @@
 #include "common/core/field.hpp"
 #include "common/grid/overlap/composite_grid.hpp"
 #include "common/ranks/ranks.hpp"
-#include "fluid_solver/ranks/cut.hpp"
-#include "fluid_solver/ranks/delivery.hpp"
-#include "fluid_solver/ranks/rank_rows.hpp"
+#include "common/ranks/rows/cut.hpp"
+#include "common/ranks/rows/delivery.hpp"
+#include "common/ranks/rows/rank_rows.hpp"
 
-namespace fsi::fluid {
+namespace fsi {
 
 /// How rows are shared out anew in the course of a run.
 struct RecutOptions {
@@ -107,4 +107,4 @@ class Share {
   Strip whole_row(int grid, int j) const;
 };
 
-}  // namespace fsi::fluid
+}  // namespace fsi

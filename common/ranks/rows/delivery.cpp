@@ -1,9 +1,9 @@
-#include "fluid_solver/ranks/delivery.hpp"
+#include "common/ranks/rows/delivery.hpp"
 
 #include <algorithm>
 #include <tuple>
 
-namespace fsi::fluid {
+namespace fsi {
 
 namespace {
 
@@ -98,4 +98,4 @@ std::size_t Delivery::received() const {
   return points;
 }
 
-}  // namespace fsi::fluid
+}  // namespace fsi

@@ -1,10 +1,10 @@
-#include "fluid_solver/ranks/cut.hpp"
+#include "common/ranks/rows/cut.hpp"
 
 #include <algorithm>
 
-#include "fluid_solver/ranks/rank_rows.hpp"
+#include "common/ranks/rows/rank_rows.hpp"
 
-namespace fsi::fluid {
+namespace fsi {
 
 namespace {
 
@@ -76,4 +76,4 @@ double Cut::imbalance(std::span<const CutGrid> grids) const {
   return most * ranks() / work.back();
 }
 
-}  // namespace fsi::fluid
+}  // namespace fsi

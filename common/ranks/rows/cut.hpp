@@ -9,7 +9,7 @@
 #include "common/core/field.hpp"
 #include "common/grid/intervals.hpp"
 
-namespace fsi::fluid {
+namespace fsi {
 
 /// A component grid, as far as its cut depends on it.
 struct CutGrid {
@@ -49,4 +49,4 @@ class Cut {
   std::vector<int> first_;  ///< of each rank, among the rows of all grids; at the end their count
 };
 
-}  // namespace fsi::fluid
+}  // namespace fsi

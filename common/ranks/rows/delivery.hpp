@@ -8,9 +8,9 @@
 
 #include "common/core/field.hpp"
 #include "common/ranks/ranks.hpp"
-#include "fluid_solver/ranks/cut.hpp"
+#include "common/ranks/rows/cut.hpp"
 
-namespace fsi::fluid {
+namespace fsi {
 
 class Delivery {
  public:
@@ -36,4 +36,4 @@ class Delivery {
   std::vector<std::vector<double>> sent_values_, values_;  ///< work memory, by rank
 };
 
-}  // namespace fsi::fluid
+}  // namespace fsi

@@ -1,9 +1,9 @@
-#include "fluid_solver/ranks/share.hpp"
+#include "common/ranks/rows/share.hpp"
 
 #include <algorithm>
 #include <utility>
 
-namespace fsi::fluid {
+namespace fsi {
 
 namespace {
 
@@ -242,4 +242,4 @@ void Share::all_to_first(std::span<const FieldView> fields) {
   to_first(strips, fields);
 }
 
-}  // namespace fsi::fluid
+}  // namespace fsi
