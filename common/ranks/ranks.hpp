@@ -52,8 +52,13 @@ class Ranks {
   virtual void broadcast(std::vector<double>& values) = 0;
   /// The values of all ranks, one rank after the other.
   virtual std::vector<double> together(std::span<const double> mine) = 0;
+  /// Each value becomes the largest that any rank has in its place.
+  virtual void largest_of_each(std::span<double> values) = 0;
   /// The largest value of all.
-  virtual double largest(double mine) = 0;
+  double largest(double mine) {
+    largest_of_each({&mine, 1});
+    return mine;
+  }
 
   /// The last call: all ranks have come to the end.
   virtual void leave() = 0;

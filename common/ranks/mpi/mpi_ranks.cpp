@@ -118,13 +118,12 @@ class MpiRanks final : public Ranks {
     return all;
   }
 
-  double largest(double mine) override {
-    double most = mine;
-    count(1);
+  void largest_of_each(std::span<double> values) override {
+    count(values.size());
     request([&](MPI_Request* request) {
-      return MPI_Iallreduce(&mine, &most, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD, request);
+      return MPI_Iallreduce(MPI_IN_PLACE, values.data(), count_of(values.size()), MPI_DOUBLE, MPI_MAX,
+                            MPI_COMM_WORLD, request);
     });
-    return most;
   }
 
   /// Those who have come to the barrier may be gone before this rank sees that all have.

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "common/ranks/rows/rank_rows.hpp"
-
 namespace fsi {
 
 namespace {
@@ -26,7 +24,7 @@ std::vector<double> work_before(std::span<const CutGrid> grids) {
 Cut::Cut(std::span<const CutGrid> grids, int ranks, double shift) {
   int rows = 0;
   for (const CutGrid& grid : grids) {
-    grids_.push_back({.first = rows, .n2 = grid.layout.n2, .periodic2 = grid.periodic2});
+    grids_.push_back({.first = rows, .n2 = grid.layout.n2, .periodic2 = grid.periodic2, .halo = grid.halo});
     rows += grid.layout.n2;
   }
   const std::vector<double> work = work_before(grids);
@@ -41,7 +39,7 @@ Cut::Cut(std::span<const CutGrid> grids, int ranks, double shift) {
 }
 
 grid::RowRange Cut::own(int grid, int rank) const {
-  const auto [first, n2, periodic2] = grids_[static_cast<std::size_t>(grid)];
+  const auto& [first, n2, periodic2, halo] = grids_[static_cast<std::size_t>(grid)];
   const auto r = static_cast<std::size_t>(rank);
   return {std::clamp(first_[r] - first, 0, n2), std::clamp(first_[r + 1] - first, 0, n2)};
 }
@@ -49,8 +47,8 @@ grid::RowRange Cut::own(int grid, int rank) const {
 std::vector<grid::RowRange> Cut::halos(int grid, int rank) const {
   const grid::RowRange rows = own(grid, rank);
   if (rows.first >= rows.end) return {};
-  const auto [first, n2, periodic2] = grids_[static_cast<std::size_t>(grid)];
-  std::vector<grid::RowRange> halos{{rows.first - RankRows::halo, rows.end + RankRows::halo}};
+  const auto& [first, n2, periodic2, halo] = grids_[static_cast<std::size_t>(grid)];
+  std::vector<grid::RowRange> halos{{rows.first - halo, rows.end + halo}};
   if (!periodic2) return halos;
   // Ghost row -1 is row n2 - 2, ghost row n2 is row 1, and row n2 - 1 is row 0.
   const auto [low, high] = halos.front();

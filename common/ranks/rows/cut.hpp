@@ -8,6 +8,7 @@
 
 #include "common/core/field.hpp"
 #include "common/grid/intervals.hpp"
+#include "common/ranks/rows/rank_rows.hpp"
 
 namespace fsi {
 
@@ -16,6 +17,7 @@ struct CutGrid {
   Layout layout;
   bool periodic2 = false;
   const grid::RowSets* discretised = nullptr;
+  int halo = RankRows::halo;  ///< rows around one's own that are brought
 };
 
 /// Part of a row of a grid: points begin <= i < end; j may be that of a ghost row.
@@ -44,6 +46,7 @@ class Cut {
     int first = 0;  ///< number of its first row among those of all grids
     int n2 = 0;
     bool periodic2 = false;
+    int halo = 0;
   };
   std::vector<Rows> grids_;
   std::vector<int> first_;  ///< of each rank, among the rows of all grids; at the end their count

@@ -18,8 +18,8 @@
 namespace fsi {
 
 struct RankRows {
-  /// Rows around one's own whose values are complete before a step: two for the fluxes, and one more for the
-  /// slope of the pressure along a wall at the ends of the rows.
+  /// Of a gas, the rows around one's own whose values are complete before a step: two for the fluxes, and one more for
+  /// the slope of the pressure along a wall at the ends of the rows. Solids have more of them (CutGrid::halo).
   static constexpr int halo = 3;
 
   std::shared_ptr<Ranks> ranks = one_rank();

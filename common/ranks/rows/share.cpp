@@ -95,11 +95,13 @@ Strip Share::whole_row(int grid, int j) const {
 
 // --- what a step needs
 
-void Share::plan(std::span<const CutGrid> grids, const grid::CompositeGrid* composite) {
+void Share::plan(std::span<const CutGrid> grids, const grid::CompositeGrid* composite,
+                 const StepNeeds& needs) {
   if (alone()) return;
   step_ = Delivery(cut_, ranks_->rank());
   neighbours_ = Delivery(cut_, ranks_->rank());
-  need_halos(grids);
+  if (needs.halos) need_halos(grids);
+  for (const auto& [rank, strip] : needs.more) step_.need(rank, strip);
   if (composite != nullptr) {
     const std::span<const grid::InterpolationList> lists = composite->interpolation();
     mine_.resize(lists.size());

@@ -1,5 +1,5 @@
 #pragma once
-/// The gas shared out among ranks: who advances which rows, and what is brought where.
+/// A gas or a solid shared out among ranks: who advances which rows, and what is brought where.
 ///
 ///     every rank      positions of all grids, their overlap, walls: the same numbers everywhere, never sent
 ///     its owner       state of a row; others have it in their halo, or bring what they interpolate from
@@ -27,6 +27,18 @@ struct RecutOptions {
   int every = 0;  ///< tests: other rows for everybody after so many steps, balanced or not; 0: when it pays
 };
 
+/// A strip that a rank needs.
+struct Need {
+  int rank = 0;
+  Strip strip;
+};
+
+/// What is brought in a step besides donors of interpolation points.
+struct StepNeeds {
+  bool halos = true;  ///< what others advanced of one's halo
+  std::span<const Need> more = {};
+};
+
 class Share {
  public:
   /// Nothing is shared.
@@ -44,7 +56,8 @@ class Share {
 
   /// Finds what is to be brought in a step, and which interpolation points this rank sets. `composite`: null
   /// where there is one grid only.
-  void plan(std::span<const CutGrid> grids, const grid::CompositeGrid* composite);
+  void plan(std::span<const CutGrid> grids, const grid::CompositeGrid* composite,
+            const StepNeeds& needs = {});
   /// The same for the points that a motion uncovered.
   void plan_exposed(const grid::CompositeGrid& composite);
 
@@ -73,10 +86,12 @@ class Share {
   /// Counted since the start.
   struct Counts {
     double steps = 0, recuts = 0;
-    double values = 0;  ///< brought here, four per point
+    double values = 0;  ///< brought here, one per point and plane
   };
   const Counts& counts() const { return counts_; }
   const Cut& cut() const { return cut_; }
+  /// Whether a rank owns a row, or has it in its halo.
+  bool has(int rank, int grid, int j) const;
 
  private:
   std::shared_ptr<Ranks> ranks_ = one_rank();
@@ -94,7 +109,6 @@ class Share {
 
   void bring(Delivery& delivery, std::span<const FieldView> fields);
   void find_holders();
-  bool has(int rank, int grid, int j) const;
   int row_of(int grid, std::int32_t at) const;
   void need_halos(std::span<const CutGrid> grids);
   void need_donors(const grid::InterpolationList& list, std::size_t point, int rank,

@@ -65,7 +65,13 @@ class ThreadRanks final : public Ranks {
     meeting_->all.arrive_and_wait();
     return all;
   }
-  double largest(double mine) override { return std::ranges::max(together({&mine, 1})); }
+  void largest_of_each(std::span<double> values) override {
+    const std::vector<double> all = together(values);
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      double& value = values[k % values.size()];
+      value = std::max(value, all[k]);
+    }
+  }
   void leave() override {}
 
  private:
