@@ -4,64 +4,74 @@
 
 namespace fsi::solid {
 
-namespace {
+void PoseSums::add(double dA, const Vec2& at, const Vec2& its_u, const Vec2& its_v) {
+  area += dA;
+  x += dA * at;
+  u += dA * its_u;
+  v += dA * its_v;
+  x_cross_u += dA * (at[0] * its_u[1] - at[1] * its_u[0]);
+  x_dot_u += dA * at.dot(its_u);
+  x_dot_x += dA * at.squaredNorm();
+}
 
-/// Sums over the pieces of a body, each weighted by its area. Positions are taken from the first point, so
-/// that bodies far from the origin lose no digits.
-struct Sums {
-  double area = 0;
-  Vec2 x = Vec2::Zero(), u = Vec2::Zero(), v = Vec2::Zero();
-  double x_cross_u = 0, x_dot_u = 0, x_dot_x = 0;
+void PoseSums::add(const PoseSums& row) {
+  area += row.area;
+  x += row.x;
+  u += row.u;
+  v += row.v;
+  x_cross_u += row.x_cross_u;
+  x_dot_u += row.x_dot_u;
+  x_dot_x += row.x_dot_x;
+}
 
-  void add(double dA, const Vec2& at, const Vec2& its_u, const Vec2& its_v) {
-    area += dA;
-    x += dA * at;
-    u += dA * its_u;
-    v += dA * its_v;
-    x_cross_u += dA * (at[0] * its_u[1] - at[1] * its_u[0]);
-    x_dot_u += dA * at.dot(its_u);
-    x_dot_x += dA * at.squaredNorm();
-  }
-};
+void PoseSums::write(std::vector<double>& to) const {
+  to.insert(to.end(), {area, x[0], x[1], u[0], u[1], v[0], v[1], x_cross_u, x_dot_u, x_dot_x});
+}
 
-/// Over cells, each represented by its middle.
-Sums sums_of(ConstFieldView x, ConstFieldView q) {
+PoseSums PoseSums::read(std::span<const double> from) {
+  return {.area = from[0],
+          .x = {from[1], from[2]},
+          .u = {from[3], from[4]},
+          .v = {from[5], from[6]},
+          .x_cross_u = from[7],
+          .x_dot_u = from[8],
+          .x_dot_x = from[9]};
+}
+
+PoseSums pose_sums(ConstFieldView x, ConstFieldView q, int j) {
   const double o1 = x(0, 0, 0), o2 = x(1, 0, 0);
-  Sums sums;
-  for (int j = 0; j + 1 < x.layout.n2; ++j) {
-    const auto middle = [j](ConstFieldView f, int c, int i) {
-      const double *low = f.row(c, j), *high = f.row(c, j + 1);
-      return 0.25 * ((low[i] + low[i + 1]) + (high[i] + high[i + 1]));
-    };
-    for (int i = 0; i + 1 < x.layout.n1; ++i) {
-      const double a1 = x(0, i + 1, j + 1) - x(0, i, j), a2 = x(1, i + 1, j + 1) - x(1, i, j);
-      const double b1 = x(0, i, j + 1) - x(0, i + 1, j), b2 = x(1, i, j + 1) - x(1, i + 1, j);
-      const double dA = 0.5 * (a1 * b2 - a2 * b1);
-      sums.add(dA, {middle(x, 0, i) - o1, middle(x, 1, i) - o2}, {middle(q, 0, i), middle(q, 1, i)},
-               {middle(q, 2, i), middle(q, 3, i)});
+  PoseSums sums;
+  const auto middle = [j](ConstFieldView f, int c, int i) {
+    const double *low = f.row(c, j), *high = f.row(c, j + 1);
+    return 0.25 * ((low[i] + low[i + 1]) + (high[i] + high[i + 1]));
+  };
+  for (int i = 0; i + 1 < x.layout.n1; ++i) {
+    const double a1 = x(0, i + 1, j + 1) - x(0, i, j), a2 = x(1, i + 1, j + 1) - x(1, i, j);
+    const double b1 = x(0, i, j + 1) - x(0, i + 1, j), b2 = x(1, i, j + 1) - x(1, i + 1, j);
+    const double dA = 0.5 * (a1 * b2 - a2 * b1);
+    sums.add(dA, {middle(x, 0, i) - o1, middle(x, 1, i) - o2}, {middle(q, 0, i), middle(q, 1, i)},
+             {middle(q, 2, i), middle(q, 3, i)});
+  }
+  return sums;
+}
+
+PoseSums pose_sums(const PosePart& part, const Vec2& origin, int j) {
+  const ConstFieldView x = part.reference, q = part.state;
+  PoseSums sums;
+  for (const auto& [begin, end] : part.points->row(j)) {
+    for (int i = begin; i < end; ++i) {
+      sums.add(part.areas(0, i, j), Vec2(x(0, i, j), x(1, i, j)) - origin, {q(0, i, j), q(1, i, j)},
+               {q(2, i, j), q(3, i, j)});
     }
   }
   return sums;
 }
 
-/// Over points.
-void add_points(const PosePart& part, const Vec2& origin, Sums& sums) {
-  const ConstFieldView x = part.reference, q = part.state;
-  for (int j = 0; j < x.layout.n2; ++j) {
-    for (const auto& [begin, end] : part.points->row(j)) {
-      for (int i = begin; i < end; ++i) {
-        sums.add(part.areas(0, i, j), Vec2(x(0, i, j), x(1, i, j)) - origin, {q(0, i, j), q(1, i, j)},
-                 {q(2, i, j), q(3, i, j)});
-      }
-    }
-  }
-}
-
-Vec2 first_point(ConstFieldView x) {
+Vec2 origin_of_sums(ConstFieldView x) {
   return {x(0, 0, 0), x(1, 0, 0)};
 }
 
-Pose pose_from(const Sums& sums, const Vec2& origin) {
+Pose pose_from(const PoseSums& sums, const Vec2& origin) {
   const Vec2 x = sums.x / sums.area, u = sums.u / sums.area;
   // Least squares over rotations: the angle of (sum dA a x b, sum dA a . b) with a, b the positions about the
   // centres before and after, b = a + u - mean u.
@@ -70,16 +80,18 @@ Pose pose_from(const Sums& sums, const Vec2& origin) {
   return {.centre = origin + x + u, .velocity = sums.v / sums.area, .angle = std::atan2(sine, cosine)};
 }
 
-}  // namespace
-
 Pose pose_of(ConstFieldView reference, ConstFieldView state) {
-  return pose_from(sums_of(reference, state), first_point(reference));
+  PoseSums sums;
+  for (int j = 0; j + 1 < reference.layout.n2; ++j) sums.add(pose_sums(reference, state, j));
+  return pose_from(sums, origin_of_sums(reference));
 }
 
 Pose pose_of(std::span<const PosePart> parts) {
-  const Vec2 origin = first_point(parts.front().reference);
-  Sums sums;
-  for (const PosePart& part : parts) add_points(part, origin, sums);
+  const Vec2 origin = origin_of_sums(parts.front().reference);
+  PoseSums sums;
+  for (const PosePart& part : parts) {
+    for (int j = 0; j < part.reference.layout.n2; ++j) sums.add(pose_sums(part, origin, j));
+  }
   return pose_from(sums, origin);
 }
 

@@ -1,7 +1,9 @@
 #pragma once
 /// Where a deforming body is and how far it has turned.
 
+#include <cstddef>
 #include <span>
+#include <vector>
 
 #include "common/core/field.hpp"
 #include "common/core/types.hpp"
@@ -15,8 +17,25 @@ struct Pose {
   double angle = 0;              ///< of the rotation that fits the motion best [rad], in (-pi, pi]
 };
 
-/// `reference`: planes x_bar1, x_bar2; `state`: planes u1, u2, v1, v2 first. Homogeneous density.
-Pose pose_of(ConstFieldView reference, ConstFieldView state);
+/// What a pose is made of, summed over the pieces of a row of a grid, each weighted by its area. Rows are summed one by
+/// one and then in their order, whoever has them.
+struct PoseSums {
+  double area = 0;
+  Vec2 x = Vec2::Zero(), u = Vec2::Zero(), v = Vec2::Zero();
+  double x_cross_u = 0, x_dot_u = 0, x_dot_x = 0;
+
+  void add(double dA, const Vec2& at, const Vec2& its_u, const Vec2& its_v);
+  void add(const PoseSums& row);
+
+  static constexpr std::size_t size = 10;
+  /// As numbers for other ranks.
+  void write(std::vector<double>& to) const;
+  static PoseSums read(std::span<const double> from);
+};
+
+/// Cells between rows j and j + 1 of a body on one grid, each represented by its middle. `reference`: planes x_bar1,
+/// x_bar2; `state`: planes u1, u2, v1, v2 first. Positions are taken from the first point.
+PoseSums pose_sums(ConstFieldView reference, ConstFieldView state, int j);
 
 /// One grid of a composite one: as above, the `areas` that its points stand for (grid::area_weights), and which
 /// points these are.
@@ -24,7 +43,17 @@ struct PosePart {
   ConstFieldView reference, state, areas;
   const grid::RowSets* points = nullptr;
 };
+/// Points of row j, with positions from `origin`.
+PoseSums pose_sums(const PosePart& part, const Vec2& origin, int j);
 
+/// The first point of a body's first grid: positions are taken from there, so that bodies far from the origin of
+/// space lose no digits.
+Vec2 origin_of_sums(ConstFieldView reference);
+/// From the sums over all rows.
+Pose pose_from(const PoseSums& sums, const Vec2& origin);
+
+/// Of a body on one grid. Homogeneous density.
+Pose pose_of(ConstFieldView reference, ConstFieldView state);
 /// The same of a body that several grids cover.
 Pose pose_of(std::span<const PosePart> parts);
 
