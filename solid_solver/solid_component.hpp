@@ -7,8 +7,10 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "common/grid/moving_grid.hpp"
+#include "common/ranks/rows/rank_rows.hpp"
 #include "solid_solver/boundary/solid_boundary.hpp"
 #include "solid_solver/kernels/dissipation.hpp"
 #include "solid_solver/kernels/godunov_sweep.hpp"
@@ -46,7 +48,7 @@ class SolidComponent {
   /// Null where there is none.
   const ChosenSolution* chosen() const { return chosen_ ? &*chosen_ : nullptr; }
   /// Paper eq. (35) to paper eq. (41) beside the present state, which gets half of the step's source of a
-  /// chosen solution. @throws NumbersBroke naming grid and point
+  /// chosen solution. Points that broke are counted in `measured`.
   void predict(double t, double dt, Look look);
   /// The present state without that half of the source (to round-off), when a grid of the body broke.
   void give_back();
@@ -68,8 +70,21 @@ class SolidComponent {
   Tensor2 deformation_gradient(int i, int j) const;
   /// Everything the next steps depend on.
   void archive(Archive& archive);
-  /// The point that broke: "point (14, 3): det F = -0.02". Empty when all are well.
-  NumbersBroke breakdown(double dt) const;
+  /// The first point that broke: "point (14, 3): det F = -0.02"; nothing where all are well.
+  std::optional<NumbersBroke> breakdown(double dt) const;
+
+  // Where several ranks share the body: those rows of it that this one has to do with.
+
+  /// `beside`: rows around its own that it may read and set conditions in.
+  void take_rows(RankRows rows);
+  const RankRows& rows() const { return rows_; }
+  /// What the step of a rank found; in its place comes what all have found.
+  SweepResult& measured() { return measured_; }
+  /// Fields of which a rank has its rows only, in an order that all grids have.
+  std::vector<FieldView> scattered_fields();
+  /// Conditions on the sides, of which a rank knows those in its rows.
+  SolidBoundary<L>& boundary() { return boundary_; }
+  void set_settled(double settled) { settled_ = settled; }
 
  private:
   std::string breakdown_at(int i, int j, double dt) const;
@@ -90,6 +105,7 @@ class SolidComponent {
   SolidOptions options_;
   ReferenceMetrics metrics_;
   SolidBoundary<L> boundary_;
+  RankRows rows_;
   Field q_, next_, work_, force_;
   VectorFunction body_force_;
   std::optional<ChosenSolution> chosen_;
@@ -173,6 +189,7 @@ void SolidComponent<L>::evaluate_force(double t) {
     }
   };
   for (int j = -1; j <= layout().n2; ++j) {
+    if (!rows_.has(j)) continue;
     for (const grid::Interval& run : points_.beside(j)) evaluate(j, run);
     if (j < 0 || j == layout().n2) continue;
     for (const grid::Interval& run : points_.discretised(j)) evaluate(j, run);
@@ -193,6 +210,7 @@ void SolidComponent<L>::evaluate_source(double t) {
   constexpr int g = Layout::ghosts;
   const ConstFieldView x = grid_.x();
   for (int j = -g; j < layout().n2 + g; ++j) {
+    if (!rows_.has(j)) continue;
     for (int i = -g; i < layout().n1 + g; ++i) {
       if (!points_.is_valid(std::clamp(i, 0, layout().n1 - 1), std::clamp(j, 0, layout().n2 - 1))) continue;
       store(source_.view(), layout().at(i, j), chosen_->source(x(0, i, j), x(1, i, j), t));
@@ -216,6 +234,7 @@ void SolidComponent<L>::add_relaxation_offset(double t, double dt) {
   if (beta == 0) return;
   const ConstFieldView x = grid_.x();
   for (int j = 0; j < layout().n2; ++j) {
+    if (!rows_.owns(j)) continue;
     for (const auto& [begin, end] : points_.discretised(j)) {
       for (int i = begin; i < end; ++i) {
         const std::ptrdiff_t at = layout().at(i, j);
@@ -251,7 +270,8 @@ SweepResult SolidComponent<L>::sweep_with(double dt, Look look) {
       .rho = options_.rho,
       .dt = dt,
       .look = look,
-      .measures_spread = options_.relaxation.active() || options_.tangential_stress.active()};
+      .measures_spread = options_.relaxation.active() || options_.tangential_stress.active(),
+      .rows = rows_.all ? grid::RowRange{0, layout().n2} : rows_.own};
   const auto dissipation = [&](RowRun run) { dissipate<Row, Gradient>(dt, run); };
   if (options_.limiter == Limiter::minmod)
     return GodunovSweep<L, Row, Limiter::minmod>(data, metrics_, law_).run(dissipation);
@@ -299,7 +319,6 @@ void SolidComponent<L>::predict(double t, double dt, Look look) {
     met.min_phi_s = measured_.min_phi_s;
   }
   measured_ = met;
-  if (measured_.broken > 0) throw breakdown(dt);
 }
 
 template <Law L>
@@ -356,44 +375,7 @@ void SolidComponent<L>::archive(Archive& archive) {
   archive.number("has_source", has_source_);
 }
 
-template <Law L>
-NumbersBroke SolidComponent<L>::breakdown(double dt) const {
-  const ConstFieldView x = grid_.x();
-  for (int j = 0; j < layout().n2; ++j) {
-    for (const auto& [begin, end] : points_.discretised(j)) {
-      for (int i = begin; i < end; ++i) {
-        const std::string what = breakdown_at(i, j, dt);
-        if (what.empty()) continue;
-        return NumbersBroke(what, {.grid = grid_.name(),
-                                   .point = {i, j},
-                                   .position = {x(0, i, j), x(1, i, j)},
-                                   .of_reference = true});
-      }
-    }
-  }
-  return NumbersBroke("not a number", {.grid = grid_.name()});
-}
-
-template <Law L>
-std::string SolidComponent<L>::breakdown_at(int i, int j, double dt) const {
-  const StateRows rows(q_.view(), j);
-  const PointMetrics m = metrics_.at(i, j);
-  const Pair d1 = displacement_difference(rows.u1, rows.v1, i, 0.5 * dt),
-             d2 = displacement_difference(rows.u2, rows.v2, i, 0.5 * dt);
-  const Tensor2 F = plus_dyad(plus_dyad({1.0, 0.0, 0.0, 1.0}, {d1.x, d2.x}, m.r1), {d1.y, d2.y}, m.r2);
-  const Stiffness K = law_.K(F);
-  const double J = determinant(F);
-  const double phi_s = std::min(wave_eigenvalues(acoustic_matrix(K, m.r1.normalized())).y,
-                                wave_eigenvalues(acoustic_matrix(K, m.r2.normalized())).y);
-  if constexpr (requires { L::end_of_law; }) {
-    if (std::isnan(J) || (J > 0 && std::isnan(law_.psi(F))))
-      return fmt::format("det F = {:.4g}: {}", J, L::end_of_law);
-  }
-  if (!(J > 0)) return fmt::format("det F = {:.4g}", J);
-  if (phi_s > 0) return {};
-  const std::string lost = fmt::format("no longer hyperbolic, phi_s = {:.4g}", phi_s);
-  if constexpr (requires { L::where_soft; }) return fmt::format("{}: {}", lost, L::where_soft);
-  return lost;
-}
-
 }  // namespace fsi::solid
+
+#include "solid_solver/component_breakdown.hpp"       // IWYU pragma: export
+#include "solid_solver/ranks/component_on_ranks.hpp"  // IWYU pragma: export

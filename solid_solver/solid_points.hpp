@@ -24,6 +24,7 @@ class SolidPoints {
   SolidPoints(const Layout& layout, grid::RowSets discretised, grid::RowSets valid);
 
   std::span<const grid::Interval> discretised(int j) const { return discretised_.row(j); }
+  const grid::RowSets& discretised() const { return discretised_; }
   std::span<const grid::Interval> valid(int j) const { return valid_.row(j); }
   const grid::RowSets& valid() const { return valid_; }
   /// Points beside discretised ones, -1 <= j <= n2: predicted, but not advanced.

@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -19,6 +20,8 @@
 #include "common/core/field.hpp"
 #include "common/grid/moving_grid.hpp"
 #include "common/grid/overlap/composite_grid.hpp"
+#include "common/ranks/breaking.hpp"
+#include "common/ranks/rows/share.hpp"
 #include "solid_solver/boundary/interface.hpp"
 #include "solid_solver/composite.hpp"
 #include "solid_solver/measures/body_integrals.hpp"
@@ -125,7 +128,7 @@ class SolidSolver {
   /// state at t
   void advance_solid(double t, double dt, Look look = Look::all) {
     try {
-      for (SolidComponent<L>& component : components_) component.predict(t, dt, look);
+      predict(t, dt, look);
     } catch (NumbersBroke& failure) {
       for (SolidComponent<L>& component : components_) component.give_back();
       failure.know({.t = t});
@@ -134,6 +137,7 @@ class SolidSolver {
     for (SolidComponent<L>& component : components_) component.complete(t, dt);
     ++steps_;
     t_ = t + dt;
+    if (!alone()) early_.bring(states());
   }
   /// Predicted state of the interface points of a side; reuses the memory of `state`. Needs no ghost points.
   void interface_state(Side side, SolidInterface& state, int grid = 0) const {
@@ -148,10 +152,14 @@ class SolidSolver {
   /// Boundary conditions and ghost points at time t, then interpolation between the grids. `projected` has
   /// one entry per interface side.
   void apply_solid_bcs(double t, std::span<const InterfaceValues> projected = {}) {
-    if (interpolate_first_) interpolate();
-    for (SolidComponent<L>& component : components_) component.apply_boundary(t, projected);
+    if (interpolate_first_) interpolate(early_);
+    together_.attempt([&] {
+      for (SolidComponent<L>& component : components_) component.apply_boundary(t, projected);
+    });
+    together_.agree();
     if (composite_) {
-      interpolate();
+      if (!alone()) late_.bring(states());
+      interpolate(late_);
       for (SolidComponent<L>& component : components_) component.refresh_ghosts(t);
     }
     t_ = t;
@@ -172,6 +180,7 @@ class SolidSolver {
     return errors;
   }
   SideLoad side_load(Side side, int grid = 0) const { return load_on_side(component(grid), side); }
+  /// On rank 0; all call it.
   Pose pose() const;
   /// Body-fitted grids come first. @throws UserMistake when (x, y) lies outside the reference grids
   ProbePoint locate(double x, double y) const;
@@ -186,6 +195,7 @@ class SolidSolver {
   /// Reference positions of the points.
   ConstFieldView reference(int grid = 0) const { return component(grid).grid().x(); }
   const grid::MovingGrid& grid(int grid = 0) const { return component(grid).grid(); }
+  Boundary::Kind kind(Side side, int grid = 0) const { return component(grid).boundary().kind(side); }
   /// Points of a grid that have a value.
   const grid::RowSets& valid(int grid = 0) const { return component(grid).points().valid(); }
   /// Points that have a value, all grids.
@@ -205,6 +215,33 @@ class SolidSolver {
   std::uint64_t steps() const { return steps_; }
   double t() const { return t_; }
 
+  // Several ranks that share the body: every one has such a solver, and calls the same functions with the same numbers
+  // (ranks/README.md). What is said of the state above is then known where it says so.
+
+  /// From now on this one advances its rows only. After the initial conditions.
+  void share(std::shared_ptr<Ranks> ranks, const RecutOptions& options);
+  bool alone() const { return early_.alone(); }
+  const Share& shared() const { return early_; }
+  /// Whether a rank knows `interface_state` of a side after `advance_solid`: rank 0, and those with rows of the side.
+  bool shows(Side side, int grid) const {
+    return early_.ranks().first() || component(grid).boundary().present(side);
+  }
+  /// What this rank does on its part before it applies conditions; where its numbers break, they do on all ranks then.
+  template <class Action>
+  void attempt(const Action& action) {
+    together_.attempt(action);
+  }
+  /// Brings interface sides and these strips to rank 0.
+  void fetch(std::vector<Strip> strips);
+  /// Where the corners of a probe's cell are.
+  static std::vector<Strip> strips_of(const ProbePoint& probe);
+  /// Brings the state to rank 0.
+  void collect();
+  /// Everything the next steps depend on; other ranks forget what was counted.
+  void collect_all();
+  /// A saved state was loaded, by all.
+  void loaded();
+
  private:
   static std::vector<SolidPart> one_part(grid::MovingGrid grid, Boundaries boundaries) {
     std::vector<SolidPart> parts;
@@ -217,13 +254,25 @@ class SolidSolver {
     for (const SolidComponent<L>& component : components_) all.add(component.measured());
     return all;
   }
-  void interpolate() {
-    if (!composite_) return;
+  std::span<const FieldView> states() {
     for (std::size_t k = 0; k < views_.size(); ++k) views_[k] = components_[k].q();
-    composite_->interpolate(views_);
+    return views_;
   }
+  void interpolate(const Share& share) {
+    if (composite_) composite_->interpolate(states(), share.mine(composite_->interpolation()));
+  }
+  void predict(double t, double dt, Look look);
+  void predict_on_ranks(double t, double dt, Look look);
+  void agree_on_prediction(std::size_t first, double dt);
+  static NumbersBroke breakdown(const SolidComponent<L>& component, double dt);
+  std::vector<CutGrid> cut_grids(int halo) const;
+  std::vector<Need> lines_of_interfaces() const;
+  void take_rows();
+  void share_out_anew();
+  void gather_scattered();
+  Pose pose_on_ranks(std::span<const PosePart> parts) const;
   void start() {
-    interpolate();
+    interpolate(early_);
     apply_solid_bcs(t_);
     for (SolidComponent<L>& component : components_) component.measure();
   }
@@ -233,6 +282,17 @@ class SolidSolver {
   std::optional<grid::CompositeGrid> composite_;
   std::vector<Field> areas_;  ///< of the points of a composite grid
   std::deque<SolidComponent<L>> components_;
+  /// What is brought of a prediction: halos, interface sides, donors where conditions need them; and after the
+  /// conditions: donors.
+  Share early_, late_;
+  Together together_{early_.ranks()};
+  int recut_every_ = 0;  ///< tests: other rows for everybody after so many steps
+  /// What a grid's last sweep found before the present one.
+  struct Found {
+    SweepResult measured;
+    double settled;
+  };
+  std::vector<Found> found_;        ///< of the grids predicted so far
   std::vector<FieldView> views_;    ///< work memory
   bool interpolate_first_ = false;  ///< boundary conditions read interpolated points
   double t_;
@@ -261,16 +321,6 @@ Totals SolidSolver<L>::totals() const {
 }
 
 template <Law L>
-Pose SolidSolver<L>::pose() const {
-  if (!composite_) return pose_of(reference(), state());
-  std::vector<PosePart> parts;
-  for (int k = 0; k < grids(); ++k) {
-    parts.push_back({reference(k), state(k), areas_[static_cast<std::size_t>(k)].view(), &valid(k)});
-  }
-  return pose_of(parts);
-}
-
-template <Law L>
 ProbePoint SolidSolver<L>::locate(double x, double y) const {
   for (int k = 1; k <= grids(); ++k) {
     const int grid = k % grids();
@@ -284,3 +334,5 @@ ProbePoint SolidSolver<L>::locate(double x, double y) const {
 }
 
 }  // namespace fsi::solid
+
+#include "solid_solver/ranks/solid_on_ranks.hpp"  // IWYU pragma: export

@@ -129,7 +129,7 @@ std::map<std::string, int> numbered(const std::string& list) {
 
 /// False: help was asked for. @throws UserMistake
 bool read_command_line(int argc, char** argv, const std::string& role, Setup& setup, std::string& case_path,
-                       int& ranks) {
+                       Sharing sharing, int& ranks) {
   CommandLine line(fmt::format("AMP-FSI {}: one program of a run; ./launch/fsi starts it", role));
   line.add_option("--case", case_path, "case file (YAML)").required();
   line.add_option("--run-dir", setup.run_dir, "folder of the results").required();
@@ -139,7 +139,7 @@ bool read_command_line(int argc, char** argv, const std::string& role, Setup& se
   line.add_option("--pause-at", setup.pause_at, "pause after so many steps");
   std::string pids;
   line.add_option("--pids", pids, "NAME=PID,..: processes of the other participants");
-  if (role == "fluid") {
+  if (sharing == Sharing::ranks) {
     line.add_option("--ranks", ranks, "processes that compute it together, started by mpirun");
     line.add_option("--recut", setup.recut, "tests: they share out their work anew after so many steps");
   }
@@ -277,12 +277,12 @@ void ProgressLines::show(std::uint64_t step, double t, double dt, const std::str
 }
 
 int run_program(int argc, char** argv, const std::string& default_name, const std::string& role,
-                const std::function<void(const Setup&, io::Part&)>& body) {
+                const std::function<void(const Setup&, io::Part&)>& body, Sharing sharing) {
   Setup setup{.problem = {}, .run_dir = ".", .run = "run", .name = default_name};
   std::string case_path;
   int ranks = 1;
   try {
-    if (!read_command_line(argc, argv, role, setup, case_path, ranks)) return 0;
+    if (!read_command_line(argc, argv, role, setup, case_path, sharing, ranks)) return 0;
   } catch (const UserMistake& mistake) {
     fmt::print(stderr, "{}: {}\n", default_name, mistake.what());
     return static_cast<int>(mistake.code());

@@ -47,10 +47,14 @@ std::vector<wire::StepsLimited> limits_of(const io::Part& part);
 
 void count_step(io::Part& part, double t, double dt);
 
+/// Whether several ranks can compute a participant.
+enum class Sharing { one_rank, ranks };
+
 /// Runs the body of a program with everything around it. Failures become the exit code and the report's
 /// reason. `default_name` is the participant's name when --name is not given.
 int run_program(int argc, char** argv, const std::string& default_name, const std::string& role,
-                const std::function<void(const Setup&, io::Part&)>& body);
+                const std::function<void(const Setup&, io::Part&)>& body,
+                Sharing sharing = Sharing::one_rank);
 
 /// Ends the program at once, from whatever thread; its report says why.
 [[noreturn]] void end_program(const Setup& setup, io::Part part, const Failure& failure);

@@ -5,10 +5,13 @@
 #include "fluid_solver/program/port.hpp"
 
 int main(int argc, char** argv) {
-  return fsi::run_program(argc, argv, "fluid", "fluid", [](const fsi::Setup& setup, fsi::io::Part& part) {
-    fsi::fluid::check_ranks(setup);
-    if (!setup.ranks->first()) return fsi::fluid::serve(setup);
-    fsi::fluid::FluidParticipant solver(setup);
-    fsi::participate(setup, part, solver);
-  });
+  return fsi::run_program(
+      argc, argv, "fluid", "fluid",
+      [](const fsi::Setup& setup, fsi::io::Part& part) {
+        fsi::fluid::check_ranks(setup);
+        if (!setup.ranks->first()) return fsi::fluid::serve(setup);
+        fsi::fluid::FluidParticipant solver(setup);
+        fsi::participate(setup, part, solver);
+      },
+      fsi::Sharing::ranks);
 }

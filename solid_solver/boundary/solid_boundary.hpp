@@ -11,6 +11,7 @@
 
 #include "common/core/archive.hpp"
 #include "common/core/failure.hpp"
+#include "common/ranks/rows/rank_rows.hpp"
 #include "solid_solver/boundary/ghost_lines.hpp"
 #include "solid_solver/boundary/interface.hpp"
 #include "solid_solver/boundary/traction_ghost.hpp"
@@ -56,6 +57,15 @@ class SolidBoundary {
 
   /// Tractions and their rates, and what motion that is given changed.
   void archive(Archive& archive);
+  /// From now on conditions are set in these rows only, and numbers that break elsewhere than in the own ones are
+  /// left to their owner.
+  void take_rows(const RankRows& rows);
+  /// Some of the side is in the rows.
+  bool present(Side side) const { return present_[index(side)]; }
+  /// What `archive` has of points in these rows, one point after the other.
+  std::vector<double> scattered(const grid::RowRange& rows) const;
+  /// Puts it in its place; returns what follows it.
+  std::span<const double> gather_scattered(const grid::RowRange& rows, std::span<const double> values);
 
   /// From now on given values that are zero, and projected ones, are differences to this solution.
   void choose(const ChosenSolution* solution) { chosen_ = solution; }
@@ -90,12 +100,16 @@ class SolidBoundary {
   const SideIndex& line_of(Side side) const { return lines_[index(side)]; }
   bool loaded(Side side) const { return kind(side) == Kind::traction || kind(side) == Kind::interface; }
   bool mirrored(Side side) const;
-  /// Discretised points of a side.
+  /// Discretised points of a side, in the rows that the rank has.
   std::span<const int> points(Side side) const { return advanced_[index(side)]; }
   bool advanced(Side side, int k) const;
   void find_points(Side side);
   void lay_out_rows(Side side);
   SideRows rows_of(Side side) { return {rows_[index(side)].view()}; }
+  /// Place of a discretised point in the rows of a side, which have all of them: the same loops give the same bits.
+  std::size_t slot(Side side, int k) const { return slots_[index(side)][static_cast<std::size_t>(k)]; }
+  template <class Action>
+  void each_scattered(const grid::RowRange& rows, const Action& action) const;
   static bool end_of(const SideIndex& line, int k) { return k == 0 || k == line.n - 1; }
   Vec2 position(std::ptrdiff_t at) const { return {grid_.x.plane(0)[at], grid_.x.plane(1)[at]}; }
   /// False at a corner, unless the neighbour's ghost points are
@@ -153,7 +167,7 @@ class SolidBoundary {
   void set_corner_ghosts(FieldView q, Side side, int k, int first, const Tensor2& gradient) const;
   static void set_ghost(FieldView q, const SideIndex& line, int k, int first, const Vec2& change);
   void fill_frame(FieldView q, double t) const;
-  [[noreturn]] void broke(Side side, int k, double t) const;
+  void broke(Side side, int k, double t) const;
 
   static constexpr Tensor2 identity = {1.0, 0.0, 0.0, 1.0};
 
@@ -163,7 +177,10 @@ class SolidBoundary {
   double rho_;
   Boundaries boundaries_;
   std::array<Kind, 4> kinds_{};
+  RankRows held_;  ///< rows that this rank has
+  std::array<bool, 4> present_{true, true, true, true};
   std::array<std::vector<int>, 4> advanced_, interpolated_;  ///< points of the sides
+  std::array<std::vector<std::size_t>, 4> slots_;
   std::array<std::vector<SideMetrics>, 4> metrics_;
   std::array<Field, 4> rows_;  ///< of the discretised points of loaded sides, for loops over them
   Limiter limiter_;
@@ -176,5 +193,6 @@ class SolidBoundary {
 }  // namespace fsi::solid
 
 #include "solid_solver/boundary/solid_boundary_matching.hpp"   // IWYU pragma: export
+#include "solid_solver/boundary/solid_boundary_on_ranks.hpp"   // IWYU pragma: export
 #include "solid_solver/boundary/solid_boundary_tractions.hpp"  // IWYU pragma: export
 #include "solid_solver/boundary/solid_boundary_values.hpp"     // IWYU pragma: export

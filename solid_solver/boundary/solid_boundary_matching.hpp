@@ -116,19 +116,18 @@ void SolidBoundary<L>::match_slip_side(FieldView q, Side side, double t) const {
 /// at one of them, none of the others reads.
 template <Law L>
 void SolidBoundary<L>::match_loaded_side(FieldView q, Side side, double t) {
+  if (points(side).empty()) return;
   const SideIndex& line = line_of(side);
   const SideRows rows = rows_of(side);
   begin_match(q, side, t);
   match_tractions(law_, rows);
   set_matched_ghosts(q, side, t);
   find_stresses(law_, rows);
-  const std::span<const int> list = points(side);
-  for (std::size_t m = 0; m < list.size(); ++m) {
-    const int k = list[m];
+  for (const int k : points(side)) {
     if (!inner(side, k)) continue;
     const SideMetrics& s = at(side, k);
     const std::ptrdiff_t a = line.at(k, 0);
-    const Tensor2 P = plus(rows.P().at(static_cast<int>(m)), chosen_offset(a, t));
+    const Tensor2 P = plus(rows.P().at(static_cast<int>(slot(side, k))), chosen_offset(a, t));
     SolidState state = load(q, a);
     state.P = plus_dyad(state.P, s.t0, traction_of(P, s.t0) - traction_of(state.P, s.t0));
     store(q, a, state);
@@ -149,9 +148,8 @@ template <Law L>
 void SolidBoundary<L>::begin_match(ConstFieldView q, Side side, double t) {
   const SideIndex& line = line_of(side);
   const SideRows rows = rows_of(side);
-  const std::span<const int> list = points(side);
-  for (std::size_t m = 0; m < list.size(); ++m) {
-    const int k = list[m];
+  for (const int k : points(side)) {
+    const std::size_t m = slot(side, k);
     const SideMetrics& s = at(side, k);
     const std::ptrdiff_t a = line.at(k, 0);
     const Tensor2 F = strain_along(q, side, k).F;
@@ -172,10 +170,9 @@ template <Law L>
 void SolidBoundary<L>::set_matched_ghosts(FieldView q, Side side, double t) {
   const SideIndex& line = line_of(side);
   const SideRows rows = rows_of(side);
-  const std::span<const int> list = points(side);
-  for (std::size_t m = 0; m < list.size(); ++m) {
-    const int k = list[m];
+  for (const int k : points(side)) {
     if (!inner(side, k)) continue;
+    const std::size_t m = slot(side, k);
     const SideMetrics& s = at(side, k);
     const BoundaryStrain strain = {
         .F = rows.F().at(static_cast<int>(m)), .across = s.across, .n0 = s.n0, .sign = s.sign};
@@ -184,7 +181,10 @@ void SolidBoundary<L>::set_matched_ghosts(FieldView q, Side side, double t) {
       const Vec2 T(rows[SideRows::T1][m], rows[SideRows::T2][m]);
       du = match_traction(law_, strain, T, difference_across(q, line, plane::u1, k, s.sign));
     }
-    if (!du) broke(side, k, t);
+    if (!du) {
+      broke(side, k, t);
+      continue;
+    }
     set_ghost(q, line, k, plane::u1, 2.0 * s.sign * *du);
     if (kind(side) == Kind::traction) match_velocity(q, side, k, t, strain, *du);
     const Tensor2 F = with_sharper_tangent(q, side, k, plus_dyad(strain.F, *du, s.across));
@@ -233,7 +233,7 @@ void SolidBoundary<L>::match_slip_point(FieldView q, Side side, int k, double t)
   const std::ptrdiff_t a = line.at(k, 0);
   const double shear = m.t0.dot(traction_of(minus(chosen(a, t).P, chosen_offset(a, t)), m.n0));
   const auto du = match_shear(law_, strain, shear, difference_across(q, line, plane::u1, k, m.sign));
-  if (!du) broke(side, k, t);
+  if (!du) return broke(side, k, t);
   set_ghost(q, line, k, plane::u1, 2.0 * m.sign * *du);
   const Stiffness K = law_.K(plus_dyad(strain.F, *du, m.across));
   const Tensor2 strain_rate = contract(K, gradient(q, side, k, plane::v1));
@@ -259,7 +259,10 @@ void SolidBoundary<L>::match_corners(FieldView q, double t) const {
       const Tensor2 P = minus(load(q, a).P, chosen_offset(a, t));
       const Tensor2 start = gradient(q, side, k, plane::u1);
       const auto F = match_corner(law_, P, plus(identity, start));
-      if (!F) broke(side, k, t);
+      if (!F) {
+        broke(side, k, t);
+        continue;
+      }
       set_corner_ghosts(q, side, k, plane::u1, minus(*F, identity));
       if (kind(side) != Kind::traction || kind(other) != Kind::traction) continue;
       const Stiffness K = law_.K(*F);

@@ -79,6 +79,7 @@ double SolidBoundary<L>::stretch_along(ConstFieldView q, Side side, int k) const
 /// T = (w_n / eta) n, or w_n n0 for loads on the reference configuration; besides the chosen traction.
 template <Law L>
 void SolidBoundary<L>::find_projected_traction(ConstFieldView q, double t, const InterfaceValues& values) {
+  if (!present(values.side)) return;
   const SideIndex& line = line_of(values.side);
   const auto n = static_cast<std::size_t>(line.n);
   for (std::size_t k = 0; k < n; ++k) {
@@ -149,24 +150,25 @@ void SolidBoundary<L>::slide_along_interface(FieldView q, const InterfaceValues&
   const SideIndex& line = line_of(side);
   const SideRows rows = rows_of(side);
   const auto n = static_cast<std::size_t>(line.n);
-  const std::span<const int> list = points(side);
-  for (std::size_t m = 0; m < list.size(); ++m) {
-    const Tensor2 F = plus(identity, gradient(q, side, list[m], plane::u1));
-    rows.F().set(static_cast<int>(m), F.a11, F.a12, F.a21, F.a22);
+  if (points(side).empty()) return;
+  for (const int k : points(side)) {
+    const Tensor2 F = plus(identity, gradient(q, side, k, plane::u1));
+    rows.F().set(static_cast<int>(slot(side, k)), F.a11, F.a12, F.a21, F.a22);
   }
   find_impedances(law_, rows, rho_);
   const double *Z11 = rows[SideRows::B11], *Z12 = rows[SideRows::B12], *Z22 = rows[SideRows::B22];
-  for (std::size_t m = 0; m < list.size(); ++m) {
-    const Kind other = kind(neighbour(side, list[m] != 0));
-    if (end_of(line, list[m]) && other != Kind::periodic) continue;
-    const auto k = static_cast<std::size_t>(list[m]);
-    const std::ptrdiff_t a = line.at(list[m], 0);
+  for (const int point : points(side)) {
+    const Kind other = kind(neighbour(side, point != 0));
+    if (end_of(line, point) && other != Kind::periodic) continue;
+    const auto k = static_cast<std::size_t>(point);
+    const std::size_t m = slot(side, point);
+    const std::ptrdiff_t a = line.at(point, 0);
     SolidState s = load(q, a);
     const Mat2 Z = matrix({Z11[m], Z12[m], Z22[m]});
     if (!Z.allFinite()) continue;
     const Vec2 t(-values.n[n + k], values.n[k]);
     const Vec2 missing =
-        T_[index(side)][k] - traction_of(s.P, normal(side, list[m])) - Z * v_change_[index(side)][k];
+        T_[index(side)][k] - traction_of(s.P, normal(side, point)) - Z * v_change_[index(side)][k];
     s.v += t * (t.dot(missing) / t.dot(Z * t));
     store(q, a, s);
   }

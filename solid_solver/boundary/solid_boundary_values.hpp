@@ -63,9 +63,11 @@ template <Law L>
 void SolidBoundary<L>::lay_out_rows(Side side) {
   const std::span<const int> list = points(side);
   rows_[index(side)] = Field(Layout(static_cast<int>(list.size()), SideRows::count), 1);
+  slots_[index(side)].resize(static_cast<std::size_t>(line_of(side).n));
   const SideRows rows = rows_of(side);
   for (std::size_t m = 0; m < list.size(); ++m) {
     const SideMetrics& s = at(side, list[m]);
+    slots_[index(side)][static_cast<std::size_t>(list[m])] = m;
     rows[SideRows::normal1][m] = s.n0.x();
     rows[SideRows::normal2][m] = s.n0.y();
     rows[SideRows::across1][m] = s.across.x();
@@ -73,12 +75,6 @@ void SolidBoundary<L>::lay_out_rows(Side side) {
     rows[SideRows::size][m] = s.across.norm();
     rows[SideRows::scale][m] = s.sign / s.across.norm();
   }
-}
-
-template <Law L>
-bool SolidBoundary<L>::advanced(Side side, int k) const {
-  const GridPoint p = grid_point(layout(), side, k);
-  return grid_.points->is_discretised(p.i, p.j);
 }
 
 template <Law L>
@@ -179,6 +175,7 @@ Tensor2 SolidBoundary<L>::chosen_strain_rate(std::ptrdiff_t at, double t) const 
 
 template <Law L>
 void SolidBoundary<L>::project_velocity(FieldView q, double t, const InterfaceValues& values) {
+  if (!present(values.side)) return;
   const SideIndex& line = line_of(values.side);
   const auto n = static_cast<std::size_t>(line.n);
   for (std::size_t k = 0; k < n; ++k) {
@@ -289,6 +286,7 @@ void SolidBoundary<L>::mirror(FieldView q, Side side, double t, const GhostRange
 
 template <Law L>
 void SolidBoundary<L>::fill_side(FieldView q, Side side, double t, const GhostRange& range) const {
+  if (!present(side)) return;
   const SideIndex& line = line_of(side);
   switch (kind(side)) {
     case Kind::none:
@@ -363,6 +361,7 @@ void SolidBoundary<L>::refresh_ghosts(FieldView q, double t) const {
 template <Law L>
 void SolidBoundary<L>::broke(Side side, int k, double t) const {
   const GridPoint p = grid_point(layout(), side, k);
+  if (!held_.owns(p.j)) return;
   const Vec2 T = T_[index(side)][static_cast<std::size_t>(k)];
   throw NumbersBroke(
       fmt::format("on side {} the law {} cannot bear the traction ({:.4g}, {:.4g}) per reference area "

@@ -6,6 +6,7 @@
 /// `update` (row j - 1, whose four faces are now known), what dissipation and relaxation add to it, and
 /// `solve_faces1` (faces inside row j). One Riemann problem per face.
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 
@@ -62,6 +63,8 @@ struct SweepData {
   double dt = 0;         ///< [time]
   Look look = Look::all;
   bool measures_spread = true;  ///< SweepResult::spread_squared; only relaxation and (39) need it
+  /// Those that are advanced; two rows beside them are read.
+  grid::RowRange rows = {0, std::numeric_limits<int>::max()};
 };
 
 template <Law L, class Row, Limiter limiter>
@@ -124,25 +127,30 @@ template <Law L, class Row, Limiter limiter>
 template <class AfterRow>
 SweepResult GodunovSweep<L, Row, limiter>::run(const AfterRow& after) const {
   const int n2 = d_.q.layout.n2;
+  const grid::RowRange rows = {d_.rows.first, std::min(d_.rows.end, n2)};
   const SolidPoints& points = *d_.points;
   SweepResult result;
-  for (int j = -1; j <= n2; ++j) {
+  if (rows.first >= rows.end) return result;
+  for (int j = rows.first - 1; j <= rows.end; ++j) {
     for (const auto& [begin, end] : points.predicted(j)) predict({j, begin, end});
-    for (const auto& [begin, end] : points.beside(j)) result.settled += settle({j, begin, end});
-    if (d_.look == Look::all && j >= 0 && j < n2) {
+    for (const auto& [begin, end] : points.beside(j)) {
+      const double settled = settle({j, begin, end});
+      if (rows.contains(std::clamp(j, 0, n2 - 1))) result.settled += settled;
+    }
+    if (d_.look == Look::all && rows.contains(j)) {
       for (const auto& [begin, end] : points.discretised(j)) look_at_waves({j, begin, end}, result);
     }
-    if (j >= 0) {
+    if (j >= rows.first) {
       for (const auto& [begin, end] : points.faces(j)) solve_faces2({j, begin, end});
     }
-    if (j >= 1) {
+    if (j > rows.first) {
       for (const auto& [begin, end] : points.discretised(j - 1)) {
         const RowRun run = {j - 1, begin, end};
         result.add(update(run));
         after(run);
       }
     }
-    if (j >= 0 && j < n2) {
+    if (rows.contains(j)) {
       for (const auto& [begin, end] : points.discretised(j)) solve_faces1({j, begin, end});
     }
   }

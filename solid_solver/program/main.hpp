@@ -8,10 +8,14 @@ namespace fsi::solid {
 
 template <Law L>
 int run_solid_solver(int argc, char** argv) {
-  return run_program(argc, argv, "solid", "solid", [](const Setup& setup, io::Part& part) {
-    SolidParticipant<L> solver(setup, solid_of(setup));
-    participate(setup, part, solver);
-  });
+  return run_program(
+      argc, argv, "solid", "solid",
+      [](const Setup& setup, io::Part& part) {
+        if (!setup.ranks->first()) return serve<L>(setup, solid_of(setup));
+        SolidParticipant<L> solver(setup, solid_of(setup));
+        participate(setup, part, solver);
+      },
+      Sharing::ranks);
 }
 
 }  // namespace fsi::solid

@@ -10,16 +10,12 @@
 #include <utility>
 #include <vector>
 
-#include "common/case/grids/composite_from_case.hpp"
 #include "common/core/time/time_integral.hpp"
-#include "common/grid/geometry/interface_geometry.hpp"
 #include "common/io/csv_writer.hpp"
 #include "common/io/grid_writer.hpp"
-#include "common/program/grid_from_case.hpp"
 #include "common/program/participant.hpp"
-#include "solid_solver/boundary/robin.hpp"
-#include "solid_solver/program/case_data.hpp"
-#include "solid_solver/solid_solver.hpp"
+#include "solid_solver/program/body.hpp"
+#include "solid_solver/program/crew.hpp"
 
 namespace fsi::solid {
 
@@ -29,22 +25,14 @@ class SolidParticipant final : public Participant {
   SolidParticipant(const Setup& setup, const SolidSpec& spec)
       : setup_(setup),
         spec_(spec),
-        law_(law_with<L>(spec.lambda, spec.mu, spec.data)),
-        data_(setup, spec, law_),
-        solver_(data_.parts(), bodies_of(spec.body_fitted), law_, data_.options(), 0),
+        body_(setup, spec),
+        solver_(body_.solver()),
+        crew_(setup.ranks, body_),
         fields_(setup.run_dir, "solid_" + spec.name) {
-    find_interface(0, spec.boundary);
-    for (const BodyFittedSpec& fitted : spec.body_fitted) find_interface(1, fitted.boundary);
-    if (const VectorFunction force = data_.body_force()) solver_.set_body_force(force);
-    if (const auto solution = data_.chosen_solution()) solver_.choose(*solution);
-    if (const StateFunction initial = data_.initial_state()) {
-      solver_.assign_initial_conditions(initial);
-    } else {
-      solver_.assign_initial_conditions(data_.initial_displacement(), data_.initial_velocity());
-    }
     initial_totals_ = solver_.totals();
     open_tables();
     watch_ripples();
+    solver_.share(setup.ranks, {.every = setup.recut});
   }
 
   wire::Hello hello() const override {
@@ -54,13 +42,15 @@ class SolidParticipant final : public Participant {
     hello.law = std::string(L::name);
     hello.config_digest = setup_.problem.digest;
     hello.points = solver_.points();
-    for (const Meeting& meeting : meetings_) {
+    for (const Meeting& meeting : body_.meetings()) {
       SolidInterface state;
       solver_.interface_state(meeting.side, state, meeting.grid);
       move_along(meeting, state.x);
       const std::vector<double> x_bar = solver_.grid(meeting.grid).side_points(meeting.side);
-      hello.interfaces.push_back(
-          {.name = meeting.name, .dimension = 2, .x = state.x, .n = normals(meeting, x_bar, state.fixed)});
+      hello.interfaces.push_back({.name = meeting.name,
+                                  .dimension = 2,
+                                  .x = state.x,
+                                  .n = body_.normals(meeting, x_bar, state.fixed)});
     }
     return hello;
   }
@@ -71,7 +61,7 @@ class SolidParticipant final : public Participant {
   }
 
   void fill(std::size_t k, wire::PredictedInterface& predicted) const override {
-    const Meeting& meeting = meetings_[k];
+    const Meeting& meeting = body_.meetings()[k];
     solver_.interface_state(meeting.side, interface_, meeting.grid);
     predicted.x = interface_.x;
     move_along(meeting, predicted.x);
@@ -82,44 +72,28 @@ class SolidParticipant final : public Participant {
     predicted.z_p = interface_.z_p;
   }
 
-  void apply_bcs(double t, ProjectedStates projected) override {
-    if (projected.empty()) {
-      solver_.apply_solid_bcs(t);
-      return;
-    }
-    std::vector<InterfaceValues> values;
-    for (std::size_t k = 0; k < projected.size(); ++k) {
-      const wire::ProjectedInterface& p = *projected[k];
-      const Meeting& meeting = meetings_[k];
-      values.push_back({.side = meeting.side, .n = p.n, .v_n = p.v_n, .w_n = p.w_n, .grid = meeting.grid});
-    }
-    solver_.apply_solid_bcs(t, values);
-  }
+  void apply_bcs(double t, ProjectedStates projected) override { crew_.apply_bcs(t, answers(projected)); }
 
   void advance(double t, double dt, int substeps, ProjectedStates projected) override {
-    const double dt_sub = dt / substeps;
-    for (int k = 0; k < substeps; ++k) {
-      const double t_k = t + k * dt_sub;
-      const bool last = k + 1 == substeps;
-      solver_.advance_solid(t_k, dt_sub, last ? Look::all : Look::soundness);
-      if (last) break;
-      lap(io::Work::advance);
-      close_substep(t_k + dt_sub, projected);
-      lap(io::Work::boundary);
-    }
+    crew_.advance(t, dt, substeps, answers(projected), [this](io::Work work) { lap(work); });
   }
 
-  std::vector<io::GridOutput> fields_now() override { return fields(); }
-  void write_fields(double t, std::uint64_t step) override { fields_.write(t, step, fields()); }
+  std::vector<io::GridOutput> fields_now() override {
+    crew_.collect();
+    return fields();
+  }
+  void write_fields(double t, std::uint64_t step) override { fields_.write(t, step, fields_now()); }
 
   /// The state as it is: all grids of the solid at the time before the sweep that broke, or what was
   /// predicted when a condition on its sides broke.
   void write_last_state(double /*t*/, std::uint64_t step) override {
-    fields_.write_apart("last_state", solver_.t(), step, fields());
+    fields_.write_apart("last_state", solver_.t(), step, fields_now());
   }
 
   void archive(Archive& archive) override {
+    if (!archive.loading()) crew_.collect_all();
     solver_.archive(archive);
+    if (archive.loading()) crew_.loaded();
     archive.inside("fields", [&] { fields_.archive(archive); });
     archive.inside("ripples", [&] { ripples_->archive(archive); });
     if (forces_) archive.inside("forces", [&] { forces_->archive(archive); });
@@ -128,10 +102,11 @@ class SolidParticipant final : public Participant {
   }
 
   void write_tables(double t, double dt, ProjectedStates /*projected*/) override {
+    if (forces_ || probe_table_) crew_.fetch(strips_of_probes());
     if (forces_) {
       const SideLoad load = whole_load();
       received_.add({load.force[0], load.force[1], load.power}, dt);
-      const Pose pose = solver_.pose();
+      const Pose pose = crew_.pose();
       forces_->row({t, load.force[0], load.force[1], load.moment, load.power, pose.centre[0], pose.centre[1],
                     pose.velocity[0], pose.velocity[1], pose.angle});
     }
@@ -170,6 +145,7 @@ class SolidParticipant final : public Participant {
   }
 
   void look_for_noise(double t) override {
+    crew_.collect();
     watched_.clear();
     for (int g = 0; g < solver_.grids(); ++g)
       watched_.push_back(
@@ -179,6 +155,7 @@ class SolidParticipant final : public Participant {
   const grid::RippleWatch* noise() const override { return &*ripples_; }
 
   void report(double t, io::Part& part) const override {
+    crew_.collect_all();
     const Health health = solver_.health();
     part.overlap = overlap_of(solver_.composite());
     part.health["min_det_F"] = health.min_det_F;
@@ -197,9 +174,9 @@ class SolidParticipant final : public Participant {
       part.conservation["momentum2_defect"] = part.conservation["momentum2"] - in[1];
       part.conservation["energy_defect"] = part.conservation["energy"] - in[2];
     }
-    const StateFunction exact = data_.reference_state();
+    const StateFunction exact = body_.data().reference_state();
     if (!exact || part.status == "stopped") return;
-    if (const std::string missing = data_.reference_missing_at(t); !missing.empty()) {
+    if (const std::string missing = body_.data().reference_missing_at(t); !missing.empty()) {
       if (part.reason.empty()) part.reason = missing;
       return;
     }
@@ -208,26 +185,31 @@ class SolidParticipant final : public Participant {
   }
 
  private:
-  /// Where the solid meets a gas.
-  struct Meeting {
-    Side side;
-    int grid;          ///< component grid
-    std::string name;  ///< of the interface
-  };
+  /// What the solid goes by.
+  std::span<const Answer> answers(ProjectedStates projected) {
+    answers_.clear();
+    for (const wire::ProjectedInterface* p : projected)
+      answers_.push_back({.n = p->n,
+                          .v_n = p->v_n,
+                          .w_n = p->w_n,
+                          .gas = {.z_f = p->z_f, .t = p->robin_t, .r = p->robin_r}});
+    return answers_;
+  }
 
-  void find_interface(int grid, const std::array<BoundarySpec, 4>& boundary) {
-    for (const Side side : all_sides) {
-      if (boundary[static_cast<std::size_t>(side)].kind != BoundaryKind::interface) continue;
-      const std::string& fluid = boundary[static_cast<std::size_t>(side)].fluid;
-      meetings_.push_back({.side = side, .grid = grid, .name = interface_name(spec_, fluid)});
+  std::vector<Strip> strips_of_probes() const {
+    std::vector<Strip> strips;
+    for (const ProbePoint& probe : probes_) {
+      const std::vector<Strip> cell = SolidSolver<L>::strips_of(probe);
+      strips.insert(strips.end(), cell.begin(), cell.end());
     }
+    return strips;
   }
 
   /// Of all gases.
   SideLoad whole_load() const {
-    SideLoad sum = solver_.side_load(meetings_.front().side, meetings_.front().grid);
-    for (std::size_t k = 1; k < meetings_.size(); ++k) {
-      const SideLoad load = solver_.side_load(meetings_[k].side, meetings_[k].grid);
+    SideLoad sum = solver_.side_load(body_.meetings().front().side, body_.meetings().front().grid);
+    for (const Meeting& meeting : body_.meetings().subspan(1)) {
+      const SideLoad load = solver_.side_load(meeting.side, meeting.grid);
       sum.force += load.force;
       sum.moment += load.moment;
       sum.power += load.power;
@@ -253,23 +235,8 @@ class SolidParticipant final : public Participant {
 
   /// Whether all that acts on the body is the gas.
   bool surrounded() const {
-    return !meetings_.empty() && meetings_.front().grid == 1 && spec_.body_fitted.front().curve.closed() &&
-           !spec_.body_force && !setup_.problem.interface.motion;
-  }
-
-  /// Unit normals of an interface at these positions; of ends that slide along a wall, its direction.
-  std::vector<double> normals(const Meeting& meeting, std::span<const double> x,
-                              std::span<const std::uint8_t> freedom) const {
-    const grid::Curve curve = curve_along(solver_.grid(meeting.grid), meeting.side);
-    std::vector<double> n = grid::normals(x, curve, grid::outward(meeting.side));
-    const std::size_t points = freedom.size();
-    for (const std::size_t k : {std::size_t{0}, points - 1}) {
-      if (freedom[k] != wire::Freedom::slides) continue;
-      const Vec2 along = solver_.along_wall(meeting.side, static_cast<int>(k), meeting.grid);
-      n[k] = along.x();
-      n[points + k] = along.y();
-    }
-    return n;
+    return !body_.meetings().empty() && body_.meetings().front().grid == 1 &&
+           spec_.body_fitted.front().curve.closed() && !spec_.body_force && !setup_.problem.interface.motion;
   }
 
   /// From where the reference configuration has the interface to where its given path has it.
@@ -282,27 +249,6 @@ class SolidParticipant final : public Participant {
       x[k] += motion->c1(x_bar[k], x_bar[n + k], solver_.t()) - x_bar[k];
       x[n + k] += motion->c2(x_bar[k], x_bar[n + k], solver_.t()) - x_bar[n + k];
     }
-  }
-
-  /// The interfaces inside a macro step: the gas is known by its outgoing characteristic.
-  void close_substep(double t, ProjectedStates projected) {
-    std::vector<InterfaceValues> values;
-    std::vector<std::vector<double>> normal(projected.size());
-    std::vector<ClosedInterface> closed(projected.size());
-    for (std::size_t k = 0; k < projected.size(); ++k) {
-      const Meeting& meeting = meetings_[k];
-      const wire::ProjectedInterface& p = *projected[k];
-      solver_.interface_state(meeting.side, interface_, meeting.grid);
-      normal[k] = normals(meeting, interface_.x, interface_.fixed);
-      const RobinData gas{.z_f = p.z_f, .t = p.robin_t, .r = p.robin_r};
-      closed[k] = close_with_robin(gas, t, normal[k], interface_);
-      values.push_back({.side = meeting.side,
-                        .n = normal[k],
-                        .v_n = closed[k].v_n,
-                        .w_n = closed[k].w_n,
-                        .grid = meeting.grid});
-    }
-    solver_.apply_solid_bcs(t, values);
   }
 
   /// Strains below a millionth, and what goes with them, are round-off.
@@ -321,7 +267,7 @@ class SolidParticipant final : public Participant {
   }
 
   void open_tables() {
-    if (!meetings_.empty()) {
+    if (!body_.meetings().empty()) {
       forces_.emplace(
           setup_.run_dir + "/forces_" + spec_.name + ".csv",
           std::vector<std::string>{"t [time]", "force1 [force/depth]", "force2 [force/depth]",
@@ -345,10 +291,10 @@ class SolidParticipant final : public Participant {
 
   const Setup& setup_;
   const SolidSpec& spec_;
-  L law_;
-  CaseData<L> data_;
-  SolidSolver<L> solver_;
-  std::vector<Meeting> meetings_;     ///< the interfaces, in the order of the hello
+  SolidBody<L> body_;
+  SolidSolver<L>& solver_;            ///< of the body
+  mutable Crew<L> crew_;              ///< asked as well where nothing changes: the others have the numbers
+  std::vector<Answer> answers_;       ///< memory that is used again every step
   mutable SolidInterface interface_;  ///< memory that is used again every step
   io::GridWriter fields_;
   std::optional<io::CsvWriter> forces_, probe_table_;
