@@ -1,7 +1,11 @@
 #!/usr/bin/python3
 """Times a gas alone on 1024 x 1024 points with one rank and with several, in turn, and prints a table for docs/scaling.md.
 
-record_ranks.py [--ranks N,N,..] [--repeat K] [--steps S] [--case CASE [--set KEY=VALUE ..]]
+record_ranks.py [--ranks N,N,..] [--repeat K] [--steps S] [--case CASE [--who NAME] [--set KEY=VALUE ..]]
+
+NAME: who has the ranks and is timed (default: fluid). A block of 501 x 501 points, and an ellipse in a gas:
+record_ranks.py --case spinning_block --who block --set grid.factor=50 --set time.end=0.05 --set output={} --set expect={}
+record_ranks.py --case shock_ellipse --who ellipse --set grid.factor=16 --set time.end=0.03 --set output={} --set expect={}
 """
 
 import argparse
@@ -21,14 +25,14 @@ SQUARE = ["fluid.grid={x: [0, 1], y: [0, 1], spacing: 1/1023}", "time.dt=3e-4", 
 
 def measured(folder, ranks, options):
     """What a run with so many ranks took: {name: number}."""
-    command = [ROOT / "launch" / "fsi", "run", options.case, "--out", folder, "--no-progress", "--ranks", f"fluid={ranks}"]
+    command = [ROOT / "launch" / "fsi", "run", options.case, "--out", folder, "--no-progress", "--ranks", f"{options.who}={ranks}"]
     settings = options.set or [*SQUARE, f"time.end={3e-4 * options.steps}"]
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     begun = time.monotonic()
     subprocess.run([*command, *(f"--set={one}" for one in settings)], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    part = json.loads((Path(folder) / "parts" / "fluid.json").read_text(encoding="utf-8"))
-    log = (Path(folder) / "log" / "fluid.log").read_text(encoding="utf-8")
+    part = json.loads((Path(folder) / "parts" / f"{options.who}.json").read_text(encoding="utf-8"))
+    log = (Path(folder) / "log" / f"{options.who}.log").read_text(encoding="utf-8")
     sent = re.search(r"sent (\S+) messages with (\S+) numbers; (\S+) numbers came", log)
     return {"step": 1e3 * (part["compute_s"] - part["time_s"]["output"]) / part["steps"],
             "cpu": after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime, "wall": time.monotonic() - begun,
@@ -42,6 +46,7 @@ def main():
     parser.add_argument("--repeat", type=int, default=3)
     parser.add_argument("--steps", type=int, default=40)
     parser.add_argument("--case", default="sod_tube")
+    parser.add_argument("--who", metavar="NAME", default="fluid")
     parser.add_argument("--set", action="append", default=[])
     options = parser.parse_args()
     counts = [int(word) for word in options.ranks.split(",")]

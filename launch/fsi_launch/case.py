@@ -2,7 +2,7 @@
 
 import json
 import subprocess
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from fsi_launch import paths
 from fsi_launch.failure import Failure, INTERNAL_ERROR, UserMistake
@@ -27,6 +27,7 @@ class Case:
     times: tuple = ()   # of output
     projection: str = ""    # of the interface
     digest: str = None      # of what a restart must not change
+    cost: dict = field(default_factory=dict)    # {participant: {points, seconds_a_step}}, about
 
     def speaker(self):
         """The participant that reports progress: the coupler, or the lone solver."""
@@ -57,4 +58,5 @@ def resolve(case, overrides, laws, former=None):
                 programs={entry["name"]: entry["executable"] for entry in answer["participants"]},
                 reference=answer["reference"]["kind"], expect=answer["expect"],
                 end=answer["time"]["end"], times=tuple(answer["output_times"]),
-                projection=answer["projection"], digest=answer["restart_digest"])
+                projection=answer["projection"], digest=answer["restart_digest"],
+                cost={entry["program"]: entry for entry in answer["cost"]["programs"]})

@@ -228,8 +228,8 @@ def _parser():
                       "with q it goes on with the progress bar")
     verb.add_argument("--pause-at", metavar="N", type=_count, help="pause after N steps, until fsi ctl resume: to look at a run, "
                       "or to attach a debugger, at the same place every time")
-    verb.add_argument("--ranks", metavar="NAME=N,..", help="let N processes compute a gas together, e.g. --ranks fluid=4; auto: as many "
-                      "as there are cores for. The numbers are the same to the bit. Takes Open MPI (docs/scaling.md)")
+    verb.add_argument("--ranks", metavar="NAME=N,..", help="let N processes compute a gas or a solid together, e.g. --ranks fluid=4,disk=2; "
+                      "auto: as many as there are cores for. The numbers are the same to the bit. Takes Open MPI (docs/scaling.md)")
     verb.add_argument("--hosts", metavar="NAME=HOST,..", help="let participants run on other machines, e.g. --hosts fluid=node2,disk=node3; "
                       "HOST is what ssh takes, or HOST/ADDRESS where its programs shall meet the others at another address. Takes a "
                       "login without password, and a file system that all see at the same place (docs/scaling.md)")

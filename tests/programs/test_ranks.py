@@ -1,13 +1,14 @@
 #!/usr/bin/python3
-"""A gas that several ranks compute: the same files to the bit as with one, for any number of ranks and whatever rows they get, also
-after a restart on other ranks; and when a rank is killed or stopped, or mpirun is, all end and the rank is named.
+"""Gases and solids that several ranks compute: the same files to the bit as with one, for any number of ranks and whatever rows they
+get, also after a restart on other ranks; and when a rank is killed or stopped, or mpirun is, all end and the rank is named.
 
-test_ranks.py --kills N [SEED]           so many runs with three ranks, of which somebody is killed or stopped at a random moment
+test_ranks.py --kills N [SEED]           so many runs with two ranks for the gas and two for the solid, of which somebody is killed or stopped at a random moment
 test_ranks.py --all [RANKS..] [CASE..]  all shipped cases, or these, for some steps, with so many ranks (default: 2 3 4 7)
 test_ranks.py --restarts [RANKS..] [CASE..]  the same, from a checkpoint of the first number of ranks on with the second, and so on around
                                         (default: 3 2 4)
 """
 
+import json
 import os
 import random
 import re
@@ -21,15 +22,17 @@ from pathlib import Path
 
 from running import BIN, EndToEnd, FSI, Launched, PATIENT, ROOT, let_pass, processes, until
 from test_restart import Restarting, health, numbers, results
+from fsi_launch.living.ranks import knows_ranks
 
 # Other rows for everybody after so many steps, in whatever way.
 RECUT = "from fsi_launch.living import ranks\nranks.EXTRA = ['--recut', '{every}']\n"
 MISSING = [what for what, there in (("libfsi_ranks_mpi.so", (BIN / "libfsi_ranks_mpi.so").is_file()),
                                     ("mpirun", shutil.which("mpirun"))) if not there]
 
-# A run that lasts, with a gas of two ranks.
+# A run that lasts, with a gas of two ranks, or with a solid of two.
 LASTING = ("elastic_piston", "--set", "grid.factor=2", "--set", "time.dt=1e-7", "--set", "output.times=[1e-6, 0.8]", "--set",
            "expect={}", "--ranks", "fluid=2")
+LASTING_SOLID = (*LASTING[:-1], "solid=2")
 
 
 class OnRanks(Restarting):
@@ -38,9 +41,14 @@ class OnRanks(Restarting):
         if MISSING:
             self.skipTest(f"no Open MPI: {', '.join(MISSING)} is missing (apt-get install openmpi-bin libopenmpi-dev, build again)")
 
+    who = ("fluid",)    # has ranks
+
+    def ranks(self, number):
+        return ["--ranks", ",".join(f"{name}={number}" for name in self.who)]
+
     def on(self, number, *arguments, folder=None, every=0):
-        """A whole run with so many ranks for the gas."""
-        run = self.launch(*arguments, "--set", "expect={}", "--ranks", f"fluid={number}", out=folder or f"on{number}_{every}",
+        """A whole run with so many ranks."""
+        run = self.launch(*arguments, "--set", "expect={}", *self.ranks(number), out=folder or f"on{number}_{every}",
                           script=RECUT.format(every=every) if every else None)
         self.assertEqual(run.wait(), 0, run.stderr)
         return run
@@ -52,6 +60,17 @@ class OnRanks(Restarting):
             self.assert_same(whole, self.on(number, *arguments))
         self.assert_same(whole, self.on(numbers_of_ranks[-1], *arguments, every=every))
         return whole
+
+
+    def assert_restarts_on_other_ranks(self, *arguments):
+        whole = self.on(1, *arguments)
+        for before, after in ((2, 3), (3, 1), (1, 2)):
+            first = self.on(before, *arguments, folder=f"from{before}")
+            shutil.copytree(first.directory, self.folder / f"to{after}")
+            run = self.launch("--restart", str(self.folder / f"to{after}"), *self.ranks(after), out=None)
+            run.directory = self.folder / f"to{after}"
+            self.assertEqual(run.wait(), 0, run.stderr)
+            self.assert_same(whole, run)
 
 
 class Layout(OnRanks):
@@ -67,30 +86,73 @@ class Layout(OnRanks):
         self.assert_layouts("manufactured_piston", "--set", "grid.factor=1", "--set", "time.end=0.1")
 
     def test_restart_on_other_ranks(self):
-        arguments = ("elastic_piston", "--set", "grid.factor=2", "--set", "time.end=0.3", "--set", "output.times=[0.1, 0.3]",
-                     "--set", "output.checkpoint_every=10")
-        whole = self.on(1, *arguments)
-        for before, after in ((2, 3), (3, 1), (1, 2)):
-            first = self.on(before, *arguments, folder=f"from{before}")
-            shutil.copytree(first.directory, self.folder / f"to{after}")
-            run = self.launch("--restart", str(self.folder / f"to{after}"), "--ranks", f"fluid={after}", out=None)
-            run.directory = self.folder / f"to{after}"
-            self.assertEqual(run.wait(), 0, run.stderr)
-            self.assert_same(whole, run)
+        self.assert_restarts_on_other_ranks("elastic_piston", "--set", "grid.factor=2", "--set", "time.end=0.3", "--set",
+                                            "output.times=[0.1, 0.3]", "--set", "output.checkpoint_every=10")
+
+
+class LayoutOfSolids(OnRanks):
+    who = ("solid",)
+
+    def test_piston_whose_sides_all_ranks_have(self):
+        self.assert_layouts("elastic_piston", "--set", "grid.factor=2", "--set", "time.end=0.3", "--set", "output.times=[0.1, 0.3]",
+                            "--set", "output.probes=[{name: a, in: solid, x: -0.3, y: 0.1}]", numbers_of_ranks=(2, 3))
+
+    def test_solid_without_a_gas(self):
+        self.assert_layouts("solid_manufactured", "--set", "time.end=0.05", "--set", "output.times=[0.05]", numbers_of_ranks=(2, 4))
+
+    def test_sources_of_a_chosen_solution(self):
+        self.assert_layouts("manufactured_piston", "--set", "grid.factor=1", "--set", "time.end=0.1")
+
+    def test_restart_on_other_ranks(self):
+        self.assert_restarts_on_other_ranks("elastic_piston", "--set", "grid.factor=2", "--set", "time.end=0.3", "--set",
+                                            "output.times=[0.1, 0.3]", "--set", "output.checkpoint_every=10")
+
+
+class LayoutOfAnEllipse(OnRanks):
+    who = ("ellipse",)
+
+    def test_overlapping_grids_and_substeps(self):
+        self.assert_layouts("shock_ellipse", "--set", "grid.factor=4", "--set", "time.end=0.4", "--set", "output.times=[0.2, 0.4]",
+                            "--set", "output.probes=[{name: a, in: ellipse, x: -1.5, y: 0}, {name: b, in: ellipse, x: -1.5, y: 0.9}]",
+                            numbers_of_ranks=(2, 4))
+
+    def test_restart_on_other_ranks(self):
+        self.assert_restarts_on_other_ranks("shock_ellipse", "--set", "grid.factor=2", "--set", "time.end=0.5", "--set",
+                                            "output.times=[0.2, 0.5]", "--set", "output.checkpoint_every=5")
+
+    def test_numbers_that_break_do_so_in_the_same_words(self):
+        arguments = ("shock_ellipse", "--solid", "ellipse=saint_venant_kirchhoff", "--set", "parameters.mach=2.5", "--set",
+                     "parameters.stiffness=1", "--set", "grid.factor=2", "--set", "expect={}")
+        reasons = []
+        for number in (1, 3):
+            run = self.launch(*arguments, *self.ranks(number), out=f"broken{number}")
+            self.assertEqual(run.wait(), 3, run.stderr)
+            self.assertIn("cannot bear the traction", run.summary()["reason"])
+            reasons.append(run.summary()["reason"])
+        self.assertEqual(*reasons)
+
+
+class LayoutOfBoth(OnRanks):
+    who = ("fluid", "ellipse")
+
+    def test_moving_body(self):
+        self.assert_layouts("shock_ellipse", "--set", "grid.factor=2", "--set", "time.end=0.4", "--set", "output.times=[0.4]")
 
 
 class Faults(OnRanks):
+    lasting = LASTING
+
     def ranks_of(self, run):
-        """Processes of the gas's ranks, by rank, and its mpirun."""
+        """Processes of the ranks, by rank, and their mpirun."""
         run.until_stepping()
-        gas = [one for one in processes.programs_of(run.directory) if one.name == "fluid"]
-        mpirun = next(one.pid for one in gas if one.program == "mpirun")
-        logged = re.findall(r"rank (\d+) is process (\d+)", run.log("fluid"))
+        ours = [one for one in processes.programs_of(run.directory) if one.name == self.who[0]]
+        mpirun = next(one.pid for one in ours if one.program == "mpirun")
+        logged = re.findall(r"rank (\d+) is process (\d+)", run.log(self.who[0]))
         self.assertEqual(len(logged), 2)
         return {int(rank): int(pid) for rank, pid in logged}, mpirun
 
     def lose(self, rank, number):
-        run = self.launch(*LASTING, script=PATIENT)
+        run = self.launch(*self.lasting, script=PATIENT)
         ranks, mpirun = self.ranks_of(run)
         os.kill(mpirun if rank is None else ranks[rank], number)
         self.assertEqual(run.wait(), 4, run.stderr)
@@ -100,19 +162,20 @@ class Faults(OnRanks):
         return run.summary()["reason"]
 
     def test_killed_rank(self):
-        self.assertRegex(self.lose(1, signal.SIGKILL), r"rank 1 of fluid")
+        self.assertRegex(self.lose(1, signal.SIGKILL), rf"rank 1 of {self.who[0]}")
 
     def test_killed_first_rank(self):
-        self.assertIn("lost fluid", self.lose(0, signal.SIGKILL))
+        self.assertIn(f"lost {self.who[0]}", self.lose(0, signal.SIGKILL))
 
     def test_stopped_rank(self):
-        self.assertRegex(self.lose(1, signal.SIGSTOP), r"rank 1 of fluid \(process \d+\): it has been stopped for 4\.?\d* s")
+        self.assertRegex(self.lose(1, signal.SIGSTOP), rf"rank 1 of {self.who[0]} \(process \d+\): it has been stopped for 4\.?\d* s")
 
     def test_killed_mpirun(self):
-        self.assertRegex(self.lose(None, signal.SIGKILL), r"lost fluid|lost mpirun \(process \d+\), which started the ranks of fluid")
+        name = self.who[0]
+        self.assertRegex(self.lose(None, signal.SIGKILL), rf"lost {name}|lost mpirun \(process \d+\), which started the ranks of {name}")
 
     def test_end_on_request_leaves_a_checkpoint(self):
-        run = self.launch(*LASTING)
+        run = self.launch(*self.lasting)
         ranks, mpirun = self.ranks_of(run)
         run.process.send_signal(signal.SIGTERM)
         self.assertEqual(run.wait(), 143, run.stderr)
@@ -120,15 +183,20 @@ class Faults(OnRanks):
         self.assert_nothing_left(run)
 
 
+class FaultsOfSolids(Faults):
+    who = ("solid",)
+    lasting = LASTING_SOLID
+
+
 class Refusals(EndToEnd):
-    def refused(self, text):
-        run = self.launch("elastic_piston", "--ranks", text)
+    def refused(self, text, case="elastic_piston", *more):
+        run = self.launch(case, *more, "--ranks", text)
         self.assertEqual(run.wait(), 2, run.stderr)
         return run.stderr
 
-    def test_solid(self):
-        self.assertIn("solid (solid_solver_linear_elastic) computes in one process only; so far several can compute a gas: fluid",
-                      self.refused("solid=2"))
+    def test_rigid_solid(self):
+        self.assertIn("ellipse (solid_solver_rigid) computes in one process only; several can compute a gas or a solid with a grid: fluid",
+                      self.refused("ellipse=2", "shock_ellipse", "--solid", "ellipse=rigid"))
 
     def test_stranger(self):
         self.assertIn("no participant 'gas'; it has", self.refused("gas=2"))
@@ -138,9 +206,6 @@ class Refusals(EndToEnd):
 
 
 # --- all shipped cases
-
-SOLIDS_ONLY = {"rotating_disk", "solid_manufactured", "spinning_block", "beam", "clamped_beam", "rotating_disk_walled"}
-
 
 def few_steps(case, steps):
     """Options for a run of about so many steps."""
@@ -169,22 +234,24 @@ def digest_of(directory):
 
 
 def shipped(cases):
-    """(path, name, its gases) of the shipped cases with a gas, or those of them that are named."""
+    """(path, name, who can have ranks) of the shipped cases where somebody can, or those of them that are named."""
     for path in sorted((ROOT / "configs").glob("*.yaml")):
-        if path.stem in SOLIDS_ONLY or path.stem == "template" or cases and path.stem not in cases:
+        if path.stem == "template" or cases and path.stem not in cases:
             continue
-        yield path, path.stem, [word for word in ("fluid", "left", "right", "above", "below", "in", "out")
-                                if re.search(rf"^  {word}:|^{word}:", path.read_text(encoding="utf-8"), flags=re.M)]
+        told = json.loads(subprocess.run([BIN / "fsi_case", "resolve", path], capture_output=True, text=True, check=True, cwd=ROOT).stdout)
+        able = [one["name"] for one in told["participants"] if knows_ranks(one["executable"])]
+        if able:
+            yield path, path.stem, able
 
 
-def on_ranks(gases, number):
-    return ["--ranks", ",".join(f"{name}={number}" for name in gases)] if number > 1 else []
+def on_ranks(able, number):
+    return ["--ranks", ",".join(f"{name}={number}" for name in able)] if number > 1 else []
 
 
 def restart_all(numbers_of_ranks, cases, steps=16):
     """The names of cases whose restart on other ranks is not the run that was never interrupted."""
     failed = []
-    for path, case, gases in shipped(cases):
+    for path, case, able in shipped(cases):
         with tempfile.TemporaryDirectory() as scratch:
             options = few_steps(f"configs/{path.name}", steps)
             whole = Launched(Path(scratch), case, *options, out="whole")
@@ -192,7 +259,7 @@ def restart_all(numbers_of_ranks, cases, steps=16):
             for before, after in zip(numbers_of_ranks, [*numbers_of_ranks[1:], numbers_of_ranks[0]]):
                 if verdicts and "same" not in verdicts[-1]:
                     break
-                verdicts.append(restarted(Path(scratch), case, [*options, *on_ranks(gases, before)], on_ranks(gases, after), whole))
+                verdicts.append(restarted(Path(scratch), case, [*options, *on_ranks(able, before)], on_ranks(able, after), whole))
                 verdicts[-1] = f"{before} -> {after}: {verdicts[-1]}"
         failed += [] if all("same" in verdict for verdict in verdicts) else [case]
         print(f"{case:25} {', '.join(verdicts)}", flush=True)
@@ -220,13 +287,13 @@ def restarted(scratch, case, options, ranks, whole):
 def compare_all(numbers_of_ranks, cases, steps=16):
     failed = []
     with tempfile.TemporaryDirectory() as scratch:
-        for path, case, gases in shipped(cases):
+        for path, case, able in shipped(cases):
             verdicts = []
             whole = None
             for number, every in [(1, 0), *((n, 0) for n in numbers_of_ranks), (numbers_of_ranks[-1], 5)]:
                 folder = Path(scratch) / case / f"{number}_{every}"
                 folder.mkdir(parents=True)
-                run = Launched(folder, case, *few_steps(f"configs/{path.name}", steps), *on_ranks(gases, number),
+                run = Launched(folder, case, *few_steps(f"configs/{path.name}", steps), *on_ranks(able, number),
                                script=RECUT.format(every=every) if every else None)
                 if run.wait() != 0:
                     verdicts.append(f"{number}: {run.stderr.strip().splitlines()[-1]}")
@@ -247,17 +314,19 @@ def kill_again_and_again(runs, seed):
     chance, failed = random.Random(seed), 0
     for number in range(runs):
         with tempfile.TemporaryDirectory() as scratch:
-            run = Launched(Path(scratch), *LASTING[:-1], "fluid=3")
+            run = Launched(Path(scratch), *LASTING[:-1], "fluid=2,solid=2")
             run.until_stepping()
             let_pass(chance.uniform(0, 0.5))
-            ranks = {f"rank {rank}": int(pid) for rank, pid in re.findall(r"rank (\d+) is process (\d+)", run.log("fluid"))}
-            others = {one.program: one.pid for one in processes.programs_of(run.directory) if one.program != "fluid_solver"}
+            ranks = {f"rank {rank} of {name}": int(pid) for name in ("fluid", "solid")
+                     for rank, pid in re.findall(r"rank (\d+) is process (\d+)", run.log(name))}
+            others = {f"{one.program} of {one.name}": one.pid for one in processes.programs_of(run.directory)
+                      if one.pid not in ranks.values()}
             who, pid = chance.choice(sorted((ranks | others).items()))
-            word = chance.choice(["SIGKILL", "SIGKILL", "SIGSTOP"]) if who != "mpirun" else "SIGKILL"
+            word = chance.choice(["SIGKILL", "SIGKILL", "SIGSTOP"]) if "mpirun" not in who else "SIGKILL"
             os.kill(pid, signal.Signals[word])
             code, reason = run.wait(), run.summary()["reason"]
             gone = until(lambda: not run.leftovers() and not any(Path(f"/proc/{one}").exists() for one in ranks.values()))
-            sound = code == 4 and gone and ("fluid" if who in ranks or who == "mpirun" else who.split("_")[0]) in reason
+            sound = code == 4 and gone and who.split()[-1] in reason
             failed += 0 if sound else 1
             print(f"{number:4} {word} {who:28} exit {code}: {'' if sound else 'WRONG '}{reason}", flush=True)
     return failed

@@ -176,6 +176,10 @@ int RunCost::substeps(const StepCost& program) const {
                                    : 1;
 }
 
+double RunCost::seconds_of(const StepCost& program) const {
+  return substeps(program) * program.points / (program.is_gas ? gas_speed : solid_speed);
+}
+
 RunCost cost_of(const Case& problem) {
   RunCost cost;
   for (const FluidSpec& fluid : problem.fluids) {
@@ -198,10 +202,7 @@ RunCost cost_of(const Case& problem) {
   if (!std::isfinite(cost.dt)) return cost;
   cost.steps = std::ceil(problem.time.end / cost.dt);
   double slowest = 0;
-  for (const StepCost& program : cost.programs) {
-    const double rate = program.is_gas ? gas_speed : solid_speed;
-    slowest = std::max(slowest, cost.substeps(program) * program.points / rate);
-  }
+  for (const StepCost& program : cost.programs) slowest = std::max(slowest, cost.seconds_of(program));
   cost.seconds = cost.steps * (slowest + exchange);
   return cost;
 }

@@ -31,6 +31,8 @@ struct RunCost {
   double seconds = 0;              ///< about, each program on a core of its own [s]
   /// Of a program within a step: 1, or more with `time.multirate`.
   int substeps(const StepCost& program) const;
+  /// What a step takes it on one core, about [s].
+  double seconds_of(const StepCost& program) const;
 };
 
 /// Of a case whose grids connect. Wave speeds are those of the initial and the boundary states, the largest

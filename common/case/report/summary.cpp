@@ -44,6 +44,8 @@ ordered_json cost_json(const Case& problem) {
     programs.push_back({{"program", program.program},
                         {"dt", std::isfinite(program.dt) ? ordered_json(program.dt) : ordered_json(nullptr)},
                         {"substeps", cost.substeps(program)},
+                        {"points", program.points},
+                        {"seconds_a_step", cost.steps > 0 ? cost.seconds_of(program) : 0},
                         {"grid", program.grid}});
   }
   return {{"steps", cost.steps},

@@ -16,8 +16,11 @@ from fsi_launch.living import processes
 
 MODULE = "libfsi_ranks_mpi.so"      # common/ranks/module.hpp
 PACKAGES = "openmpi-bin libopenmpi-dev"
-GAS = "fluid_solver"                # the program that knows ranks
+GAS = "fluid_solver"
+SOLID = "solid_solver_"             # and the name of its law
+ONE_RANK = ("solid_solver_rigid", "solid_solver_beam")      # few numbers, no grid
 MOST = 64
+LEAST_POINTS = 20000                # a rank, where `auto` chooses
 EXTRA = []                          # words for every rank (tests)
 OPTIONS = {
     "btl": "self,vader", "pml": "ob1", "oob_tcp_if_include": "lo",      # nothing leaves this machine
@@ -29,11 +32,12 @@ OPTIONS = {
 
 def wanted(text, case):
     """{participant: ranks}, of those with more than one, from `fluid=2,..`, `auto` or None."""
-    gases = [name for name, program in case.programs.items() if program == GAS]
+    able = [name for name, program in case.programs.items() if knows_ranks(program)]
     if text is None:
         return {}
     if text == "auto":
-        return _shared_out(gases, len(case.programs))
+        others = len(case.programs) - len(able) - (len(case.programs) > 1)      # the coupler hardly computes
+        return _shared_out(able, len(os.sched_getaffinity(0)) - others, case.cost)
     asked = {}
     for word in text.split(","):
         name, _, number = word.partition("=")
@@ -41,20 +45,32 @@ def wanted(text, case):
             raise UserMistake(f"--ranks {text}: '{word}' is not NAME=N with N from 1 to {MOST}; write --ranks fluid=2, or auto")
         if name not in case.programs:
             raise UserMistake(f"--ranks {text}: the case has no participant '{name}'; it has {', '.join(case.programs)}")
-        if name not in gases and int(number) > 1:
-            raise UserMistake(f"--ranks {text}: {name} ({case.programs[name]}) computes in one process only; so far several can "
-                              f"compute a gas: {', '.join(gases) or 'this case has none'}")
+        if name not in able and int(number) > 1:
+            raise UserMistake(f"--ranks {text}: {name} ({case.programs[name]}) computes in one process only; several can compute a gas "
+                              f"or a solid with a grid: {', '.join(able) or 'this case has none'}")
         asked[name] = int(number)
     return {name: number for name, number in asked.items() if number > 1}
 
 
-def _shared_out(gases, programs):
-    """Cores that the other programs leave to the gases."""
-    if not gases:
-        return {}
-    cores = len(os.sched_getaffinity(0))
-    number = min((cores - (programs - len(gases) - (programs > 1))) // len(gases), MOST)    # the coupler hardly computes
-    return {name: number for name in gases} if number > 1 else {}
+def knows_ranks(program):
+    """Gases, and solids with a law; not rigid bodies and beams, nor programs of somebody else's."""
+    return program == GAS or program.startswith(SOLID) and program not in ONE_RANK
+
+
+def _shared_out(able, cores, cost):
+    """One core after the other to whoever of those with ranks has most left to do in a step, while it pays."""
+    numbers = {name: 1 for name in able}
+
+    def work(name):
+        return cost.get(name, {}).get("seconds_a_step", 1) / numbers[name]
+
+    while sum(numbers.values()) < cores:
+        open_to = [name for name in able if numbers[name] < MOST and
+                   cost.get(name, {}).get("points", LEAST_POINTS * MOST) >= (numbers[name] + 1) * LEAST_POINTS]
+        if not open_to:
+            break
+        numbers[max(open_to, key=work)] += 1
+    return {name: number for name, number in numbers.items() if number > 1}
 
 
 def expect_mpi(asked):

@@ -14,11 +14,12 @@ from fsi_launch.living import ranks
 from fsi_launch.results import verdict
 
 
-def case(**programs):
-    return SimpleNamespace(programs=programs)
+def case(cost=None, **programs):
+    return SimpleNamespace(programs=programs, cost=cost or {})
 
 
 PISTON = case(fluid="fluid_solver", solid="solid_solver_beam", coupler="coupler")
+ELLIPSE = {"fluid": "fluid_solver", "ellipse": "solid_solver_neo_hookean", "coupler": "coupler"}
 TWO_GASES = case(left="fluid_solver", right="fluid_solver", plate="solid_solver_beam", coupler="coupler")
 
 
@@ -42,15 +43,29 @@ class Wanted(InScratch):
     def test_what_cannot_be(self):
         self.assertIn("solid (solid_solver_beam) computes in one process only", self.refused("solid=2"))
         self.assertIn("no participant 'gas'; it has fluid, solid, coupler", self.refused("gas=2"))
+        for program in ("solid_solver_rigid", "bin/mine"):
+            with self.assertRaises(UserMistake) as caught:
+                ranks.wanted("solid=2", case(solid=program))
+            self.assertIn(f"solid ({program}) computes in one process only", str(caught.exception))
         for word in ("fluid", "fluid=0", "fluid=65", "fluid=two"):
             self.assertIn(f"'{word}' is not NAME=N with N from 1 to 64", self.refused(word))
 
-    def test_auto_takes_the_cores_that_solids_leave(self):
+    def test_solids_with_a_grid(self):
+        self.assertEqual(ranks.wanted("fluid=2,ellipse=3", case(**ELLIPSE)), {"fluid": 2, "ellipse": 3})
+
+    def test_auto_gives_a_core_to_who_has_most_to_do(self):
+        cost = {"fluid": {"points": 1e6, "seconds_a_step": 0.1}, "ellipse": {"points": 1e5, "seconds_a_step": 0.25}}
+        for cores, expected in ((2, {}), (3, {"ellipse": 2}), (4, {"ellipse": 3}), (5, {"ellipse": 3, "fluid": 2}),
+                                (16, {"fluid": 11, "ellipse": 5})):     # a rank has 20 000 points
+            with with_cores(cores):
+                self.assertEqual(ranks.wanted("auto", case(cost, **ELLIPSE)), expected, cores)
+
+    def test_auto_takes_the_cores_that_others_leave(self):
         for cores, expected in ((2, {}), (3, {"fluid": 2}), (8, {"fluid": 7})):
             with with_cores(cores):
                 self.assertEqual(ranks.wanted("auto", PISTON), expected)
         with with_cores(8):
-            self.assertEqual(ranks.wanted("auto", TWO_GASES), {"left": 3, "right": 3})
+            self.assertEqual(ranks.wanted("auto", TWO_GASES), {"left": 4, "right": 3})
 
     def test_cores_are_disjoint_where_there_are_enough(self):
         with with_cores(8):

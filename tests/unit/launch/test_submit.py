@@ -62,7 +62,7 @@ class Script(unittest.TestCase):
     def test_what_cannot_be(self):
         for words, case, given in (("has a single program", LONE, {"nodes": 2}), ("one node more than those", CASE, {"nodes": 5}),
                                    ("no time for Slurm", CASE, {"time": "soon"}), ("counts the cores of this machine", CASE, {"ranks": "auto"}),
-                                   ("disk (solid_solver_svk) computes in one process only", CASE, {"ranks": "disk=2"})):
+                                   ("plate (solid_solver_beam) computes in one process only", CASE, {"ranks": "plate=2"})):
             with self.subTest(words), self.assertRaisesRegex(UserMistake, words.replace("(", r"\(").replace(")", r"\)")):
                 submit.script(case, options(**given))
 
