@@ -113,10 +113,9 @@ void Component::gather_runs() {
   for (int j = 0; j < n2; ++j) {
     std::vector<Range>& row = row_runs_[static_cast<std::size_t>(j)];
     row.clear();
-    if (!rows_.owns(j)) continue;
     for (const grid::Interval& run : discretised_.row(j)) row.push_back({run.begin, run.end});
   }
-  runs_.assign(row_runs_);
+  runs_.assign(row_runs_, rows_.all ? Range{0, n2} : Range{rows_.own.first, rows_.own.end});
 }
 
 void Component::fill(const StateField& initial, double t) {

@@ -101,7 +101,7 @@ class Thinness {
     return all;
   }
 
-  /// The advanced ones among the guarded points and their neighbours.
+  /// Here and elsewhere, the advanced ones among the guarded points and their neighbours.
   SweepRuns around_thin() const {
     std::vector<std::vector<Range>> rows(static_cast<std::size_t>(n2()));
     for (const auto& [i, j] : guarded_) {
@@ -111,13 +111,13 @@ class Thinness {
       }
     }
     SweepRuns runs;
-    runs.assign(rows);
+    runs.assign(rows, task_.runs.here());
     return runs;
   }
 
   bool is_advanced(const PointIndex& point) const {
     if (point.j < 0 || point.j >= n2()) return false;
-    return std::ranges::any_of(task_.runs.advanced(point.j),
+    return std::ranges::any_of(task_.runs.advanced_anywhere(point.j),
                                [&](const Range& run) { return point.i >= run.first && point.i < run.last; });
   }
 

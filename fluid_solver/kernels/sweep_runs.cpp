@@ -19,7 +19,8 @@ void SweepRuns::Table::append_row(std::vector<Range>& row) {
   first.push_back(runs.size());
 }
 
-void SweepRuns::assign(std::span<const std::vector<Range>> rows) {
+void SweepRuns::assign(std::span<const std::vector<Range>> rows, Range here) {
+  here_ = here;
   const int n2 = static_cast<int>(rows.size());
   for (Table* table : {&advanced_, &predicted_, &between_}) table->clear();
   const auto add = [&](int r, int reach) {
