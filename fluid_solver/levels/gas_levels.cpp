@@ -108,7 +108,7 @@ void GasLevels::install(std::span<Component> components, std::vector<CellMask> c
     CellMask advanced = region(l, covered), valid = advanced;
     advanced.remove(here);
     CellMask restricted = advanced, not_covered(shape(l)), prolonged = here;
-    restricted.grow(2);
+    restricted.grow(1);
     not_covered.set_all(true);
     not_covered.remove(here);
     restricted.remove(not_covered);

@@ -17,7 +17,7 @@ Members members_of(int k, int fine_points, const std::array<Beyond, 2>& ends) {
   switch (ends[low ? 0 : 1]) {
     case Beyond::period:
       return {.n = 3,
-              .at = {low ? last - 1 : last, low ? 0 : last, low ? 1 : last - 1},
+              .at = {last - 1, low ? 0 : last, 1},
               .weight = {third, third, third}};
     case Beyond::mirror:
       return {.n = 2, .at = {middle, inside, 0}, .weight = {third, 2 * third, 0}, .mirrored = true};

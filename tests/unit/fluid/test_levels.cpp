@@ -255,6 +255,19 @@ TEST(LevelPolynomials, HaveTheCoarseValuesAsAverages) {
   EXPECT_EQ(one.rows().points(), 1U);
 }
 
+/// The last point of a period is the first one of the next: its control volume is the same.
+TEST(LevelMembers, AreTheSameAtBothEndsOfAPeriod) {
+  const std::array<Beyond, 2> period{Beyond::period, Beyond::period};
+  const int n = 28;
+  const Members first = members_of(0, n, period), last = members_of((n - 1) / refinement_ratio, n, period);
+  ASSERT_EQ(first.n, 3);
+  ASSERT_EQ(last.n, 3);
+  for (std::size_t k = 0; k < 3; ++k) {
+    EXPECT_EQ(first.at[k] % (n - 1), last.at[k] % (n - 1));
+    EXPECT_EQ(first.weight[k], last.weight[k]);
+  }
+}
+
 TEST(LevelMasks, GrowAcrossPeriodsAndRefineToWholeControlVolumes) {
   CellMask mask({7, 5, {true, false}});
   mask.set(0, 2);
