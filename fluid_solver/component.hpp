@@ -13,12 +13,13 @@
 #include "common/core/types.hpp"
 #include "common/grid/intervals.hpp"
 #include "common/grid/moving_grid.hpp"
+#include "common/ranks/rows/cut.hpp"
+#include "common/ranks/rows/rank_rows.hpp"
 #include "fluid_solver/boundary/wall_motion.hpp"
 #include "fluid_solver/forcing.hpp"
 #include "fluid_solver/gas_options.hpp"
 #include "fluid_solver/kernels/sweep.hpp"
 #include "fluid_solver/measures/shocks.hpp"
-#include "common/ranks/rows/rank_rows.hpp"
 
 namespace fsi::fluid {
 
@@ -76,6 +77,8 @@ class Component {
   void become_sparse() { sparse_ = true; }
   /// Forgets the states far from valid points, and gives their memory back.
   void forget_unused_points();
+  /// Adds the runs of points of a sparse grid that are kept.
+  void add_kept_strips(std::vector<Strip>& strips, int grid) const;
   /// Which points of a side are near valid ones; empty: all count.
   std::span<const std::uint8_t> live(Side side) const { return live_[static_cast<std::size_t>(side)]; }
   /// From now on only rows of one's own are advanced, and only those one has are worth looking at.

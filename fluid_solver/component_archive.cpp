@@ -53,6 +53,12 @@ void put_back(const std::vector<double>& values, const std::vector<double>& runs
 
 }  // namespace
 
+void Component::add_kept_strips(std::vector<Strip>& strips, int grid) const {
+  each_kept_run(valid_, grid_.layout(), [&](int j, const grid::Interval& run) {
+    strips.push_back({grid, j, run.begin, run.end});
+  });
+}
+
 void Component::forget_unused_points() {
   for (Field* field : {&state_, &next_}) {
     Field kept(grid_.layout(), 4);

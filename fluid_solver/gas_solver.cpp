@@ -132,7 +132,7 @@ void GasSolver::assign_initial_conditions(const StateField& initial) {
     component.fill(initial, t_);
     mirror_ghosts(component, t_);
   }
-  if (levels_) levels_->start(components_, composite());
+  if (levels_) levels_->start(level_scene());
   for (Component& component : components_) component.start(t_);
 }
 
@@ -204,7 +204,7 @@ void GasSolver::update_overlapping_grid(double t_new) {
 void GasSolver::advance_fluid(double t, double dt) {
   for (std::size_t k = 0; k < components_.size(); ++k) {
     // Finer levels first: what crosses their rims is theirs to say.
-    if (levels_ && k >= levels_->component(1)) levels_->match(components_, levels_->level_of(k));
+    if (levels_ && k >= levels_->component(1)) levels_->match(level_scene(), levels_->level_of(k));
     components_[k].advance(t, dt);
   }
   t_ = t;
@@ -248,14 +248,9 @@ void GasSolver::apply_fluid_bcs(double t, std::span<const InterfaceValues> inter
   };
   each([](Component& component, const BoundaryTask& task) { set_boundary_points(component, task); });
   const BoundaryTask background{.t = t, .options = options_, .interfaces = {}};
-  if (levels_) {
-    levels_->average(components_);
-    for (int l = levels_->levels() - 1; l >= 0; --l) {
-      levels_->surround(components_, l);
-      if (l > 0) set_ghosts(components_[levels_->component(l)], background);
-    }
-  }
+  if (levels_) levels_->average(level_scene());
   bring_advanced();
+  if (levels_) levels_->surround(level_scene(), background);
   if (composite_) {
     const std::span<const grid::InterpolationList> lists = share_.mine(composite_->interpolation());
     composite_->interpolate(gather_fields(), lists);
@@ -265,7 +260,7 @@ void GasSolver::apply_fluid_bcs(double t, std::span<const InterfaceValues> inter
     if (!levels_ || !levels_->is_coarse(component, components_)) set_ghosts(component, task);
   });
   for (Component& component : components_) component.complete();
-  if (levels_) levels_->adapt(components_, composite(), background);
+  if (levels_ && levels_->adapt(level_scene(), background)) share_.plan(cut_grids(), composite());
 }
 
 std::size_t GasSolver::points() const {
@@ -283,7 +278,7 @@ void GasSolver::archive(Archive& archive) {
   if (levels_) archive.inside("levels", [&] { levels_->archive(archive); });
   if (!archive.loading()) return;
   if (composite_) composite_->connect(fitted_positions(), t_);
-  if (levels_) levels_->restore(components_, composite());
+  if (levels_) levels_->restore(level_scene());
   if (composite_) use_points();
 }
 

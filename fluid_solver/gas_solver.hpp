@@ -202,6 +202,8 @@ class GasSolver {
   void share_out_anew();
   void bring_advanced();
   std::span<const CutGrid> cut_grids();
+  LevelScene level_scene() { return {components_, composite(), share_}; }
+  std::vector<Strip> kept_strips() const;
   const Component& component(int grid) const { return components_[static_cast<std::size_t>(grid)]; }
   std::span<const FieldView> gather_fields();
   void connect_first(std::vector<grid::BodyFittedGrid> bodies);

@@ -1,6 +1,7 @@
 #pragma once
 /// Fluxes through chosen faces of a grid: noted by a step, or imposed on it.
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <span>
@@ -33,6 +34,9 @@ class FaceList {
   /// Number of the first face of a row, of the next row's for row + 1.
   std::size_t first(int row) const { return first_[static_cast<std::size_t>(row)]; }
   int at(std::size_t face) const { return at_[face]; }
+  int row_of(std::size_t face) const {
+    return static_cast<int>(std::upper_bound(first_.begin(), first_.end(), face) - first_.begin()) - 1;
+  }
   FaceValues& flux(std::size_t face) { return flux_[face]; }
   const FaceValues& flux(std::size_t face) const { return flux_[face]; }
   std::span<FaceValues> all() { return flux_; }

@@ -5,8 +5,9 @@
 
 namespace fsi::fluid {
 
-void widen(ValueRange& range, ConstFieldView q, int plane, const grid::RowSets& points) {
+void widen(ValueRange& range, ConstFieldView q, int plane, const grid::RowSets& points, const RankRows& own) {
   for (int j = 0; j < points.rows(); ++j) {
+    if (!own.owns(j)) continue;
     const double* row = q.row(plane, j);
     for (const grid::Interval& run : points.row(j)) {
       double low = range.low, high = range.high;
@@ -20,12 +21,15 @@ void widen(ValueRange& range, ConstFieldView q, int plane, const grid::RowSets& 
   }
 }
 
-void flag_bends(ConstFieldView q, int plane, double least, const CellMask& known, CellMask& flags) {
+void flag_bends(ConstFieldView q, const Bends& wanted, const CellMask& known, const RankRows& own,
+                CellMask& flags) {
+  const auto [plane, least] = wanted;
   const Layout& shape = q.layout;
-  const auto bends = [least](double before, double here, double after) {
+  const auto bends = [least = least](double before, double here, double after) {
     return std::fabs(before - 2 * here + after) > least;
   };
   for (int j = 0; j < shape.n2; ++j) {
+    if (!own.owns(j)) continue;
     const std::uint8_t* here = known.row(j);
     const bool inner = j > 0 && j + 1 < shape.n2;
     const std::uint8_t *below = inner ? known.row(j - 1) : here, *above = inner ? known.row(j + 1) : here;

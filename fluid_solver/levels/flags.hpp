@@ -4,6 +4,7 @@
 #include <span>
 
 #include "common/grid/overlap/composite_grid.hpp"
+#include "common/ranks/rows/rank_rows.hpp"
 #include "fluid_solver/levels/cell_mask.hpp"
 
 namespace fsi::fluid {
@@ -13,12 +14,19 @@ struct ValueRange {
   double low, high;
 };
 
-/// Widens a range to the values of one plane at the points of a set.
-void widen(ValueRange& range, ConstFieldView q, int plane, const grid::RowSets& points);
+/// Widens a range to the values of one plane at the points of a set that are in rows of one's own.
+void widen(ValueRange& range, ConstFieldView q, int plane, const grid::RowSets& points, const RankRows& own);
 
-/// Adds the points whose undivided second difference in one direction is larger than `least`; differences
+/// Undivided second differences of a plane that are too large.
+struct Bends {
+  int plane;
+  double least;
+};
+
+/// Adds the points in rows of one's own whose undivided second difference in one direction is too large; differences
 /// are taken between known points.
-void flag_bends(ConstFieldView q, int plane, double least, const CellMask& known, CellMask& flags);
+void flag_bends(ConstFieldView q, const Bends& bends, const CellMask& known, const RankRows& own,
+                CellMask& flags);
 
 /// Adds the points of a lattice three times as coarse as the background in whose control volumes something
 /// lies that only the background itself can have: points that are not discretised, and all points of

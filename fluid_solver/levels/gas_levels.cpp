@@ -64,8 +64,7 @@ GasLevels::GasLevels(const Component& background, const Refinement& options, std
       *n = (*n - 1) / refinement_ratio + 1;
     }
     shapes_.push_back(shape);
-    coarse_.push_back(
-        {.covered = CellMask(shape), .restricted = {}, .prolonged = {}, .valid = {}, .faces = {}});
+    coarse_.emplace_back().covered = CellMask(shape);
   }
   owned_.resize(shapes_.size());
 }
@@ -101,7 +100,8 @@ CellMask GasLevels::region(int l, const std::vector<CellMask>& covered) const {
 }
 
 /// covered[l - 1] belongs to level l.
-void GasLevels::install(std::span<Component> components, std::vector<CellMask> covered) {
+void GasLevels::install(const LevelScene& scene, std::vector<CellMask> covered) {
+  const std::span<Component> components = scene.components;
   CellMask outer;  // of the level above, what surrounds this one
   for (int l = levels() - 1; l > 0; --l) {
     const CellMask& here = covered[static_cast<std::size_t>(l) - 1];
@@ -123,12 +123,18 @@ void GasLevels::install(std::span<Component> components, std::vector<CellMask> c
              .restricted = restricted.rows(),
              .prolonged = prolonged.rows(),
              .valid = valid.rows(),
-             .faces = LevelFaces(here, shape(l - 1), ends_, fine.noted(), coarse.imposed())};
+             .faces = LevelFaces(here, shape(l - 1), ends_, fine.noted(), coarse.imposed()),
+             .restricted_here = {},
+             .prolonged_here = {},
+             .to_restrict = {},
+             .to_prolong = {},
+             .to_match = {}};
   }
   CellMask reach = at(1).covered;
   owned_[0] = refined(reach.rows(), shape(0).n1, shape(0).n2);
   reach.add(at(1).prolonged);
   reach_ = refined(reach.rows(), shape(0).n1, shape(0).n2);
+  share_out(scene);
 }
 
 void GasLevels::use_finest_points(Component& finest, const grid::CompositeGrid* composite) {
@@ -141,40 +147,52 @@ void GasLevels::use_finest_points(Component& finest, const grid::CompositeGrid* 
   finest.use_points(both_, both_reach_);
 }
 
-void GasLevels::use_points(std::span<Component> components, const grid::CompositeGrid* composite) {
-  use_finest_points(components[0], composite);
-  for (int l = 1; l < levels(); ++l) components[component(l)].use_points(owned(l), at(l).valid);
+void GasLevels::use_points(const LevelScene& scene) {
+  use_finest_points(scene.components[0], scene.composite);
+  for (int l = 1; l < levels(); ++l) scene.components[component(l)].use_points(owned(l), at(l).valid);
 }
 
-void GasLevels::match(std::span<Component> components, int l) const {
-  at(l).faces.match(components[component(l - 1)].noted(), components[component(l)].imposed());
+void GasLevels::match(const LevelScene& scene, int l) {
+  FaceFluxes& noted = scene.components[component(l - 1)].noted();
+  if (!scene.share.alone()) at(l).to_match.run(scene.share.ranks(), noted);
+  at(l).faces.match(noted, scene.components[component(l)].imposed());
 }
 
-void GasLevels::average(std::span<Component> components) const {
+void GasLevels::average(const LevelScene& scene) {
   for (int l = 1; l < levels(); ++l) {
-    restrict_to(at(l).restricted, components[component(l)].state(), components[component(l - 1)].state(),
-                ends_, gamma_);
+    const std::span<const FieldView> fields = states(scene);
+    scene.share.bring(at(l).to_restrict, fields);
+    restrict_to(at(l).restricted_here, fields[component(l)], fields[component(l - 1)], ends_, gamma_);
   }
 }
 
-void GasLevels::surround(std::span<Component> components, int l) const {
-  if (l + 1 == levels()) return;
-  prolong_from(at(l + 1).prolonged, components[component(l + 1)].state(), components[component(l)].state(),
-               gamma_);
+void GasLevels::surround(const LevelScene& scene, const BoundaryTask& task) {
+  const std::span<const FieldView> fields = states(scene);
+  for (int l = levels() - 1; l > 0; --l) {
+    set_ghosts(scene.components[component(l)], task);
+    scene.share.bring(at(l).to_prolong, fields);
+    prolong_from(at(l).prolonged_here, fields[component(l)], fields[component(l - 1)], gamma_);
+  }
 }
 
 /// Averages at all wanted points whose control volumes the finer level knows.
 /// @returns the points of each level that are known then: advanced or averaged
-std::vector<CellMask> GasLevels::average_all(std::span<Component> components,
-                                             const std::vector<CellMask>& wanted) const {
+std::vector<CellMask> GasLevels::average_all(const LevelScene& scene, const std::vector<CellMask>& wanted) {
   std::vector<CellMask> known;
-  grid::RowSets finer = components[0].valid();
+  const std::span<const FieldView> fields = states(scene);
+  grid::RowSets finer = scene.components[0].valid();
   for (int l = 1; l < levels(); ++l) {
     CellMask missing(shape(l)), points = wanted[static_cast<std::size_t>(l) - 1];
     mark_coarse(gaps_of(finer, shape(l - 1).n1), missing);
     points.remove(missing);
-    restrict_to(points.rows(), components[component(l)].state(), components[component(l - 1)].state(), ends_,
+    const grid::RowSets averaged = points.rows();
+    if (!scene.share.alone()) {
+      Delivery finer_values = averages_of(scene, l, averaged);
+      scene.share.bring(finer_values, fields);
+    }
+    restrict_to(averaged_here(scene, l, averaged), fields[component(l)], fields[component(l - 1)], ends_,
                 gamma_);
+    bring_halos(scene, l, {&averaged});
     points.add(owned(l));
     finer = points.rows();
     known.push_back(std::move(points));
@@ -182,29 +200,35 @@ std::vector<CellMask> GasLevels::average_all(std::span<Component> components,
   return known;
 }
 
-std::vector<CellMask> GasLevels::choose(std::span<const Component> components,
-                                        const grid::CompositeGrid* composite,
-                                        const std::vector<CellMask>& known) const {
-  const int plane = options_.quantity == RefinedQuantity::p ? 3 : 0;
+/// A larger undivided second difference of the refined quantity asks for a finer level.
+double GasLevels::least_bend(const LevelScene& scene) const {
   constexpr double endless = std::numeric_limits<double>::infinity();
   ValueRange range{endless, -endless};
   for (int l = 0; l < levels(); ++l) {
-    const Component& level = components[component(l)];
-    widen(range, level.state(), plane, level.discretised());
+    const Component& level = scene.components[component(l)];
+    widen(range, level.state(), plane(), level.discretised(), level.rows());
   }
+  Ranks& ranks = scene.share.ranks();
+  range = {-ranks.largest(-range.low), ranks.largest(range.high)};
   constexpr double noise = 1e-6;  // of the value itself
-  const double least = options_.threshold * std::max(range.high - range.low, noise * range.high);
+  return options_.threshold * std::max(range.high - range.low, noise * range.high);
+}
+
+std::vector<CellMask> GasLevels::choose(const LevelScene& scene, const std::vector<CellMask>& known) const {
+  const Bends bends{.plane = plane(), .least = least_bend(scene)};
   std::vector<CellMask> covered;
   for (int l = 1; l < levels(); ++l) {
     CellMask mask(shape(l));
-    flag_bends(components[component(l)].state(), plane, least, known[static_cast<std::size_t>(l) - 1], mask);
+    const Component& level = scene.components[component(l)];
+    flag_bends(level.state(), bends, known[static_cast<std::size_t>(l) - 1], level.rows(), mask);
+    gather(scene, l, mask);
     mask.grow(options_.buffer);
     CellMask near(shape(l));
-    if (l == 1 && composite != nullptr) {
+    if (l == 1 && scene.composite != nullptr) {
       std::vector<ConstFieldView> x;
-      for (int k = 1; k < composite->grids(); ++k)
-        x.push_back(components[static_cast<std::size_t>(k)].grid().x());
-      flag_bodies(*composite, x, near);
+      for (int k = 1; k < scene.composite->grids(); ++k)
+        x.push_back(scene.components[static_cast<std::size_t>(k)].grid().x());
+      flag_bodies(*scene.composite, x, near);
       near.grow(nesting + options_.buffer);
     } else if (l > 1) {
       CellMask finer = covered.back();
@@ -218,52 +242,57 @@ std::vector<CellMask> GasLevels::choose(std::span<const Component> components,
   return covered;
 }
 
-void GasLevels::start(std::span<Component> components, const grid::CompositeGrid* composite) {
+void GasLevels::start(const LevelScene& scene) {
   std::vector<CellMask> all;
   for (int l = 1; l < levels(); ++l) {
     all.emplace_back(shape(l)).set_all(true);
     owned_[static_cast<std::size_t>(l)] = CellMask(shape(l)).rows();
   }
-  const std::vector<CellMask> known = average_all(components, all);
-  install(components, choose(components, composite, known));
-  use_points(components, composite);
-  for (int l = 0; l < levels(); ++l) components[component(l)].forget_unused_points();
+  const std::vector<CellMask> known = average_all(scene, all);
+  install(scene, choose(scene, known));
+  use_points(scene);
+  for (int l = 0; l < levels(); ++l) scene.components[component(l)].forget_unused_points();
 }
 
 /// Points that become covered hand their state down, level by level.
-void GasLevels::fill_new(std::span<Component> components, const std::vector<CellMask>& covered,
-                         const BoundaryTask& task) const {
+void GasLevels::fill_new(const LevelScene& scene, const std::vector<CellMask>& covered,
+                         const BoundaryTask& task) {
+  const std::span<const FieldView> fields = states(scene);
   for (int l = levels() - 1; l > 0; --l) {
     CellMask fresh = covered[static_cast<std::size_t>(l) - 1];
     fresh.remove(at(l).covered);
-    Component &coarse = components[component(l)], &fine = components[component(l - 1)];
-    prolong_from(fresh.rows(), std::as_const(coarse).state(), fine.state(), gamma_);
-    prolong_from(fresh.rows(), std::as_const(coarse).state(), fine.spare_state(), gamma_);
+    const grid::RowSets all = fresh.rows(), here = prolonged_here(scene, l, all);
+    if (!scene.share.alone()) {
+      Delivery parents = parents_of(scene, l, all);
+      scene.share.bring(parents, fields);
+    }
+    Component& fine = scene.components[component(l - 1)];
+    prolong_from(here, fields[component(l)], fine.state(), gamma_);
+    prolong_from(here, fields[component(l)], fine.spare_state(), gamma_);
     set_ghosts(fine, task);
   }
 }
 
-bool GasLevels::adapt(std::span<Component> components, const grid::CompositeGrid* composite,
-                      const BoundaryTask& task) {
+bool GasLevels::adapt(const LevelScene& scene, const BoundaryTask& task) {
   if (++since_ < options_.every) return false;
   since_ = 0;
   std::vector<CellMask> before;
   for (const Level& level : coarse_) before.push_back(level.covered);
-  const std::vector<CellMask> known = average_all(components, before);
-  std::vector<CellMask> covered = choose(components, composite, known);
+  const std::vector<CellMask> known = average_all(scene, before);
+  std::vector<CellMask> covered = choose(scene, known);
   if (covered == before) return false;
-  fill_new(components, covered, task);
-  install(components, std::move(covered));
-  use_points(components, composite);
-  average(components);
-  for (int l = levels() - 1; l >= 0; --l) {
-    surround(components, l);
-    set_ghosts(components[component(l)], task);
-    components[component(l)].measure_rows();
-  }
+  fill_new(scene, covered, task);
+  install(scene, std::move(covered));
+  use_points(scene);
+  average(scene);
+  bring_halos(scene, 0, {&scene.components[0].discretised()});
+  for (int l = 1; l < levels(); ++l) bring_halos(scene, l, {&owned(l), &at(l).restricted});
+  surround(scene, task);
+  set_ghosts(scene.components[0], task);
+  for (int l = 0; l < levels(); ++l) scene.components[component(l)].measure_rows();
   constexpr int often_enough = 50;  // that features do not leave memory in use all along their way
   if (++adaptations_ % often_enough == 0) {
-    for (int l = 0; l < levels(); ++l) components[component(l)].forget_unused_points();
+    for (int l = 0; l < levels(); ++l) scene.components[component(l)].forget_unused_points();
   }
   return true;
 }
@@ -311,11 +340,11 @@ void GasLevels::archive(Archive& archive) {
   }
 }
 
-void GasLevels::restore(std::span<Component> components, const grid::CompositeGrid* composite) {
+void GasLevels::restore(const LevelScene& scene) {
   std::vector<CellMask> covered;
   for (const Level& level : coarse_) covered.push_back(level.covered);
-  install(components, std::move(covered));
-  use_points(components, composite);
+  install(scene, std::move(covered));
+  use_points(scene);
 }
 
 }  // namespace fsi::fluid

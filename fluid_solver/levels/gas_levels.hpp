@@ -12,18 +12,29 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <span>
 #include <vector>
 
 #include "common/core/archive.hpp"
 #include "common/grid/overlap/composite_grid.hpp"
+#include "common/ranks/rows/share.hpp"
 #include "fluid_solver/boundary/boundary_conditions.hpp"
 #include "fluid_solver/component.hpp"
 #include "fluid_solver/levels/cell_mask.hpp"
 #include "fluid_solver/levels/level_faces.hpp"
 #include "fluid_solver/levels/transfer.hpp"
+#include "fluid_solver/ranks/flux_delivery.hpp"
 
 namespace fsi::fluid {
+
+/// What the levels work on.
+struct LevelScene {
+  std::span<Component> components;
+  const grid::CompositeGrid*
+      composite;  ///< how body-fitted grids overlap the finest level; null: there are none
+  Share& share;   ///< who has which rows
+};
 
 class GasLevels {
  public:
@@ -35,21 +46,25 @@ class GasLevels {
   /// Grids of the levels 1, 2, ..
   std::vector<grid::MovingGrid> coarse_grids(const Component& background) const;
 
-  /// Level 0 has values everywhere; chooses the levels for them and for the bodies. @param composite null:
-  /// there are none
-  void start(std::span<Component> components, const grid::CompositeGrid* composite);
+  /// Level 0 has values everywhere; chooses the levels for them and for the bodies.
+  void start(const LevelScene& scene);
+  /// Ranks have got other rows, or the first ones.
+  void share_out(const LevelScene& scene);
   /// Tells the finest level its points; after every update of the overlap.
   void use_finest_points(Component& finest, const grid::CompositeGrid* composite);
   /// The fluxes that the next finer level carried through its rim become those of level l.
-  void match(std::span<Component> components, int l) const;
-  /// Averages of finer levels, where coarser ones need them. Boundary points are known.
-  void average(std::span<Component> components) const;
-  /// Values of the rim of level l from the next coarser one, whose ghosts are known.
-  void surround(std::span<Component> components, int l) const;
+  void match(const LevelScene& scene, int l);
+  /// Averages of finer levels, where coarser ones need them, in rows of one's own. Boundary points are known.
+  void average(const LevelScene& scene);
+  /// Values of all rims from the next coarser level, and the ghosts of all coarse levels. Averages are known, in halos
+  /// too.
+  void surround(const LevelScene& scene, const BoundaryTask& task);
   /// To be called with every completed step; adapts the levels to the state when it is time.
   /// @returns whether something changed
-  bool adapt(std::span<Component> components, const grid::CompositeGrid* composite, const BoundaryTask& task);
+  bool adapt(const LevelScene& scene, const BoundaryTask& task);
 
+  /// The points of level l > 0 that have averages.
+  const grid::RowSets& averaged(int l) const { return at(l).restricted; }
   /// The points of level l that stand for the areas around them.
   const grid::RowSets& owned(int l) const { return owned_[static_cast<std::size_t>(l)]; }
   /// Which component is level l.
@@ -68,7 +83,7 @@ class GasLevels {
 
   void archive(Archive& archive);
   /// After loading.
-  void restore(std::span<Component> components, const grid::CompositeGrid* composite);
+  void restore(const LevelScene& scene);
 
  private:
   /// Level l > 0.
@@ -78,6 +93,10 @@ class GasLevels {
         prolonged;        ///< covered points with averages; points that surround the finer level
     grid::RowSets valid;  ///< points with a value
     LevelFaces faces;
+    // What of it this rank does, and what others bring for that.
+    grid::RowSets restricted_here, prolonged_here;
+    Delivery to_restrict, to_prolong;
+    FluxDelivery to_match;
   };
 
   Refinement options_;
@@ -91,20 +110,31 @@ class GasLevels {
   int since_ = 0;                     ///< steps since the last adaptation
   int adaptations_ = 0;               ///< that changed something
   grid::RowSets both_, both_reach_;   ///< work memory: of level 0, without what a body covers
+  std::vector<FieldView> fields_;     ///< work memory: the state of each grid
 
   Level& at(int l) { return coarse_[static_cast<std::size_t>(l) - 1]; }
   const Level& at(int l) const { return coarse_[static_cast<std::size_t>(l) - 1]; }
   const LatticeShape& shape(int l) const { return shapes_[static_cast<std::size_t>(l)]; }
-  void use_points(std::span<Component> components, const grid::CompositeGrid* composite);
+  void use_points(const LevelScene& scene);
+  std::span<const FieldView> states(const LevelScene& scene);
   CellMask region(int l, const std::vector<CellMask>& covered) const;
+  /// Of the refined quantity.
+  int plane() const { return options_.quantity == RefinedQuantity::p ? 3 : 0; }
   bool closes_a_cell(int l, int i, int j) const;
-  void install(std::span<Component> components, std::vector<CellMask> covered);
-  std::vector<CellMask> average_all(std::span<Component> components,
-                                    const std::vector<CellMask>& wanted) const;
-  std::vector<CellMask> choose(std::span<const Component> components, const grid::CompositeGrid* composite,
-                               const std::vector<CellMask>& known) const;
-  void fill_new(std::span<Component> components, const std::vector<CellMask>& covered,
-                const BoundaryTask& task) const;
+  void install(const LevelScene& scene, std::vector<CellMask> covered);
+  std::vector<CellMask> average_all(const LevelScene& scene, const std::vector<CellMask>& wanted);
+  double least_bend(const LevelScene& scene) const;
+  std::vector<CellMask> choose(const LevelScene& scene, const std::vector<CellMask>& known) const;
+  void fill_new(const LevelScene& scene, const std::vector<CellMask>& covered, const BoundaryTask& task);
+
+  // Several ranks.
+  grid::RowSets averaged_here(const LevelScene& scene, int l, const grid::RowSets& points) const;
+  grid::RowSets prolonged_here(const LevelScene& scene, int l, const grid::RowSets& points) const;
+  Delivery averages_of(const LevelScene& scene, int l, const grid::RowSets& points) const;
+  Delivery parents_of(const LevelScene& scene, int l, const grid::RowSets& points) const;
+  FluxDelivery fluxes_of(const LevelScene& scene, int l) const;
+  void bring_halos(const LevelScene& scene, int l, std::initializer_list<const grid::RowSets*> points);
+  void gather(const LevelScene& scene, int l, CellMask& flags) const;
 };
 
 }  // namespace fsi::fluid

@@ -6,6 +6,7 @@
 ///     o   o   o | O
 
 #include <array>
+#include <cstddef>
 #include <vector>
 
 #include "fluid_solver/kernels/face_fluxes.hpp"
@@ -24,6 +25,18 @@ class LevelFaces {
 
   /// The imposed fluxes from those noted in the step.
   void match(const FaceFluxes& noted, FaceFluxes& imposed) const;
+
+  /// Calls action(direction, imposed face, noted face) for each of those that an imposed flux is the mean of.
+  template <class Action>
+  void each_source(const Action& action) const {
+    for (const int direction : {0, 1}) {
+      const std::vector<Source>& sources = direction == 0 ? along_ : between_;
+      for (std::size_t face = 0; face < sources.size(); ++face) {
+        for (std::size_t k = 0; k < static_cast<std::size_t>(sources[face].n); ++k)
+          action(direction, face, sources[face].from[k]);
+      }
+    }
+  }
 
  private:
   /// Of an imposed face: the fine faces, and whether a mirror cancels the flux of momentum along it.

@@ -16,9 +16,7 @@ Members members_of(int k, int fine_points, const std::array<Beyond, 2>& ends) {
   const int inside = low ? 1 : last - 1;
   switch (ends[low ? 0 : 1]) {
     case Beyond::period:
-      return {.n = 3,
-              .at = {last - 1, low ? 0 : last, 1},
-              .weight = {third, third, third}};
+      return {.n = 3, .at = {last - 1, low ? 0 : last, 1}, .weight = {third, third, third}};
     case Beyond::mirror:
       return {.n = 2, .at = {middle, inside, 0}, .weight = {third, 2 * third, 0}, .mirrored = true};
     default:

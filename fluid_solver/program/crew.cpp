@@ -152,15 +152,6 @@ void Crew::loaded() {
   foreman_.with_all(OrderWriter(Word::load).saved(archive).take(), [&] { solver_.loaded(); });
 }
 
-void check_ranks(const Setup& setup) {
-  const int levels = fluid_of(setup).refine.levels;
-  if (setup.ranks->alone() || levels <= 1) return;
-  throw UserMistake(
-      fmt::format("fluid.grid.levels = {}: a background with levels cannot be shared among ranks yet; write "
-                  "levels: 1, or leave --ranks away",
-                  levels));
-}
-
 void serve(const Setup& setup) {
   GasSolver solver =
       gas_at_start(setup.problem, fluid_of(setup), reference_from_case(setup.problem, setup.run_dir));

@@ -49,9 +49,6 @@ class Crew {
   void state_changes() { looked_ = collected_ = false; }
 };
 
-/// @throws UserMistake where this gas cannot be shared among ranks
-void check_ranks(const Setup& setup);
-
 /// The life of another rank than the first: does what it is told until it is let go.
 void serve(const Setup& setup);
 

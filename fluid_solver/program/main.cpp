@@ -8,7 +8,6 @@ int main(int argc, char** argv) {
   return fsi::run_program(
       argc, argv, "fluid", "fluid",
       [](const fsi::Setup& setup, fsi::io::Part& part) {
-        fsi::fluid::check_ranks(setup);
         if (!setup.ranks->first()) return fsi::fluid::serve(setup);
         fsi::fluid::FluidParticipant solver(setup);
         fsi::participate(setup, part, solver);

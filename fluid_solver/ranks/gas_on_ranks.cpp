@@ -25,21 +25,28 @@ void add_side_strips(const Layout& layout, Side side, std::vector<Strip>& strips
 
 std::span<const CutGrid> GasSolver::cut_grids() {
   cut_grids_.clear();
-  for (const Component& component : components_)
+  for (std::size_t k = 0; k < components_.size(); ++k) {
+    const Component& component = components_[k];
+    const int level = levels_ ? levels_->level_of(k) : 0;
     cut_grids_.push_back({.layout = component.grid().layout(),
                           .periodic2 = component.grid().periodic(1),
-                          .discretised = &component.discretised()});
+                          .discretised = &component.discretised(),
+                          .averaged = level > 0 ? &levels_->averaged(level) : nullptr});
+  }
   return cut_grids_;
 }
 
 void GasSolver::share(std::shared_ptr<Ranks> ranks, const RecutOptions& options) {
   if (ranks->alone()) return;
-  share_ = Share(std::move(ranks), options, cut_grids());
+  RecutOptions cut = options;
+  cut.pieces = levels_ ? Pieces::of_each_grid : Pieces::of_all_grids;
+  share_ = Share(std::move(ranks), cut, cut_grids());
   take_rows();
 }
 
 void GasSolver::take_rows() {
   for (int k = 0; k < grids(); ++k) components_[static_cast<std::size_t>(k)].take_rows(share_.rows(k));
+  if (levels_) levels_->share_out(level_scene());
   share_.plan(cut_grids(), composite());
 }
 
@@ -207,18 +214,33 @@ void GasSolver::gather_edges() {
   }
 }
 
+/// All that anybody looks at: whole rows, or of sparse grids what they keep.
+std::vector<Strip> GasSolver::kept_strips() const {
+  std::vector<Strip> strips;
+  for (int k = 0; k < grids(); ++k) {
+    if (is_level(k)) {
+      component(k).add_kept_strips(strips, k);
+      continue;
+    }
+    const int n2 = state(k).layout.n2;
+    for (int j = -Layout::ghosts; j < n2 + Layout::ghosts; ++j) strips.push_back(share_.whole_row(k, j));
+  }
+  return strips;
+}
+
 void GasSolver::collect() {
-  if (!share_.alone()) share_.all_to_first(gather_fields());
+  if (!share_.alone()) share_.to_first(kept_strips(), gather_fields());
 }
 
 void GasSolver::collect_all() {
   if (share_.alone()) return;
+  const std::vector<Strip> strips = kept_strips();
   std::vector<FieldView> fields;
   const std::size_t kinds = components_.front().moving_fields().size();
   for (std::size_t f = 0; f < kinds; ++f) {
     fields.clear();
     for (Component& component : components_) fields.push_back(component.moving_fields()[f]);
-    share_.all_to_first(fields);
+    share_.to_first(strips, fields);
   }
   gather_edges();
   for (Component& component : components_) {

@@ -89,6 +89,28 @@ MUTATIONS = [
      "mask.grow(options_.buffer);", "mask.grow(0);", "test_fluid", "*Level*"),
     ("levels: cells of two levels on top of each other", "fluid_solver/levels/gas_levels.cpp",
      "const bool finer = l > 0 && at(l).covered.contains(i, j);", "const bool finer = false;", "test_fluid", "*Levels*"),
+    ("levels: the second row of averages has no values", "fluid_solver/levels/gas_levels.cpp",
+     "restricted.grow(1);", "restricted.grow(2);", "test_fluid", "LevelsAroundABody*"),
+    ("levels: the upper end of a period without what lies beyond it", "fluid_solver/levels/transfer.cpp",
+     ".at = {last - 1, low ? 0 : last, 1},", ".at = {last - 1, low ? 0 : last, last - 1},", "test_fluid", "LevelMembers*"),
+
+    # --- gas: levels on several ranks
+    ("levels on ranks: fluxes through rims are not brought", "fluid_solver/levels/levels_on_ranks.cpp",
+     "level.to_match = fluxes_of(scene, l);", "level.to_match = FluxDelivery(scene.share.ranks().size(), scene.share.ranks().rank());",
+     "test_fluid", "LevelsOnRanks*"),
+    ("levels on ranks: what rims are made of is not brought", "fluid_solver/levels/levels_on_ranks.cpp",
+     "level.to_prolong = parents_of(scene, l, level.prolonged);", "level.to_prolong = scene.share.nothing_yet();", "test_fluid",
+     "LevelsOnRanks*"),
+    ("levels on ranks: what averages are made of is not brought", "fluid_solver/levels/levels_on_ranks.cpp",
+     "level.to_restrict = averages_of(scene, l, level.restricted);", "level.to_restrict = scene.share.nothing_yet();", "test_fluid",
+     "LevelsOnRanks*"),
+    ("levels on ranks: averages of halos are not brought", "common/ranks/rows/share.cpp",
+     "if (one.averaged != nullptr) need_halos", "if (one.averaged == nullptr) need_halos", "test_fluid", "LevelsOnRanks*"),
+    ("ranks: runs of one's own rows alone", "fluid_solver/component.cpp",
+     "for (const grid::Interval& run : discretised_.row(j)) row.push_back({run.begin, run.end});",
+     "for (const grid::Interval& run : discretised_.row(j))\n      if (rows_.owns(j)) row.push_back({run.begin, run.end});", "test_fluid",
+     "LevelsOnRanks*"),
+
     # --- solid: laws
     ("K of the linear law", "solid_solver/laws/linear_elastic.hpp",
      ".k2121 = mu,", ".k2121 = -mu,", "test_laws", "EveryLaw*"),

@@ -61,7 +61,6 @@ class OnRanks(Restarting):
         self.assert_same(whole, self.on(numbers_of_ranks[-1], *arguments, every=every))
         return whole
 
-
     def assert_restarts_on_other_ranks(self, *arguments):
         whole = self.on(1, *arguments)
         for before, after in ((2, 3), (3, 1), (1, 2)):
@@ -78,6 +77,20 @@ class Layout(OnRanks):
         self.assert_layouts("shock_ellipse", "--set", "grid.factor=4", "--set", "time.end=0.4", "--set", "output.times=[0.2, 0.4]",
                             "--set", "output.probes=[{name: a, in: fluid, x: 0, y: 2.3}, {name: b, in: fluid, x: -2, y: -3}]",
                             numbers_of_ranks=(2, 4))
+
+    def test_levels_around_a_moving_body(self):
+        self.assert_layouts("shock_ellipse", "--set", "grid.factor=4", "--set", "fluid.grid.levels=3", "--set", "time.end=0.4",
+                            "--set", "output.times=[0.2, 0.4]", "--set",
+                            "output.probes=[{name: a, in: fluid, x: 0, y: 2.3}, {name: b, in: fluid, x: -2, y: -3}]",
+                            numbers_of_ranks=(2, 3, 4, 7))
+
+    def test_levels_through_periods(self):
+        self.assert_layouts("isentropic_vortex", "--set", "grid.factor=4", "--set", "fluid.grid.levels=2", "--set", "time.end=0.2",
+                            numbers_of_ranks=(3,), every=4)
+
+    def test_restart_of_levels_on_other_ranks(self):
+        self.assert_restarts_on_other_ranks("shock_ellipse", "--set", "grid.factor=4", "--set", "fluid.grid.levels=3", "--set", "time.end=0.3",
+                                            "--set", "output.times=[0.1, 0.3]", "--set", "output.checkpoint_every=20")
 
     def test_periods_across_the_rows(self):
         self.assert_layouts("isentropic_vortex", "--set", "grid.factor=2", "--set", "time.end=0.2", numbers_of_ranks=(3, 7), every=2)

@@ -7,14 +7,15 @@ namespace fsi {
 
 namespace {
 
-/// Rows are shared out anew when the busiest rank has so much more to do than the mean, and at most that often.
+/// Rows are shared out anew when the busiest rank has so much more to do than the mean, and than it would have then;
+/// at most that often.
 constexpr double tolerable_imbalance = 1.1;
 constexpr int least_steps = 50;
 
 }  // namespace
 
 Share::Share(std::shared_ptr<Ranks> ranks, const RecutOptions& options, std::span<const CutGrid> grids)
-    : ranks_(std::move(ranks)), options_(options), cut_(grids, ranks_->size()) {
+    : ranks_(std::move(ranks)), options_(options), cut_(grids, ranks_->size(), options.pieces) {
   for (const CutGrid& grid : grids) layouts_.push_back(grid.layout);
   for (int rank = 0; rank < ranks_->size(); ++rank) all_ranks_.push_back(rank);
   find_holders();
@@ -59,7 +60,10 @@ bool Share::recut_is_due(std::span<const CutGrid> grids) {
   counts_.steps += 1;
   ++since_recut_;
   if (options_.every > 0) return since_recut_ >= options_.every;
-  return since_recut_ >= least_steps && cut_.imbalance(grids) > tolerable_imbalance;
+  if (since_recut_ < least_steps) return false;
+  const double now = cut_.imbalance(grids);
+  return now > tolerable_imbalance &&
+         now > tolerable_imbalance * Cut(grids, ranks_->size(), options_.pieces).imbalance(grids);
 }
 
 void Share::recut(std::span<const CutGrid> grids, std::span<const std::vector<FieldView>> fields) {
@@ -70,7 +74,7 @@ void Share::recut(std::span<const CutGrid> grids, std::span<const std::vector<Fi
       options_.every == 0 ? 0 : (static_cast<int>(counts_.recuts) % 2 == 1 ? most_shift : -most_shift / 2);
   const Cut before = cut_;
   Delivery rows(before, ranks_->rank());
-  cut_ = Cut(grids, ranks_->size(), shift);
+  cut_ = Cut(grids, ranks_->size(), options_.pieces, shift);
   for (int grid = 0; grid < static_cast<int>(layouts_.size()); ++grid) {
     const int n2 = layouts_[static_cast<std::size_t>(grid)].n2;
     for (int rank = 0; rank < ranks_->size(); ++rank) {
@@ -85,7 +89,6 @@ void Share::recut(std::span<const CutGrid> grids, std::span<const std::vector<Fi
   find_holders();
 }
 
-/// With ghosts and what lies between rows.
 Strip Share::whole_row(int grid, int j) const {
   return {.grid = grid,
           .j = j,
@@ -100,7 +103,12 @@ void Share::plan(std::span<const CutGrid> grids, const grid::CompositeGrid* comp
   if (alone()) return;
   step_ = Delivery(cut_, ranks_->rank());
   neighbours_ = Delivery(cut_, ranks_->rank());
-  if (needs.halos) need_halos(grids);
+  for (int grid = 0; needs.halos && grid < static_cast<int>(grids.size()); ++grid) {
+    const CutGrid& one = grids[static_cast<std::size_t>(grid)];
+    need_halos(grid, *one.discretised, step_);
+    if (one.averaged != nullptr) need_halos(grid, *one.averaged, step_);
+    need_neighbours(grid, *one.discretised);
+  }
   for (const auto& [rank, strip] : needs.more) step_.need(rank, strip);
   if (composite != nullptr) {
     const std::span<const grid::InterpolationList> lists = composite->interpolation();
@@ -129,19 +137,24 @@ void Share::plan_exposed(const grid::CompositeGrid& composite) {
   exposed_.close();
 }
 
-void Share::need_halos(std::span<const CutGrid> grids) {
-  for (int grid = 0; grid < static_cast<int>(grids.size()); ++grid) {
-    const CutGrid& one = grids[static_cast<std::size_t>(grid)];
-    for (int rank = 0; rank < ranks_->size(); ++rank) {
-      const grid::RowRange own = cut_.own(grid, rank);
-      for (const auto& [first, end] : cut_.halos(grid, rank)) {
-        for (int j = std::max(first, 0); j < std::min(end, one.layout.n2); ++j) {
-          if (own.contains(j)) continue;
-          for (const grid::Interval& run : one.discretised->row(j)) {
-            step_.need(rank, {grid, j, run.begin, run.end});
-            if (j == own.first - 1 || j == own.end) neighbours_.need(rank, {grid, j, run.begin, run.end});
-          }
-        }
+void Share::need_halos(int grid, const grid::RowSets& points, Delivery& delivery) const {
+  for (int rank = 0; rank < ranks_->size(); ++rank) {
+    for (const auto& [first, end] : cut_.halos(grid, rank)) {
+      for (int j = std::max(first, 0); j < std::min(end, points.rows()); ++j) {
+        for (const grid::Interval& run : points.row(j)) delivery.need(rank, {grid, j, run.begin, run.end});
+      }
+    }
+  }
+}
+
+/// Of the halos the rows next to those of each rank.
+void Share::need_neighbours(int grid, const grid::RowSets& points) {
+  for (int rank = 0; rank < ranks_->size(); ++rank) {
+    const grid::RowRange own = cut_.own(grid, rank);
+    for (const auto& [first, end] : cut_.halos(grid, rank)) {
+      for (const int j : {own.first - 1, own.end}) {
+        if (j < std::max(first, 0) || j >= std::min(end, points.rows())) continue;
+        for (const grid::Interval& run : points.row(j)) neighbours_.need(rank, {grid, j, run.begin, run.end});
       }
     }
   }

@@ -25,6 +25,7 @@ namespace fsi {
 /// How rows are shared out anew in the course of a run.
 struct RecutOptions {
   int every = 0;  ///< tests: other rows for everybody after so many steps, balanced or not; 0: when it pays
+  Pieces pieces = Pieces::of_all_grids;
 };
 
 /// A strip that a rank needs.
@@ -68,6 +69,14 @@ class Share {
   /// Of what others have advanced, the rows next to one's own.
   void bring_neighbours(std::span<const FieldView> fields) { bring(neighbours_, fields); }
 
+  /// Something else that was planned for all ranks.
+  void bring(Delivery& delivery, std::span<const FieldView> fields);
+  Delivery nothing_yet() const { return {cut_, ranks_->rank()}; }
+  /// Whether a rank has a row of a grid: it owns it, or has it as halo.
+  bool has(int rank, int grid, int j) const;
+  /// The parts of some points of a grid that are in a rank's halo.
+  void need_halos(int grid, const grid::RowSets& points, Delivery& delivery) const;
+
   /// Those of the lists' points that this rank sets; of points that are donors of each other, every rank sets all.
   std::span<const grid::InterpolationList> mine(
       std::span<const grid::InterpolationList> interpolation) const {
@@ -80,8 +89,10 @@ class Share {
 
   /// Brings strips to rank 0.
   void to_first(std::span<const Strip> strips, std::span<const FieldView> fields);
-  /// Brings all rows to rank 0, whole.
+  /// Brings all rows of all grids to rank 0, ghosts included.
   void all_to_first(std::span<const FieldView> fields);
+  /// A row of a grid with ghosts and what lies between rows.
+  Strip whole_row(int grid, int j) const;
 
   /// Counted since the start.
   struct Counts {
@@ -90,8 +101,6 @@ class Share {
   };
   const Counts& counts() const { return counts_; }
   const Cut& cut() const { return cut_; }
-  /// Whether a rank owns a row, or has it in its halo.
-  bool has(int rank, int grid, int j) const;
 
  private:
   std::shared_ptr<Ranks> ranks_ = one_rank();
@@ -107,10 +116,9 @@ class Share {
   int since_recut_ = 0;
   Counts counts_;
 
-  void bring(Delivery& delivery, std::span<const FieldView> fields);
   void find_holders();
   int row_of(int grid, std::int32_t at) const;
-  void need_halos(std::span<const CutGrid> grids);
+  void need_neighbours(int grid, const grid::RowSets& points);
   void need_donors(const grid::InterpolationList& list, std::size_t point, int rank,
                    Delivery& delivery) const;
   void mark_everywhere(std::span<const grid::InterpolationList> lists);
@@ -118,7 +126,6 @@ class Share {
   void plan_list(const grid::InterpolationList& list, Delivery& delivery,
                  grid::InterpolationList& mine) const;
   void plan_for_all(const grid::InterpolationList& list, Delivery& delivery) const;
-  Strip whole_row(int grid, int j) const;
 };
 
 }  // namespace fsi

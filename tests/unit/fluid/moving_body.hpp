@@ -44,8 +44,9 @@ inline std::vector<double> body_outline(double time, const Units& units = {}) {
   return x;
 }
 
-/// [-3, 3]^2 around the body, which is a wall; `far` holds on the outer boundary.
-inline GasSolver around_moving_body(const GasOptions& options, const Boundary& far, const Units& units = {}) {
+/// [-3, 3]^2 around the body, which is a wall; `far` holds on the outer boundary. `points` of a line of the background.
+inline GasSolver around_moving_body(const GasOptions& options, const Boundary& far, const Units& units = {},
+                                    int points = 61) {
   const double size = 3 * units.length;
   const grid::HyperbolicGrid ring{.name = "ring",
                                   .points = body_points,
@@ -54,7 +55,7 @@ inline GasSolver around_moving_body(const GasOptions& options, const Boundary& f
                                   .spacing = 0.1 * units.length};
   std::vector<GasPart> parts;
   parts.push_back(
-      {grid::MovingGrid(rectangle(61, 61, {-size, -size}, {size, size}), 0), {far, far, far, far}});
+      {grid::MovingGrid(rectangle(points, points, {-size, -size}, {size, size}), 0), {far, far, far, far}});
   parts.push_back({grid::MovingGrid(grid::marched_from(ring, body_outline(0, units)), 0),
                    {Periodic{}, Periodic{}, Idle{}, SlipWall{}}});
   return {std::move(parts),

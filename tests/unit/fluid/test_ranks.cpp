@@ -5,19 +5,19 @@
 
 #include <cmath>
 #include <cstddef>
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "common/core/failure.hpp"
-#include "tests/unit/fluid/moving_body.hpp"
-#include "tests/unit/ranks/thread_ranks.hpp"
+#include "tests/unit/fluid/gas_on_ranks.hpp"
 
 namespace fsi::fluid {
 namespace {
 
-using MakeGas = std::function<GasSolver()>;
+using test::after_steps;
+using test::expect_same_on_ranks;
+using test::MakeGas;
 
 /// A shock from the left, into gas of hardly any pressure.
 StateField strong_shock() {
@@ -31,41 +31,6 @@ StateField noise(double size) {
     return State{
         .rho = std::exp(size * a), .v1 = 0.3 + size * b, .v2 = -0.2 + size * a * b, .p = std::exp(size * b)};
   };
-}
-
-/// Everything that a checkpoint would hold after some steps.
-Archive::Entries after_steps(const MakeGas& make, int ranks, int steps, int recut_every = 0) {
-  Archive::Entries entries;
-  fsi::test::on_ranks(ranks, [&](const std::shared_ptr<Ranks>& mine) {
-    GasSolver gas = make();
-    gas.share(mine, {.every = recut_every});
-    gas.apply_fluid_bcs(0);
-    double t = 0;
-    for (int step = 0; step < steps; ++step) t = test::step_with_body(gas, t);
-    gas.collect_all();
-    Archive archive;
-    gas.archive(archive);
-    if (mine->first()) entries = archive.entries();
-  });
-  return entries;
-}
-
-void expect_same(const Archive::Entries& one, const Archive::Entries& other, const std::string& what) {
-  ASSERT_EQ(one.size(), other.size());
-  for (const auto& [name, values] : one) {
-    const std::vector<double>& others = other.at(name);
-    ASSERT_EQ(values.size(), others.size()) << name;
-    std::size_t different = 0;
-    for (std::size_t k = 0; k < values.size(); ++k) different += values[k] == others[k] ? 0U : 1U;
-    EXPECT_EQ(different, 0U) << name << ", " << what;
-  }
-}
-
-void expect_same_on_ranks(const MakeGas& make, int steps) {
-  const Archive::Entries whole = after_steps(make, 1, steps);
-  for (const int ranks : {2, 3, 7})
-    expect_same(whole, after_steps(make, ranks, steps), std::to_string(ranks) + " ranks");
-  expect_same(whole, after_steps(make, 4, steps, 3), "4 ranks with new rows every 3 steps");
 }
 
 TEST(GasOnRanks, AShockMeetsAMovingBody) {
@@ -168,26 +133,43 @@ TEST(GasOnRanks, NumbersBreakOnAllOfThemAlike) {
 TEST(RowCuts, GiveEveryRowToOneRankAndHalosAroundThem) {
   const grid::RowSets all = grid::all_points(10, 40), few = grid::all_points(50, 6);
   const std::vector<CutGrid> grids{{Layout(10, 40), true, &all}, {Layout(50, 6), false, &few}};
-  for (const double shift : {0.0, 0.4}) {
-    const Cut cut(grids, 5, shift);
-    for (int grid = 0; grid < 2; ++grid) {
-      int next = 0;
-      for (int rank = 0; rank < 5; ++rank) {
-        const grid::RowRange own = cut.own(grid, rank);
-        if (own.first >= own.end) continue;
-        EXPECT_EQ(own.first, next);
-        next = own.end;
-        for (int j = own.first; j < own.end; ++j) EXPECT_EQ(cut.owner(grid, j), rank);
+  for (const Pieces pieces : {Pieces::of_all_grids, Pieces::of_each_grid}) {
+    for (const double shift : {0.0, 0.4}) {
+      const Cut cut(grids, 5, pieces, shift);
+      for (int grid = 0; grid < 2; ++grid) {
+        int next = 0;
+        for (int rank = 0; rank < 5; ++rank) {
+          const grid::RowRange own = cut.own(grid, rank);
+          if (own.first >= own.end) continue;
+          EXPECT_EQ(own.first, next);
+          next = own.end;
+          for (int j = own.first; j < own.end; ++j) EXPECT_EQ(cut.owner(grid, j), rank);
+        }
+        EXPECT_EQ(next, grids[static_cast<std::size_t>(grid)].layout.n2);
       }
-      EXPECT_EQ(next, grids[static_cast<std::size_t>(grid)].layout.n2);
+      EXPECT_EQ(cut.owner(0, -2), cut.owner(0, 0));
+      EXPECT_EQ(cut.owner(1, 7), cut.owner(1, 5));
     }
-    EXPECT_EQ(cut.owner(0, -2), cut.owner(0, 0));
-    EXPECT_EQ(cut.owner(1, 7), cut.owner(1, 5));
   }
   const Cut even(grids, 5);
   EXPECT_LT(even.imbalance(grids), 1.3);
   // Row 39 is row 0 once more, so who has row 0 has the other end as well.
   EXPECT_EQ(even.halos(0, 0).at(1), (grid::RowRange{36, 40}));
+}
+
+/// One grid after the other, the busiest rank of each is what all wait for.
+TEST(RowCuts, OfEachGridShareEachOfThemOut) {
+  const grid::RowSets all = grid::all_points(10, 40), half = grid::all_points(10, 20);
+  const std::vector<CutGrid> grids{{Layout(10, 40), false, &all}, {Layout(10, 20), false, &half}};
+  const Cut cut(grids, 4, Pieces::of_each_grid);
+  for (int rank = 0; rank < 4; ++rank) {
+    EXPECT_EQ(cut.own(0, rank), (grid::RowRange{10 * rank, 10 * rank + 10}));
+    EXPECT_EQ(cut.own(1, rank), (grid::RowRange{5 * rank, 5 * rank + 5}));
+  }
+  EXPECT_DOUBLE_EQ(cut.imbalance(grids), 1);
+  const Cut shifted(grids, 4, Pieces::of_each_grid,
+                    0.4);  // the pieces end at 6, 24 and 26 rows, and at half of that
+  EXPECT_DOUBLE_EQ(shifted.imbalance(grids), 4 * (18 + 9) / 60.0);
 }
 
 }  // namespace
