@@ -35,6 +35,48 @@ LASTING = ("elastic_piston", "--set", "grid.factor=2", "--set", "time.dt=1e-7", 
 LASTING_SOLID = (*LASTING[:-1], "solid=2")
 
 
+# A panel between two gases, each with a grid along it before a background of two levels.
+TWO_GASES = """
+title: Waves on both sides of a panel between two gases with levels
+parameters:
+  thickness: 0.5
+  amplitude: 0.2
+grid: {factor: 4}
+time: {end: 0.3, cfl: 0.9}
+fluids:
+  left:
+    gamma: 1.4
+    p_e: 1
+    grid: {x: [-1.5, 0.3], y: [0, 1], spacing: h, levels: 2, refine: {threshold: 0.02}}
+    body_fitted:
+      - {name: strip_left, solid: panel, walls: [bottom, top], lines: 8}
+    boundary: {left: outflow, right: outflow, bottom: slip_wall, top: slip_wall}
+    initial: {rho: "1.4 * (x < -0.6 ? 1.2 : 1)", v: [0, 0], p: "x < -0.6 ? 1.5 : 1"}
+  right:
+    gamma: 5 / 3
+    p_e: 1
+    grid: {x: [thickness - 0.3, 2], y: [0, 1], spacing: h, levels: 2, refine: {threshold: 0.02}}
+    body_fitted:
+      - {name: strip_right, solid: panel, walls: [bottom, top], lines: 8}
+    boundary: {left: outflow, right: outflow, bottom: slip_wall, top: slip_wall}
+    initial: {rho: "0.4 * (1 + amplitude * exp(-40 * ((x - 1.2)^2 + (y - 0.4)^2)))", v: [0, 0], p: "1 + amplitude * exp(-40 * ((x - 1.2)^2 + (y - 0.4)^2))"}
+solids:
+  panel:
+    law: neo_hookean
+    rho: 2
+    lambda: 4
+    mu: 4
+    grid: {x: [0, thickness], y: [0, 1], spacing: h}
+    boundary:
+      left: {kind: interface, fluid: left}
+      right: {kind: interface, fluid: right}
+      bottom: clamped
+      top: clamped
+output: {times: [0.15, 0.3]}
+expect: {status: completed}
+"""
+
+
 class OnRanks(Restarting):
     def setUp(self):
         super().setUp()
@@ -84,9 +126,24 @@ class Layout(OnRanks):
                             "output.probes=[{name: a, in: fluid, x: 0, y: 2.3}, {name: b, in: fluid, x: -2, y: -3}]",
                             numbers_of_ranks=(2, 3, 4, 7))
 
-    def test_levels_through_periods(self):
-        self.assert_layouts("isentropic_vortex", "--set", "grid.factor=4", "--set", "fluid.grid.levels=2", "--set", "time.end=0.2",
-                            numbers_of_ranks=(3,), every=4)
+    def test_levels_of_a_lone_gas(self):
+        self.assert_layouts("sod_tube", "--set", "grid.factor=8", "--set", "fluid.grid.levels=2", "--set", "time.end=0.1",
+                            "--set", "output.times=[0.1]", numbers_of_ranks=(3,), every=4)
+
+    def test_two_gases_with_levels(self):
+        case = self.folder / "two_gases.yaml"
+        case.write_text(TWO_GASES, encoding="utf-8")
+        whole, uniform = self.complete(case), self.complete(case, *(f"--set=fluids.{name}.grid.levels=1" for name in ("left", "right")),
+                                                           out="uniform")
+        for every in (0, 6):
+            run = self.launch(case, "--ranks", "left=2,right=3", out=f"ranks{every}", script=RECUT.format(every=every) if every else None)
+            self.assertEqual(run.wait(), 0, run.stderr)
+            self.assert_same(whole, run)
+        import h5py
+        with h5py.File(whole.directory / "solid_panel.h5") as levels, h5py.File(uniform.directory / "solid_panel.h5") as one:
+            moved, expected = (file["000001/panel/u1"][()] for file in (levels, one))
+            self.assertGreater(abs(expected).max(), 1e-4)
+            self.assertLess(abs(moved - expected).max(), 1e-3 * abs(expected).max())
 
     def test_restart_of_levels_on_other_ranks(self):
         self.assert_restarts_on_other_ranks("shock_ellipse", "--set", "grid.factor=4", "--set", "fluid.grid.levels=3", "--set", "time.end=0.3",
