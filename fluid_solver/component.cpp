@@ -243,8 +243,8 @@ void Component::advance(double t, double dt) {
                        .dt = dt,
                        .guarded = {},
                        .imposed = &imposed_};
-  const SweepOutput output{
-      workspace_, row_rates_, fallbacks_, {edges_[0], edges_[1], edges_[2], edges_[3]}, &noted_};
+  const SweepOutput output{workspace_, row_rates_, fallbacks_, {edges_[0], edges_[1], edges_[2], edges_[3]},
+                           &noted_,    edge_lines_};
   const bool thin_here = sweep(task, scheme_, output) > 0;
   count_fallbacks();
   // Somewhere there are fallbacks that others must judge, or thin points.
@@ -253,6 +253,7 @@ void Component::advance(double t, double dt) {
   if (somewhere > 0) count_far_fallbacks();
   std::vector<int> changed_rows;
   if (thin) changed_rows = keep_positive(task, output);
+  if (sparse_) forget_edges_of_others();
   std::swap(state_, next_);
   advanced_ = true;
   counters_.steps += 1;
@@ -261,9 +262,22 @@ void Component::advance(double t, double dt) {
   if (forcing_) add_source(t, dt);
 }
 
-void Component::note_edges() {
+void Component::note_edges(int lines) {
+  edge_lines_ = lines;
   for (const Side side : all_sides)
     edges_[static_cast<std::size_t>(side)].assign(4 * static_cast<std::size_t>(grid_.side_size(side)), 0.0);
+}
+
+/// Of a level, what passes the faces before points that another level advances is that one's to say.
+void Component::forget_edges_of_others() {
+  for (const Side side : all_sides) {
+    std::vector<double>& edge = edges_[static_cast<std::size_t>(side)];
+    const SidePoints points(grid_.layout(), side);
+    for (std::size_t k = 0; k < edge.size(); ++k) {
+      const auto [i, j] = points.at(static_cast<int>(k) % points.n(), edge_lines_ + 1);
+      if (!discretised_.contains(i, j)) edge[k] = 0;
+    }
+  }
 }
 
 std::vector<int> Component::keep_positive(const SweepTask& task, const SweepOutput& output) {

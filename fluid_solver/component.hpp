@@ -100,8 +100,8 @@ class Component {
   const Counters& counters() const { return counters_; }
   /// Of points that are not advanced by the sweep but interpolated.
   void count_positive_values(std::size_t points) { counters_.positive_values += static_cast<double>(points); }
-  /// From now on each step notes what it carries through the faces half a cell inside the sides.
-  void note_edges();
+  /// From now on each step notes what it carries through the faces half a cell and so many lines inside the sides.
+  void note_edges(int lines);
   /// Of the last step through the faces inside a side; see EdgeFluxes. Empty where they are not noted.
   std::span<const double> edge(Side side) const { return edges_[static_cast<std::size_t>(side)]; }
   /// Faces whose fluxes each step keeps, and those whose fluxes are given to it; see GasLevels.
@@ -164,6 +164,7 @@ class Component {
   bool moved_ = false, advanced_ = false;  ///< in the step going on
   Counters counters_;
   std::array<std::vector<double>, 4> edges_;
+  int edge_lines_ = 0;
   FaceFluxes noted_, imposed_;
   std::vector<PointIndex> fallbacks_;      ///< work memory: points of one sweep
   std::vector<PointIndex> far_fallbacks_;  ///< of these, those that other ranks must judge as well
@@ -181,6 +182,7 @@ class Component {
   double* step_rates(int j, Range range) const;
   void add_source(double t, double dt);
   ShockField shock_field() const;
+  void forget_edges_of_others();
   void count_fallbacks();
   void count_far_fallbacks();
   /// @returns the rows that were changed

@@ -106,16 +106,24 @@ class GasSolver {
 
   Health health() const;
   Totals totals() const { return totals_without({}); }
-  /// The same without the control volumes of the points on some sides of the background.
+  /// The same without the control volumes of the points on some sides of the background; of one with levels, without
+  /// those of its coarsest level.
   Totals totals_without(const std::array<bool, 4>& sides) const;
   /// Whether gas may pass a side of the background: it is neither wall nor mirror.
   bool lets_pass(Side side) const;
-  /// From now on each step notes what it carries through the faces half a cell inside the background's sides.
-  void note_edges() { components_.front().note_edges(); }
-  /// Mass, momentum (2) and energy that the last step carried through these faces, towards higher indices; n
-  /// points, component-major. The background must be a rectangle at rest.
-  std::span<const double> edge(Side side) const { return components_.front().edge(side); }
-  double background_cell_area() const { return components_.front().cell_area(); }
+  /// The background, or all its levels.
+  std::vector<int> backgrounds() const;
+  /// From now on each step notes what it carries through the faces half a cell, of the coarsest level, inside the
+  /// background's sides.
+  void note_edges();
+  /// So many lines of a background lie between a side's line and these faces.
+  int edge_lines(int background) const;
+  /// Mass, momentum (2) and energy per area of a cell that the last step carried through these faces, towards higher
+  /// indices; n points, component-major. The background must be a rectangle at rest.
+  std::span<const double> edge(Side side, int background = 0) const {
+    return component(background).edge(side);
+  }
+  double cell_area(int background = 0) const { return component(background).cell_area(); }
   /// Largest differences to a given solution at time t.
   GasErrors errors(const StateField& exact, double t) const;
   /// State at a position by bilinear interpolation; nothing where no grid covers it.

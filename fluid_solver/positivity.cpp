@@ -34,7 +34,7 @@ class Thinness {
                             .dt = task_.dt,
                             .guarded = guarded_,
                             .imposed = task_.imposed};
-      sweep(again, scheme_, {output_.work, {}, unused_, output_.edges, output_.noted});
+      sweep(again, scheme_, {output_.work, {}, unused_, output_.edges, output_.noted, output_.edge_lines});
     }
     lift();
     for (int j = 0; j < runs.rows(); ++j) {

@@ -50,6 +50,7 @@ class Sweep {
         fallbacks_(output.fallbacks),
         edges_(output.edges),
         noted_(output.noted),
+        edge_lines_(output.edge_lines),
         viscous_(scheme.viscosity.any()),
         columns_(columns) {}
 
@@ -80,6 +81,7 @@ class Sweep {
   std::vector<PointIndex>& fallbacks_;
   EdgeFluxes edges_;
   FaceFluxes* noted_;
+  int edge_lines_;
   bool viscous_;
   Range columns_;
   PredictedRows predicted_{rows_.state(), rows_.state(), rows_.state(), rows_.state(), rows_.next()};
@@ -165,8 +167,8 @@ class Sweep {
     if (!task_.guarded.empty()) guard_between(r, run);
     if (task_.imposed != nullptr) impose(task_.imposed->between, r, run, upper_);
     if (noted_ != nullptr) fluid::note(noted_->between, r, run, upper_);
-    if (r == 1) note_between(edges_[2], run);
-    if (r == task_.q.layout.n2 - 1) note_between(edges_[3], run);
+    if (r == 1 + edge_lines_) note_between(edges_[2], run);
+    if (r == task_.q.layout.n2 - 1 - edge_lines_) note_between(edges_[3], run);
   }
 
   void note_between(std::span<double> edge, Range run) const {
@@ -180,7 +182,7 @@ class Sweep {
   void note_along(int r, Range faces) const {
     const auto n = static_cast<std::size_t>(task_.q.layout.n2), row = static_cast<std::size_t>(r);
     for (const int k : {0, 1}) {
-      const int face = k == 0 ? 0 : task_.q.layout.n1 - 2;
+      const int face = k == 0 ? edge_lines_ : task_.q.layout.n1 - 2 - edge_lines_;
       const std::span<double> edge = edges_[static_cast<std::size_t>(k)];
       if (!edge.empty() && face >= faces.first && face < faces.last)
         note(edge, {n, row}, along_.shifted(face));

@@ -54,8 +54,8 @@ struct PointIndex {
   }
 };
 
-/// What a step carried through the faces half a cell inside the sides left, right, bottom, top, towards
-/// higher indices, as it changed the points beside them: mass, momentum (2), energy of each of the n points
+/// What a step carried through the faces half a cell, or some lines more, inside the sides left, right, bottom, top,
+/// towards higher indices, as it changed the points beside them: mass, momentum (2), energy of each of the n points
 /// of a side, component-major; per volume of a cell on a Cartesian grid. Empty spans: not wanted.
 using EdgeFluxes = std::array<std::span<double>, 4>;
 
@@ -67,6 +67,7 @@ struct SweepOutput {
   std::vector<PointIndex>& fallbacks;  ///< points advanced with first-order states are added
   EdgeFluxes edges = {};               ///< written where a point beside the face is advanced
   FaceFluxes* noted = nullptr;         ///< faces whose fluxes are kept; null: none
+  int edge_lines = 0;                  ///< so many lines lie between a side's line and the faces of `edges`
 };
 
 /// What is advanced: the points of the runs, boundary points included, from q (with the points around them

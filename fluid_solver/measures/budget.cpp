@@ -29,6 +29,13 @@ void add_interface(const GasSolver& solver, const InterfaceLoad& load, Rates& ra
   }
 }
 
+/// Whether the area around a point of a background is that point's, and not another level's.
+bool owns(const GasSolver& solver, int grid, SidePoints::Index at) {
+  const GasLevels* levels = solver.levels();
+  return levels == nullptr ||
+         levels->owned(levels->level_of(static_cast<std::size_t>(grid))).contains(at.i, at.j);
+}
+
 }  // namespace
 
 Budget::Budget(GasSolver& solver) {
@@ -39,43 +46,55 @@ Budget::Budget(GasSolver& solver) {
 
 /// What part of point k's length along a side belongs to the balance: half at a corner, nothing of it where
 /// the side it meets there is open.
-double Budget::end_weight(Side side, int k, int n) const {
-  if (k > 0 && k + 1 < n) return 1;
-  const std::size_t first_neighbour = direction_of(side) == 0 ? 2 : 0;
-  return open_[first_neighbour + (k > 0 ? 1 : 0)] ? 0 : 0.5;
+double Budget::end_weight(const Along& along, int k) const {
+  const std::size_t first_neighbour = direction_of(along.side) == 0 ? 2 : 0;
+  for (const bool upper : {false, true}) {
+    const int from_end = upper ? along.n - 1 - k : k;
+    const bool open = open_[first_neighbour + (upper ? 1 : 0)];
+    if (open && from_end <= along.lines) return 0;
+    if (from_end == 0) return 0.5;
+  }
+  return 1;
 }
 
 /// Through the faces half a cell before a side, as the last step had them.
-void Budget::add_crossed(const GasSolver& solver, Side side) {
-  const std::span<const double> edge = solver.edge(side);
-  const auto n = static_cast<std::size_t>(SidePoints(solver.state().layout, side).n());
-  const double inwards = (at_upper_end(side) ? -1 : 1) * solver.background_cell_area();
+void Budget::add_crossed(const GasSolver& solver, const Along& along) {
+  const std::span<const double> edge = solver.edge(along.side, along.grid);
+  const auto n = static_cast<std::size_t>(along.n);
+  const double inwards = (at_upper_end(along.side) ? -1 : 1) * solver.cell_area(along.grid);
   for (std::size_t c = 0; c < crossed_.size(); ++c) {
     double sum = 0;
-    for (std::size_t k = 0; k < n; ++k)
-      sum += end_weight(side, static_cast<int>(k), static_cast<int>(n)) * edge[c * n + k];
+    for (std::size_t k = 0; k < n; ++k) sum += end_weight(along, static_cast<int>(k)) * edge[c * n + k];
     crossed_[c] += inwards * sum;
   }
 }
 
 /// Pressure of the gas on a wall of the background.
-void Budget::add_wall(const GasSolver& solver, Side side, Rates& rates) const {
-  const ConstFieldView q = solver.state(), x = solver.grid().x();
-  const SidePoints points(q.layout, side);
-  const double outward = at_upper_end(side) ? 1 : -1;
+void Budget::add_wall(const GasSolver& solver, const Along& along, Rates& rates) const {
+  const ConstFieldView q = solver.state(along.grid), x = solver.grid(along.grid).x();
+  const SidePoints points(q.layout, along.side);
+  const double outward = at_upper_end(along.side) ? 1 : -1;
   const double spacing = (position(x, points, 1, 0) - position(x, points, 0, 0)).norm();
-  const std::size_t momentum = direction_of(side) == 0 ? 1 : 2;
+  const std::size_t momentum = direction_of(along.side) == 0 ? 1 : 2;
   for (int k = 0; k < points.n(); ++k) {
     const auto [i, j] = points.at(k, 0);
-    rates[momentum] -= outward * q(3, i, j) * spacing * end_weight(side, k, points.n());
+    if (owns(solver, along.grid, {i, j}))
+      rates[momentum] -= outward * q(3, i, j) * spacing * end_weight(along, k);
   }
 }
 
 void Budget::add(const GasSolver& solver, std::span<const InterfaceLoad> interfaces, double dt) {
   Rates rates{};
   for (const Side side : all_sides) {
-    if (!open_[static_cast<std::size_t>(side)]) add_wall(solver, side, rates);
-    if (open_[static_cast<std::size_t>(side)] && dt > 0) add_crossed(solver, side);
+    const bool open = open_[static_cast<std::size_t>(side)];
+    for (const int grid : solver.backgrounds()) {
+      const Along along{.side = side,
+                        .grid = grid,
+                        .n = SidePoints(solver.state(grid).layout, side).n(),
+                        .lines = solver.edge_lines(grid)};
+      if (!open) add_wall(solver, along, rates);
+      if (open && dt > 0) add_crossed(solver, along);
+    }
   }
   for (const InterfaceLoad& load : interfaces) add_interface(solver, load, rates);
   pushed_.add(rates, dt);

@@ -7,7 +7,8 @@
 /// A side through which gas passes has boundary points whose state is given, or comes from beyond, whatever
 /// the scheme put there: nothing is conserved in their control volumes, and the state at the side says
 /// little of what passed. So the balance is that of the gas up to half a cell before such a side, with the
-/// fluxes through these faces that the scheme itself applied: on one grid it is closed to round-off. At walls
+/// fluxes through these faces that the scheme itself applied: on one grid it is closed to round-off. Of a background
+/// with levels it is half a cell of the coarsest one; what lies there of each level counts. At walls
 /// and mirrors the balance goes to the side, where their pressure acts; at interfaces the projected one.
 /// Interpolation between overlapping grids conserves nothing: what is left in a case with bodies is that, and
 /// the quadrature along the bodies. It falls with the mesh.
@@ -49,9 +50,15 @@ class Budget {
   TimeIntegral<4> pushed_;           ///< mass, momentum, energy by walls and interfaces
   std::array<double, 4> crossed_{};  ///< the same with the gas
 
-  void add_crossed(const GasSolver& solver, Side side);
-  double end_weight(Side side, int k, int n) const;
-  void add_wall(const GasSolver& solver, Side side, std::array<double, 4>& rates) const;
+  /// Points along a side of the background or of one of its levels.
+  struct Along {
+    Side side;
+    int grid, n;
+    int lines;  ///< beside an open side that are left out
+  };
+  void add_crossed(const GasSolver& solver, const Along& along);
+  double end_weight(const Along& along, int k) const;
+  void add_wall(const GasSolver& solver, const Along& along, std::array<double, 4>& rates) const;
 };
 
 }  // namespace fsi::fluid

@@ -103,10 +103,10 @@ void add_point(const GasSolver& solver, int grid, SidePoints::Index at, double a
   totals.angular_momentum += mass * (x(0, i, j) * v2 - x(1, i, j) * v1);
 }
 
-/// Does a point of the background lie on one of the sides?
-bool on_any(const std::array<bool, 4>& sides, const Layout& shape, SidePoints::Index at) {
-  return (sides[0] && at.i == 0) || (sides[1] && at.i == shape.n1 - 1) || (sides[2] && at.j == 0) ||
-         (sides[3] && at.j == shape.n2 - 1);
+/// Lies a point of the background on one of the sides, or on one of so many lines beside it?
+bool on_any(const std::array<bool, 4>& sides, const Layout& shape, int lines, SidePoints::Index at) {
+  return (sides[0] && at.i <= lines) || (sides[1] && at.i >= shape.n1 - 1 - lines) ||
+         (sides[2] && at.j <= lines) || (sides[3] && at.j >= shape.n2 - 1 - lines);
 }
 
 /// Control volumes of the points of a level that no finer one covers.
@@ -118,7 +118,8 @@ void add_level(const GasSolver& solver, int level, const std::array<bool, 4>& wi
   for (int j = 0; j < shape.n2 - (grid.periodic(1) ? 1 : 0); ++j) {
     for (const grid::Interval& run : owned.row(j)) {
       for (int i = run.begin; i < std::min(run.end, shape.n1 - (grid.periodic(0) ? 1 : 0)); ++i)
-        if (!on_any(without, shape, {i, j})) add_point(solver, k, {i, j}, clipped_volume(grid, i, j), totals);
+        if (!on_any(without, shape, solver.edge_lines(k), {i, j}))
+          add_point(solver, k, {i, j}, clipped_volume(grid, i, j), totals);
     }
   }
 }
@@ -139,7 +140,7 @@ Totals totals_of_one(const GasSolver& solver, const std::array<bool, 4>& without
   }
   for (int j = 0; j < grid.layout().n2 - (grid.periodic(1) ? 1 : 0); ++j) {
     for (int i = 0; i < grid.layout().n1 - (grid.periodic(0) ? 1 : 0); ++i)
-      if (!on_any(without, grid.layout(), {i, j}))
+      if (!on_any(without, grid.layout(), 0, {i, j}))
         add_point(solver, 0, {i, j}, clipped_volume(grid, i, j), totals);
   }
   return totals;
@@ -158,7 +159,7 @@ Totals totals_of_all(const GasSolver& solver, const std::array<bool, 4>& without
     for (int j = 0; j < area.layout.n2; ++j) {
       for (const grid::Interval& run : solver.valid(k).row(j)) {
         for (int i = run.begin; i < run.end; ++i) {
-          if (k == 0 && on_any(without, area.layout, {i, j})) continue;
+          if (k == 0 && on_any(without, area.layout, solver.edge_lines(0), {i, j})) continue;
           if (k == 0 && levels != nullptr && !levels->owned(0).contains(i, j)) continue;
           add_point(solver, k, {i, j}, area(0, i, j), totals);
         }
@@ -172,6 +173,26 @@ Totals totals_of_all(const GasSolver& solver, const std::array<bool, 4>& without
 
 Totals GasSolver::totals_without(const std::array<bool, 4>& sides) const {
   return composite() == nullptr ? totals_of_one(*this, sides) : totals_of_all(*this, sides);
+}
+
+std::vector<int> GasSolver::backgrounds() const {
+  std::vector<int> grids{0};
+  for (int l = 1; levels_ && l < levels_->levels(); ++l)
+    grids.push_back(static_cast<int>(levels_->component(l)));
+  return grids;
+}
+
+void GasSolver::note_edges() {
+  for (const int k : backgrounds()) components_[static_cast<std::size_t>(k)].note_edges(edge_lines(k));
+}
+
+/// A face of the coarsest level is one of each finer level too.
+int GasSolver::edge_lines(int background) const {
+  if (!levels_) return 0;
+  int spacings = 1;  // of the coarsest level
+  for (int l = levels_->level_of(static_cast<std::size_t>(background)); l + 1 < levels_->levels(); ++l)
+    spacings *= refinement_ratio;
+  return spacings / 2;
 }
 
 bool GasSolver::lets_pass(Side side) const {

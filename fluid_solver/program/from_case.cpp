@@ -122,7 +122,7 @@ GasSolver gas_at_start(const Case& problem, const FluidSpec& spec,
   GasSolver solver = solver_of(problem, spec, reference);
   if (is_chosen(problem, reference)) solver.force(field_of(reference));
   solver.assign_initial_conditions(data_of(spec.initial_from_reference, spec.initial, reference, "initial"));
-  if (solver.levels() == nullptr && has_budget(problem, spec, reference)) solver.note_edges();
+  if (has_budget(problem, spec, reference)) solver.note_edges();
   return solver;
 }
 

@@ -204,7 +204,7 @@ void FluidParticipant::archive(Archive& archive) {
 }
 
 void FluidParticipant::open_budget() {
-  if (solver_.levels() != nullptr || !has_budget(setup_.problem, spec_, reference_)) return;
+  if (!has_budget(setup_.problem, spec_, reference_)) return;
   budget_.emplace(solver_);
   budget_table_.emplace(
       setup_.run_dir + "/budget_" + spec_.name + ".csv",
@@ -222,7 +222,8 @@ std::vector<Strip> FluidParticipant::strips_of_tables() const {
   }
   if (!budget_) return strips;
   for (const Side side : all_sides) {
-    if (!solver_.lets_pass(side)) add_side_strips(solver_.grid().layout(), side, strips);
+    if (solver_.lets_pass(side)) continue;
+    for (const int k : solver_.backgrounds()) add_side_strips(solver_.grid(k).layout(), side, strips, k);
   }
   return strips;
 }

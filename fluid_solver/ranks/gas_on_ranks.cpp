@@ -189,28 +189,25 @@ void GasSolver::fetch(std::span<const Strip> strips) {
 
 /// Faces along a side belong to the rows beside them.
 void GasSolver::gather_edges() {
-  Component& background = components_.front();
-  const Layout& layout = background.grid().layout();
-  std::vector<double> mine;
-  for (const Side side : all_sides) {
-    const std::span<const double> edge = background.edge(side);
-    const SidePoints points(layout, side);
-    for (std::size_t k = 0; k < edge.size(); ++k) {
-      const int j = points.at(static_cast<int>(k) % points.n(), 0).j;
-      if (background.rows().owns(j)) mine.push_back(edge[k]);
-    }
-  }
-  const std::vector<double> all = share_.ranks().together(mine);
-  auto next = all.begin();
-  for (int rank = 0; rank < share_.ranks().size(); ++rank) {
-    const grid::RowRange own = share_.cut().own(0, rank);
-    for (const Side side : all_sides) {
-      const std::span<double> edge = background.edge(side);
-      const SidePoints points(layout, side);
-      for (std::size_t k = 0; k < edge.size(); ++k) {
-        if (own.contains(points.at(static_cast<int>(k) % points.n(), 0).j)) edge[k] = *next++;
+  for (const int k : backgrounds()) {
+    Component& background = components_[static_cast<std::size_t>(k)];
+    const Layout& layout = background.grid().layout();
+    const auto each = [&](const grid::RowRange& rows, const auto& action) {
+      for (const Side side : all_sides) {
+        const std::span<double> edge = background.edge(side);
+        const SidePoints points(layout, side);
+        for (std::size_t at = 0; at < edge.size(); ++at) {
+          const int line = direction_of(side) == 0 ? 0 : edge_lines(k);
+          if (rows.contains(points.at(static_cast<int>(at) % points.n(), line).j)) action(edge[at]);
+        }
       }
-    }
+    };
+    std::vector<double> mine;
+    each(background.rows().own, [&](double value) { mine.push_back(value); });
+    const std::vector<double> all = share_.ranks().together(mine);
+    auto next = all.begin();
+    for (int rank = 0; rank < share_.ranks().size(); ++rank)
+      each(share_.cut().own(k, rank), [&](double& value) { value = *next++; });
   }
 }
 

@@ -14,11 +14,20 @@ namespace {
 const std::array<Boundary, 4> open_sides{Outflow{}, Outflow{}, Outflow{}, Outflow{}};
 
 /// A pulse that runs in a wind towards the right side of a box of n x n points.
-GasSolver with_a_pulse(int n, const std::array<Boundary, 4>& sides) {
-  return test::solver(test::rectangle(n, n, {0, 0}, {1, 1}), {.limiter = Limiter::none}, sides,
-                      [](double x, double y, double) {
+GasSolver with_a_pulse(int n, const std::array<Boundary, 4>& sides, const Refinement& refine = {}) {
+  return test::solver(test::rectangle(n, n, {0, 0}, {1, 1}), {.limiter = Limiter::none, .refine = refine},
+                      sides, [](double x, double y, double) {
                         const double bump = std::exp(-40 * ((x - 0.6) * (x - 0.6) + (y - 0.5) * (y - 0.5)));
                         return State{1 + 0.2 * bump, 0.7, 0.1, 1 / 1.4 + 0.2 * bump};
+                      });
+}
+
+/// A pulse on the lower side of such a box, in a wind along it.
+GasSolver beside_a_side(int n, const std::array<Boundary, 4>& sides, const Refinement& refine = {}) {
+  return test::solver(test::rectangle(n, n, {0, 0}, {1, 1}), {.limiter = Limiter::none, .refine = refine},
+                      sides, [](double x, double y, double) {
+                        const double bump = std::exp(-40 * ((x - 0.6) * (x - 0.6) + y * y));
+                        return State{1 + 0.2 * bump, 0.7, 0, 1 / 1.4 + 0.2 * bump};
                       });
 }
 
@@ -47,6 +56,18 @@ TEST(Budget, OfWavesThatLeaveIsClosedToRoundOff) {
   EXPECT_LT(largest_defect(with_a_pulse(41, open_sides)), round_off);
 }
 
+/// The pulse leaves the finest level behind, and passes the sides where they are coarse and where they are fine.
+TEST(Budget, OfLevelsIsClosedToRoundOff) {
+  for (const int levels : {2, 3}) {
+    const GasSolver gas = with_a_pulse(82, open_sides, {.levels = levels, .threshold = 0.02});
+    EXPECT_LT(gas.levels()->owned(0).points(), 82U * 82U / 2);
+    EXPECT_LT(largest_defect(with_a_pulse(82, open_sides, {.levels = levels, .threshold = 0.02})), round_off);
+    EXPECT_LT(largest_defect(beside_a_side(82, {Outflow{}, Outflow{}, SlipWall{}, Symmetry{}},
+                                           {.levels = levels, .threshold = 0.02})),
+              1e-3);
+  }
+}
+
 /// A side that imposes all values, those of a gas at rest here, throws the pulse back.
 TEST(Budget, OfASideThatImposesValuesIsClosedToRoundOff) {
   const Inflow rest{[](double, double, double) { return State{1, 0, 0, 1 / 1.4}; }};
@@ -56,17 +77,12 @@ TEST(Budget, OfASideThatImposesValuesIsClosedToRoundOff) {
 TEST(Budget, OfMirrorsAndWallsIsClosedToSecondOrder) {
   const std::array<Boundary, 4> mirrors{Outflow{}, Outflow{}, Symmetry{}, Symmetry{}},
       walls{Outflow{}, Outflow{}, SlipWall{}, SlipWall{}};
-  const auto without_drift = [](int n, const std::array<Boundary, 4>& sides) {
-    return largest_defect(test::solver(test::rectangle(n, n, {0, 0}, {1, 1}), {.limiter = Limiter::none},
-                                       sides, [](double x, double y, double) {
-                                         const double bump = std::exp(-40 * ((x - 0.6) * (x - 0.6) + y * y));
-                                         return State{1 + 0.2 * bump, 0.7, 0, 1 / 1.4 + 0.2 * bump};
-                                       }));
-  };
-  const double coarse = without_drift(41, walls), fine = without_drift(81, walls);
+  const double coarse = largest_defect(beside_a_side(41, walls)),
+               fine = largest_defect(beside_a_side(81, walls));
   EXPECT_LT(coarse, 1e-3);
   EXPECT_GT(std::log2(coarse / fine), 1.7);
-  const double mirrored_coarse = without_drift(41, mirrors), mirrored_fine = without_drift(81, mirrors);
+  const double mirrored_coarse = largest_defect(beside_a_side(41, mirrors)),
+               mirrored_fine = largest_defect(beside_a_side(81, mirrors));
   EXPECT_LT(mirrored_coarse, 1e-3);
   EXPECT_GT(std::log2(mirrored_coarse / mirrored_fine), 1.7);
 }
