@@ -13,6 +13,7 @@
 #include "common/case/document/scope.hpp"
 #include "common/case/document/validate.hpp"
 #include "common/case/grids/choose_grids.hpp"
+#include "common/case/grids/other_choices.hpp"
 #include "common/case/read/build.hpp"
 #include "common/case/read/build_shape.hpp"
 #include "common/case/read/restart.hpp"
@@ -117,6 +118,23 @@ void put_name(Node& root, const std::string& path) {
   root.entries.insert(root.entries.begin(), {"name", path, name});
 }
 
+/// Of what was written, and what the command line says.
+Case case_from(Node root, const std::string& file, double available) {
+  const Scope scope = evaluate_scope(root);
+  validate(root, schema::case_file, scope);
+  put_name(root, file);
+  const std::vector<std::string> chosen = choose_grids(root, scope);
+  Case result = build_case(root, scope);
+  check_memory(result, root, available);
+  check_case(result, root);
+  result.path = file;
+  result.chosen = chosen;
+  result.resolved = config::emit(root);
+  result.digest = digest_of(result.resolved);
+  result.restart_digest = digest_of(config::emit(fixed_part(root)));
+  return result;
+}
+
 std::vector<std::string> names_in_folders(const std::vector<std::string>& folders) {
   std::vector<std::string> names;
   for (const std::string& folder : folders) {
@@ -216,19 +234,20 @@ Case load_case_within(double available, const std::string& path, const std::vect
                     root.place, config::describe(root)));
   apply_options(root, overrides, laws);
   inline_point_files(root, std::filesystem::path(file).parent_path().string());
-  const Scope scope = evaluate_scope(root);
-  validate(root, schema::case_file, scope);
-  put_name(root, file);
-  const std::vector<std::string> chosen = choose_grids(root, scope);
-  Case result = build_case(root, scope);
-  check_memory(result, root, available);
-  check_case(result, root);
-  result.path = file;
-  result.chosen = chosen;
-  result.resolved = config::emit(root);
-  result.digest = digest_of(result.resolved);
-  result.restart_digest = digest_of(config::emit(fixed_part(root)));
-  return result;
+  try {
+    return case_from(root, file, available);
+  } catch (const NoGridsFit& mistake) {
+    const auto valid = [&](const Node& other) {
+      try {
+        case_from(other, file, available);
+        return true;
+      } catch (const Failure&) {
+        return false;
+      }
+    };
+    Node evaluated = root;
+    throw with_remedy(mistake, root, evaluate_scope(evaluated).constants.at("j"), valid);
+  }
 }
 
 }  // namespace fsi

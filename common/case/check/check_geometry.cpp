@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "common/case/document/fluid_sections.hpp"
+#include "common/case/grids/no_grids_fit.hpp"
 #include "common/case/schema/laws.hpp"
 #include "common/grid/geometry/outline.hpp"
 
@@ -134,6 +135,16 @@ Excess largest_excess(const CheckedOutline& outline, const GridSpec& grid) {
   return worst;
 }
 
+bool holds(const GridSpec& box, const Vec2& x) {
+  return x[0] >= box.x_a && x[0] <= box.x_b && x[1] >= box.y_a && x[1] <= box.y_b;
+}
+
+/// The section that describes an outline: solids.NAME or that of the gas.
+std::string owner_of(const CheckedOutline& outline) {
+  return outline.path.substr(
+      0, outline.path.rfind(outline.path.starts_with("solids.") ? ".shape" : ".body_fitted"));
+}
+
 bool is_upright(const GridSpec& grid) {
   return grid.kind == GridSpec::Kind::rectangle && grid.rotation == 0;
 }
@@ -144,10 +155,30 @@ double tolerance(const GridSpec& grid) {
   return part * std::min((grid.x_b - grid.x_a) / grid.n1, (grid.y_b - grid.y_a) / grid.n2);
 }
 
+/// The corners of a polygon without a `radius`, whose rounding may take the outline where they are not.
+std::vector<Vec2> corners_smoothed(const CheckedOutline& outline) {
+  std::vector<Vec2> corners;
+  const Node* list = outline.node.find("corners");
+  if (list == nullptr || outline.node.find("radius") != nullptr) return corners;
+  for (const Node& pair : list->items) corners.emplace_back(*pair.items[0].number, *pair.items[1].number);
+  return corners;
+}
+
 void check_within_gas(const CheckedOutline& outline, const FluidSpec& fluid) {
   const GridSpec& gas = fluid.grid;
   const Excess excess = largest_excess(outline, gas);
   if (excess.distance <= tolerance(gas)) return;
+  if (const std::vector<Vec2> corners = corners_smoothed(outline);
+      !corners.empty() && std::ranges::all_of(corners, [&](const Vec2& x) { return holds(gas, x); })) {
+    throw NoGridsFit(
+        {.place = outline.node.place,
+         .key = outline.path,
+         .cause = fmt::format("its corners are rounded so far that the outline reaches ({:.4g}, {:.4g}), "
+                              "{:.4g} beyond the {} side of {}.grid",
+                              excess.x[0], excess.x[1], excess.distance, name_of(excess.side), fluid.path),
+         .otherwise = "round them less with a `radius`",
+         .owner = owner_of(outline)});
+  }
   fail(outline.node.place, outline.path,
        fmt::format("the outline of {} reaches ({:.4g}, {:.4g}), {:.4g} beyond the {} side of {}.grid, {} = "
                    "{:.4g}; make it smaller, move it, or let the rectangle of {}.grid hold it",
@@ -189,10 +220,12 @@ std::array<double, 2> bounds(const CheckedOutline& outline, int direction) {
 void check_core(const SolidSpec& solid, const Node& root) {
   const CheckedOutline outline = outline_of(solid, root);
   const Excess excess = largest_excess(outline, solid.grid);
-  if (excess.distance <= tolerance(solid.grid)) return;
+  const Node& grid = *root.find("solids")->find(solid.name)->find("grid");
+  const Node* points = grid.find("points");
+  const bool chosen = points != nullptr && !points->items.empty() && points->items.front().chosen;
+  if (excess.distance <= tolerance(solid.grid) || chosen) return;  // the gas says where a chosen one ends
   const auto [x_a, x_b] = bounds(outline, 0);
   const auto [y_a, y_b] = bounds(outline, 1);
-  const Node& grid = *root.find("solids")->find(solid.name)->find("grid");
   fail(
       grid.place, fmt::format("solids.{}.grid", solid.name),
       fmt::format("this box does not hold the outline of the solid: `shape` reaches ({:.4g}, {:.4g}), {:.4g} "
@@ -239,15 +272,19 @@ void check_apart(const CheckedOutline& outline, const CheckedOutline& other) {
 void check_corners_inside(const CheckedOutline& outline) {
   if (outline.curve.corners.empty()) return;
   const Vec2 x = rounded(outline.point(static_cast<std::size_t>(outline.curve.corners.front())));
-  const bool polygon = outline.node.find("corners") != nullptr;
-  fail(outline.node.place, outline.path,
-       fmt::format("the outline has a sharp corner at ({:.4g}, {:.4g}), around which no grid inside an "
-                   "elastic body can be "
-                   "laid; {}, or take `law: rigid`",
-                   x[0], x[1],
-                   polygon ? fmt::format("round the corners with a `radius`, {:.2g} for example",
-                                         2 * outline.curve.spacing)
-                           : "leave out `corner_angle`, which makes it smooth"));
+  NoGridsFit::Parts parts{
+      .place = outline.node.place,
+      .key = outline.path,
+      .cause =
+          fmt::format("the outline has a sharp corner at ({:.4g}, {:.4g}), around which no grid inside an "
+                      "elastic body can be laid",
+                      x[0], x[1]),
+      .otherwise = "round the outline there",
+      .owner = owner_of(outline)};
+  if (outline.node.find("corners") == nullptr)
+    parts.choices = {{.words = "leave out `corner_angle`, which makes it smooth",
+                      .left_out = {outline.path + ".corner_angle"}}};
+  throw NoGridsFit(std::move(parts));
 }
 
 }  // namespace

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "common/case/grids/composite_from_case.hpp"
+#include "common/case/grids/no_grids_fit.hpp"
 #include "common/case/grids/overlap_advice.hpp"
 #include "common/core/failure.hpp"
 #include "common/core/input/suggest.hpp"
@@ -78,7 +80,20 @@ void check_overlap(const OverlapCheck& check) {
     connect_once(check.background, check.body_fitted);
   } catch (const NumbersBroke& failure) {
     const Advice advice = advice_for(check);
-    fail(advice.node.place, advice.path, fmt::format("{}; {}", failure.what(), advice.text));
+    const std::string cause =
+        advice.fact.empty() ? failure.what() : fmt::format("{}; {}", failure.what(), advice.fact);
+    if (advice.tried) fail(advice.node.place, advice.path, fmt::format("{}; {}", cause, advice.text));
+    throw NoGridsFit({.place = advice.node.place,
+                      .key = advice.path,
+                      .cause = cause,
+                      .otherwise = advice.text,
+                      .owner = check.path});
+  } catch (const NoGridsFit& mistake) {
+    NoGridsFit::Parts parts = mistake.parts();
+    parts.place = place_of(check).place;
+    parts.key = check.path + ".body_fitted";
+    parts.owner = check.path;
+    throw NoGridsFit(std::move(parts));
   } catch (const Failure& failure) {
     fail(place_of(check).place, check.path + ".body_fitted", failure.what());
   }

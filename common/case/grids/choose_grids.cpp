@@ -9,6 +9,7 @@
 #include "common/case/document/fluid_sections.hpp"
 #include "common/case/document/reader.hpp"
 #include "common/case/grids/fit_grids.hpp"
+#include "common/case/grids/no_grids_fit.hpp"
 #include "common/case/grids/node_tools.hpp"
 #include "common/case/grids/wall_strips.hpp"
 #include "common/case/read/build.hpp"
@@ -105,6 +106,12 @@ void choose_for_solids(Node& root, const Reader& reader, std::vector<std::string
           fit_body(outline, reader.scope().constants.at("h"), wish_of(solid), outline_only);
       write_body(solid, grids);
       chosen.push_back(text_of(entry.key, grids));
+    } catch (const NoGridsFit& mistake) {
+      NoGridsFit::Parts parts = mistake.parts();
+      parts.place = shape.place;
+      parts.key = path;
+      parts.owner = "solids." + entry.key;
+      throw NoGridsFit(std::move(parts));
     } catch (const UserMistake& mistake) {
       const std::string what = mistake.what();
       if (what.starts_with(shape.place.substr(0, shape.place.find(':')))) throw;  // it has its place already

@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "common/case/grids/no_grids_fit.hpp"
 #include "common/core/failure.hpp"
 #include "common/grid/geometry/near_curves.hpp"
 #include "common/grid/geometry/outline.hpp"
@@ -44,28 +45,20 @@ bool comes_down_flat(const BodyFittedSpec& spec, const Vec2& wall, std::size_t e
 }
 
 /// What is wrong with the ghost lines behind a curve, through which fluxes go and from which values are
-/// continued, and about which part of the distance of its lines would do.
-struct Trouble {
-  std::string what;
-  double part = 1;
-};
-
-std::optional<Trouble> trouble_behind(const BodyFittedSpec& spec, ConstFieldView x) {
+/// continued.
+std::optional<std::string> trouble_behind(const BodyFittedSpec& spec, ConstFieldView x) {
   auto corner = grid::crowded_corner(x, spec.side);
   if (!corner) corner = grid::most_crowded_bend(x, spec.side, spec.curve.corners);
-  const grid::SlantedLine line = grid::most_slanted_line(x, spec.side);
-  const double upright = grid::largest_slant / std::max(line.slant, grid::largest_slant);
   if (corner && corner->part < 1) {
-    return Trouble{
-        fmt::format("its curve turns too sharply at ({:.4g}, {:.4g}) for the distance of its lines",
-                    corner->x[0], corner->x[1]),
-        std::min(corner->part, upright)};
+    return fmt::format("its curve turns too sharply at ({:.4g}, {:.4g}) for the distance of its lines",
+                       corner->x[0], corner->x[1]);
   }
-  if (upright == 1) return std::nullopt;
-  return Trouble{fmt::format("at ({:.4g}, {:.4g}) its curve is too flat on the wall for the distance of its "
-                             "lines, {:.2g} times that of its points",
-                             line.x[0], line.x[1], line.slant),
-                 upright};
+  const grid::SlantedLine line = grid::most_slanted_line(x, spec.side);
+  if (line.slant <= grid::largest_slant) return std::nullopt;
+  return fmt::format(
+      "at ({:.4g}, {:.4g}) its curve is too flat on the wall for the distance of its lines, "
+      "{:.2g} times that of its points",
+      line.x[0], line.x[1], line.slant);
 }
 
 bool holds(const BodyFittedSpec& spec) {
@@ -95,12 +88,7 @@ BodyFittedSpec first_that_holds(const BodyFittedSpec& spec, double estimate) {
 constexpr double margin = 0.95;  // of an estimate: shares are not quite in proportion to distances
 
 void check_behind(const BodyFittedSpec& spec, ConstFieldView x) {
-  const auto trouble = trouble_behind(spec, x);
-  if (!trouble) return;
-  const BodyFittedSpec sound = first_that_holds(spec, margin * trouble->part * spec.spacing);
-  throw UserMistake(
-      fmt::format("grid \"{}\": {}; write `spacing: {:.2g}` for it, with `lines: {}`, or leave both out",
-                  spec.name, trouble->what, sound.spacing, sound.lines));
+  if (const auto trouble = trouble_behind(spec, x)) throw NumbersBroke(*trouble, {.grid = spec.name});
 }
 
 /// An end of a grid lies on a wall, as far as the grid is deep.
@@ -115,13 +103,15 @@ void check_foot(const BodyFittedSpec& spec, const CurveSpec& wall, ConstFieldVie
   if (line == x.layout.n2) return;
   const Vec2 end = at(line);
   const double room = (at(std::max(line - 1, 0)) - at(0)).norm();
-  const std::string less = room > 0 ? fmt::format(", with `spacing: {:.2g}` at most",
-                                                  0.99 * room / depth_of(spec.lines, spec.growth))
-                                    : "";
-  throw UserMistake(
-      fmt::format("grid \"{}\" reaches ({:.4g}, {:.4g}) along the wall of grid \"{}\", which bends before; "
-                  "let the body stand farther from the bend, or make the grid less deep{}",
-                  spec.name, end[0], end[1], spec.curve.on, less));
+  const std::string less = room > 0
+                               ? fmt::format(", or make the grid less deep, with `spacing: {:.2g}` at most",
+                                             0.99 * room / depth_of(spec.lines, spec.growth))
+                               : "";
+  throw NoGridsFit(
+      {.cause = fmt::format(
+           "grid \"{}\" reaches ({:.4g}, {:.4g}) along the wall of grid \"{}\", which bends before",
+           spec.name, end[0], end[1], spec.curve.on),
+       .otherwise = "let the body stand farther from the bend" + less});
 }
 
 /// The ends of a grid that stands on a wall lie on it.

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "common/case/grids/composite_from_case.hpp"
+#include "common/case/grids/no_grids_fit.hpp"
 #include "common/core/failure.hpp"
 #include "common/grid/geometry/outline.hpp"
 
@@ -94,13 +95,12 @@ GridSpec core_around(const CurveSpec& curve, double c, const BodyWish& wish) {
   const bool bend =
       depth_by_radius * outline.inwards.radius < depth_by_thickness * outline.thickness.distance;
   const Vec2& x = bend ? outline.inwards.x : outline.thickness.x;
-  throw UserMistake(
-      fmt::format("grids inside this outline would take {:.2g} points: {} at ({:.4g}, {:.4g}); {}", points,
-                  bend ? fmt::format("it bends with a radius of {:.3g}", outline.inwards.radius)
-                       : fmt::format("it is only {:.3g} thick", outline.thickness.distance),
-                  x[0], x[1],
-                  bend ? "round it more, or take `law: rigid`, which has no inside"
-                       : "make it thicker, or take `law: rigid`"));
+  throw NoGridsFit({.cause = fmt::format(
+                        "grids inside this outline would take {:.2g} points: {} at ({:.4g}, {:.4g})", points,
+                        bend ? fmt::format("it bends with a radius of {:.3g}", outline.inwards.radius)
+                             : fmt::format("it is only {:.3g} thick", outline.thickness.distance),
+                        x[0], x[1]),
+                    .otherwise = bend ? "round it more" : "make it thicker"});
 }
 
 /// Grids of a depth, and how close their points are.

@@ -10,10 +10,11 @@
 
 namespace fsi::config {
 
-/// A number whose text reads back to the same bits.
+/// A number that is chosen, whose text reads back to the same bits.
 inline Node number_node(double value, const std::string& place) {
   Node node{.kind = Node::Kind::scalar, .place = place, .text = fmt::format("{}", value), .entries = {}};
   node.number = value;
+  node.chosen = true;
   return node;
 }
 

@@ -1,6 +1,7 @@
 #include "common/case/grids/overlap_advice.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -99,13 +100,13 @@ std::optional<Advice> almost_touching(const OverlapCheck& check, const Node& lis
       if (gap.distance >= least || gap.distance <= touching * least) continue;
       const Vec2 x = without_noise(gap.x, 1e-2 * least);
       constexpr double margin = 1.05;  // of the three digits
-      return Advice{
-          list.items[k], fmt::format("{}.body_fitted[{}]", check.path, k),
-          fmt::format("{} and {} are {:.3g} apart at ({:.4g}, {:.4g}); move them {:.3g} apart, {} of a "
-                      "cell of {}.grid, or take a greater grid.factor",
-                      name_of_curve(a), name_of_curve(b), gap.distance, x[0], x[1], margin * least,
-                      grid::NearCurves::fewest_cells, check.path),
-          least - gap.distance};
+      return Advice{.node = list.items[k],
+                    .path = fmt::format("{}.body_fitted[{}]", check.path, k),
+                    .text = fmt::format("move them {:.3g} apart, {} of a cell of {}.grid", margin * least,
+                                        grid::NearCurves::fewest_cells, check.path),
+                    .fact = fmt::format("{} and {} are {:.3g} apart at ({:.4g}, {:.4g})", name_of_curve(a),
+                                        name_of_curve(b), gap.distance, x[0], x[1]),
+                    .missing = least - gap.distance};
     }
   }
   return std::nullopt;
@@ -126,13 +127,14 @@ std::optional<Advice> too_near(const OverlapCheck& check, const Node& list) {
       shortest = needed - gap.distance;
       const Vec2 x = without_noise(gap.x, 1e-6 * h);
       advice.emplace(Advice{
-          list.items[k], fmt::format("{}.body_fitted[{}]", check.path, k),
-          fmt::format("{} and {} are {:.3g} apart at ({:.4g}, {:.4g}), but their grids are {:.3g} and {:.3g} "
-                      "deep; move them {:.3g} apart, or make the grids less deep with fewer `lines`, a "
-                      "smaller `spacing` or a greater grid.factor",
-                      name_of_curve(a), name_of_curve(b), gap.distance, x[0], x[1], depth_of(a), depth_of(b),
-                      needed),
-          shortest});
+          .node = list.items[k],
+          .path = fmt::format("{}.body_fitted[{}]", check.path, k),
+          .text = fmt::format("move them {:.3g} apart", needed),
+          .fact = fmt::format("{} and {} are {:.3g} apart at ({:.4g}, {:.4g}), and their grids are {:.3g} "
+                              "and {:.3g} deep",
+                              name_of_curve(a), name_of_curve(b), gap.distance, x[0], x[1], depth_of(a),
+                              depth_of(b)),
+          .missing = shortest});
     }
   }
   return advice;
@@ -155,33 +157,29 @@ std::optional<Advice> too_near_to_side(const OverlapCheck& check, const Node& li
     }
     if (distance >= depth_of(spec) + 2 * h) continue;
     const Vec2 x = without_noise(nearest, 1e-6 * h);
-    return Advice{
-        list.items[k], fmt::format("{}.body_fitted[{}]", check.path, k),
-        fmt::format("{} is {:.3g} from the rim of {}.grid at ({:.4g}, {:.4g}), but its grid is {:.3g} deep; "
-                    "leave {:.3g} between them, or make the grid less deep with fewer `lines`, a smaller "
-                    "`spacing` or a greater grid.factor",
-                    name_of_curve(spec), distance, check.path, x[0], x[1], depth_of(spec),
-                    depth_of(spec) + 2 * h),
-        depth_of(spec) + 2 * h - distance};
+    return Advice{.node = list.items[k],
+                  .path = fmt::format("{}.body_fitted[{}]", check.path, k),
+                  .text = fmt::format("leave {:.3g} between them", depth_of(spec) + 2 * h),
+                  .fact = fmt::format(
+                      "{} is {:.3g} from the rim of {}.grid at ({:.4g}, {:.4g}), and its grid is {:.3g} deep",
+                      name_of_curve(spec), distance, check.path, x[0], x[1], depth_of(spec)),
+                  .missing = depth_of(spec) + 2 * h - distance};
   }
   return std::nullopt;
 }
 
 /// A curve that bends more sharply than its grid is deep.
-std::string bend_text(const BodyFittedSpec& spec) {
-  const grid::Bend bend = bend_of(spec);
-  if (depth_of(spec) <= depth_by_radius * bend.radius) return "";
-  return fmt::format(
-      "grid `{}` is {:.3g} deep, but its curve bends with a radius of {:.3g} at ({:.4g}, {:.4g}): make it "
-      "at most {} of that deep, {:.2g}, with fewer `lines` or a smaller `spacing`, or round the curve more",
-      spec.name, depth_of(spec), bend.radius, bend.x[0], bend.x[1], depth_by_radius,
-      depth_by_radius * bend.radius);
-}
-
 std::optional<Advice> too_sharp(const OverlapCheck& check, const Node& place, const std::string& path) {
   for (const BodyFittedSpec& spec : check.body_fitted) {
-    const std::string text = bend_text(spec);
-    if (!text.empty()) return Advice{place, path, text};
+    const grid::Bend bend = bend_of(spec);
+    if (depth_of(spec) <= depth_by_radius * bend.radius) continue;
+    return Advice{.node = place,
+                  .path = path,
+                  .text = fmt::format("make it at most {} of that deep, {:.2g}, or round the curve more",
+                                      depth_by_radius, depth_by_radius * bend.radius),
+                  .fact = fmt::format("grid `{}` is {:.3g} deep, and its curve bends with a radius of {:.3g} "
+                                      "at ({:.4g}, {:.4g})",
+                                      spec.name, depth_of(spec), bend.radius, bend.x[0], bend.x[1])};
   }
   return std::nullopt;
 }
@@ -193,57 +191,76 @@ std::optional<Advice> by_trial(const OverlapCheck& check, const Node& place, con
   const Node& grid = *check.owner.find("grid");
   const std::string fewer = lines ? fmt::format("`lines: {}` in {}.body_fitted", *lines, check.path) : "";
   if (!spacing && !lines) return std::nullopt;
-  if (!spacing) return Advice{place, path, fmt::format("write {}", fewer)};
-  return Advice{
-      grid, check.path + ".grid",
-      fmt::format("the points of `grid` are too far apart for the grid along the outline; write `spacing: "
-                  "{:.2g}` (now {:.3g}), or `points` to match{}{}",
-                  *spacing, spacing_of(check.background), lines ? ", or " : "", fewer)};
+  if (!spacing) return Advice{.node = place, .path = path, .text = "write " + fewer, .tried = true};
+  return Advice{.node = grid,
+                .path = check.path + ".grid",
+                .text = fmt::format("write `spacing: {:.2g}` (now {:.3g}), or `points` to match{}{}",
+                                    *spacing, spacing_of(check.background), lines ? ", or " : "", fewer),
+                .fact = "the points of `grid` are too far apart for the grid along the outline",
+                .tried = true};
 }
 
 /// The file gives the grids of this solid, and `choose_grids` would have chosen others.
-bool gives_grids(const OverlapCheck& check, const Node& shape) {
+bool gives_grids(const OverlapCheck& check) {
   const Node* points = check.owner.find("grid")->find("points");
-  return points == nullptr || points->place != shape.place;  // what was chosen has the place of the shape
+  return points == nullptr || points->items.empty() || !points->items.front().chosen;
 }
 
 /// For grids that are given.
 Advice other_numbers(const OverlapCheck& check, const Node& place, const std::string& path) {
   if (const auto advice = by_trial(check, place, path)) return *advice;
   if (const auto advice = too_sharp(check, place, path)) return *advice;
-  return {
-      place, path,
-      fmt::format("change `lines`, `spacing` or the shape; points of {}.grid about {} of the depth of the "
-                  "grid along the outline apart leave room for both",
-                  check.path, core_by_depth)};
+  return {.node = place,
+          .path = path,
+          .text = fmt::format("change `lines`, `spacing` or the shape; points of {}.grid about {} of the "
+                              "depth of the grid along the outline apart leave room for both",
+                              check.path, core_by_depth)};
 }
 
 Advice advice_for_solid(const OverlapCheck& check, const Node& shape) {
-  if (!gives_grids(check, shape)) {
-    return {shape, check.path + ".shape",
-            "no grids inside this outline were found that fit; round it more, there and where it meets a "
-            "wall, "
-            "or take `law: rigid` with `motion: fixed`"};
+  if (!gives_grids(check)) {
+    return {.node = shape,
+            .path = check.path + ".shape",
+            .text = "round it more, there and where it meets a wall",
+            .fact = "no grids inside this outline were found that fit"};
   }
   const Node* fitted = check.owner.find("body_fitted");
-  Advice advice =
-      other_numbers(check, fitted != nullptr ? *fitted : shape,
-                    fmt::format("{}.{}", check.path, fitted != nullptr ? "body_fitted" : "shape"));
-  advice.text += "; or leave out `grid` and `body_fitted`, which are then chosen";
-  return advice;
+  return other_numbers(check, fitted != nullptr ? *fitted : shape,
+                       fmt::format("{}.{}", check.path, fitted != nullptr ? "body_fitted" : "shape"));
 }
 
-/// Lines that are too far apart for a bend, so that they fold before anything else is seen of them.
+/// Does the file leave the lines of this grid of the gas open?
+bool is_chosen(const Node& grid) {
+  const Node* spacing = grid.find("spacing");
+  return spacing != nullptr && spacing->chosen;
+}
+
+/// Lines that are too far apart for a bend, so that they fold before anything else is seen of them: closer
+/// ones with which all grids connect, on a finer background where it takes that.
 std::optional<Advice> closer_lines(const OverlapCheck& check, const Node& list) {
-  for (std::size_t k = 0; k < check.body_fitted.size(); ++k) {
-    const BodyFittedSpec& spec = check.body_fitted[k];
-    const BodyFittedSpec sound = with_sound_lines(spec);
-    if (sound.spacing >= spec.spacing) continue;
-    return Advice{list.items[k], fmt::format("{}.body_fitted[{}]", check.path, k),
-                  fmt::format("write `spacing: {:.2g}` for grid `{}`, with `lines: {}`, or leave both out",
-                              sound.spacing, spec.name, sound.lines)};
+  std::vector<BodyFittedSpec> specs = check.body_fitted;
+  std::vector<std::string> written;
+  std::size_t first = specs.size();
+  for (std::size_t k = 0; k < specs.size(); ++k) {
+    if (is_chosen(list.items[k])) continue;
+    const BodyFittedSpec sound = with_sound_lines(specs[k]);
+    if (sound.spacing >= specs[k].spacing) continue;
+    first = std::min(first, k);
+    specs[k] = sound;
+    written.push_back(fmt::format("`spacing: {:.2g}` for grid `{}`, with `lines: {}`", sound.spacing,
+                                  sound.name, sound.lines));
   }
-  return std::nullopt;
+  if (written.empty()) return std::nullopt;
+  if (!connects(check.background, specs)) {
+    const auto spacing = finer_background(
+        {.background = check.background, .body_fitted = specs, .owner = check.owner, .path = check.path});
+    if (!spacing) return std::nullopt;
+    written.push_back(fmt::format("`spacing: {:.2g}` in {}.grid", *spacing, check.path));
+  }
+  return Advice{.node = list.items[first],
+                .path = fmt::format("{}.body_fitted[{}]", check.path, first),
+                .text = fmt::format("write {}", fmt::join(written, ", and ")),
+                .tried = true};
 }
 
 }  // namespace
@@ -257,12 +274,11 @@ Advice advice_for(const OverlapCheck& check) {
   const auto to_other = too_near(check, list), to_side = too_near_to_side(check, list);
   if (to_side && (!to_other || to_side->missing > to_other->missing)) return *to_side;
   if (to_other) return *to_other;
-  if (const auto advice = by_trial(check, list, path)) return *advice;
+  if (!std::ranges::all_of(list.items, is_chosen)) {
+    if (const auto advice = by_trial(check, list, path)) return *advice;
+  }
   if (const auto advice = too_sharp(check, list, path)) return *advice;
-  return {
-      list, path,
-      "let the lines be closer and fewer with `spacing` and `lines`, give the curve fewer `points`, or round "
-      "it more there"};
+  return {.node = list, .path = path, .text = "round the curve more there, or leave it more room"};
 }
 
 }  // namespace fsi

@@ -11,8 +11,10 @@ namespace fsi {
 struct Advice {
   const config::Node& node;
   std::string path;
-  std::string text;
-  double missing = 0;  ///< of a distance that is too short [length]
+  std::string text;       ///< what to write
+  std::string fact = {};  ///< what was found
+  double missing = 0;     ///< of a distance that is too short [length]
+  bool tried = false;     ///< the grids connect with what `text` says
 };
 
 /// Looks for what is too near for the grids, then tries finer spacings and fewer lines.

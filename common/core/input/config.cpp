@@ -373,10 +373,13 @@ std::string describe(const Node& node) {
   return "";
 }
 
-void fail(const std::string& place, const std::string& key, const std::string& message) {
+std::string located(const std::string& place, const std::string& key, const std::string& message) {
   const bool names_key = place.starts_with("--") || key.empty();
-  throw UserMistake(names_key ? fmt::format("{}: {}", place, message)
-                              : fmt::format("{}: {}: {}", place, key, message));
+  return names_key ? fmt::format("{}: {}", place, message) : fmt::format("{}: {}: {}", place, key, message);
+}
+
+void fail(const std::string& place, const std::string& key, const std::string& message) {
+  throw UserMistake(located(place, key, message));
 }
 
 }  // namespace fsi::config

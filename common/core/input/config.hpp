@@ -26,6 +26,7 @@ struct Node {
   std::string text = {};   ///< scalar
   bool quoted = false;     ///< the scalar was written in quotes
   std::optional<double> number = {};  ///< value of a scalar that was evaluated
+  bool chosen = false;                ///< nobody wrote it: the programs chose it
   std::vector<Node> items = {};       ///< list
   std::vector<Entry> entries;         ///< map, in the order of the file
 
@@ -65,7 +66,10 @@ std::string emit(const Node& root);
 /// What a node is, for messages: "a list", "a section", "nothing", "`text`".
 std::string describe(const Node& node);
 
-/// Ends with UserMistake "PLACE: KEY: MESSAGE" (a --set names its key already).
+/// "PLACE: KEY: MESSAGE" (a --set names its key already).
+std::string located(const std::string& place, const std::string& key, const std::string& message);
+
+/// Ends with a UserMistake of that.
 [[noreturn]] void fail(const std::string& place, const std::string& key, const std::string& message);
 
 }  // namespace fsi::config

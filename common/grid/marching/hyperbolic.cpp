@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <stdexcept>
 #include <utility>
 
@@ -95,13 +96,13 @@ void HyperbolicMarch::march(std::span<const double> curve, FieldView x, double t
   try {
     check_cells(x, grid_.name, t);
   } catch (const NumbersBroke& folded) {
-    throw NumbersBroke(folded.what() + flat_on_wall(x));
+    throw NumbersBroke(folded.what() + flat_on_wall(x, t));
   }
 }
 
-/// Where the curve has come down to a wall on which it ends, so that lines between them have no room; "" where
-/// it has not.
-std::string HyperbolicMarch::flat_on_wall(ConstFieldView x) const {
+/// Where the curve has come down to a wall on which it ends, or is as flat in the beginning, so that lines between
+/// them have no room; "" where it has not.
+std::string HyperbolicMarch::flat_on_wall(ConstFieldView x, double t) const {
   for (std::size_t end = 0; end < 2; ++end) {
     if (closed() || !grid_.walls[end]) continue;
     const auto at = [&](int k) { return point(x, end == 0 ? k : grid_.points - 1 - k, row_of(0)); };
@@ -114,6 +115,11 @@ std::string HyperbolicMarch::flat_on_wall(ConstFieldView x) const {
       if (height < lowest) lowest = height, there = at(k);
     }
     if (there == at(0)) continue;
+    if (t == 0) {
+      constexpr double degree = std::numbers::pi / 180;
+      return fmt::format(": the curve up to ({:.4g}, {:.4g}) is only {:.2g} degrees above its wall", there[0],
+                         there[1], std::asin(lowest) / degree);
+    }
     return fmt::format(
         ": at ({:.4g}, {:.4g}) the curve has come down to the wall it stands on; let the body be stiffer, or "
         "the run end before",

@@ -105,7 +105,7 @@ class HyperbolicMarch {
   void fill_end(std::size_t k, double d);
   void place(FieldView x, int j, int j_next);
   void fill_ghosts(FieldView x) const;
-  std::string flat_on_wall(ConstFieldView x) const;
+  std::string flat_on_wall(ConstFieldView x, double t) const;
 };
 
 }  // namespace fsi::grid

@@ -17,6 +17,10 @@ namespace fsi::grid {
 
 namespace {
 
+std::string name_of_body(const BodyFittedGrid& body) {
+  return body.of.empty() ? fmt::format("the curve of grid \"{}\"", body.name) : body.of;
+}
+
 /// Smaller is better.
 int rank_of(const std::optional<Stencil>& stencil) {
   if (!stencil) return 4;
@@ -222,7 +226,7 @@ void CompositeGrid::orphan(int grid, int i, int j, const Vec2& x) {
 
 /// "; the curves of grids "a" and "b" are 0.04 (0.8 cells)
 /// apart at (0.5, 0)": what makes it narrow at a place.
-std::string CompositeGrid::nearest_curves(const Vec2& x) const {
+std::string CompositeGrid::nearest_curves(const Vec2& x, double t) const {
   const double cell = std::max(background_.dx(), background_.dy());
   std::vector<std::vector<double>> curves;
   std::vector<std::pair<double, std::size_t>> order;
@@ -238,6 +242,15 @@ std::string CompositeGrid::nearest_curves(const Vec2& x) const {
   const double to_rim = std::min(
       {x[0] - background_.x_a, background_.x_b - x[0], x[1] - background_.y_a, background_.y_b - x[1]});
   if (order.size() < 2 || to_rim < order[1].first) {
+    constexpr double fewest_cells = 3;  // between a curve and a side without a grid along it
+    if (t > 0 && order[0].first + to_rim < fewest_cells * cell) {
+      return fmt::format(
+          "; {} has come within {:.2g} cells of the rim of \"{}\" there, less than the {} that gas between "
+          "them "
+          "takes; let the run end before, or the body not come so near",
+          name_of_body(bodies_[a]), (order[0].first + std::max(to_rim, 0.0)) / cell, background_.name,
+          fewest_cells);
+    }
     return fmt::format(
         "; the curve of grid \"{}\" is {:.3g} ({:.2g} cells) from there, the rim of \"{}\" {:.3g}",
         bodies_[a].name, order[0].first, order[0].first / cell, background_.name, std::max(to_rim, 0.0));
@@ -251,11 +264,12 @@ std::string CompositeGrid::nearest_curves(const Vec2& x) const {
 
 void CompositeGrid::report_orphans(double t, const char* what) const {
   if (orphans_.count == 0) return;
-  throw NumbersBroke(fmt::format("{} ({} such points){}", what, orphans_.count, nearest_curves(orphans_.x)),
-                     {.t = t,
-                      .grid = name(orphans_.grid),
-                      .point = {orphans_.i, orphans_.j},
-                      .position = {orphans_.x[0], orphans_.x[1]}});
+  throw NumbersBroke(
+      fmt::format("{} ({} such points){}", what, orphans_.count, nearest_curves(orphans_.x, t)),
+      {.t = t,
+       .grid = name(orphans_.grid),
+       .point = {orphans_.i, orphans_.j},
+       .position = {orphans_.x[0], orphans_.x[1]}});
 }
 
 }  // namespace fsi::grid

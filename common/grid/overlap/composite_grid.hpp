@@ -206,7 +206,7 @@ class CompositeGrid {
   GridPoint point_of(const ImplicitPoint& point) const;
   void orphan(int grid, int i, int j, const Vec2& x);
   void report_orphans(double t, const char* what) const;
-  std::string nearest_curves(const Vec2& x) const;
+  std::string nearest_curves(const Vec2& x, double t) const;
   [[noreturn]] void report_unsolved(const ImplicitPoint& point, double t) const;
 };
 

@@ -89,7 +89,7 @@ TEST(CaseGeometry, SolidBeyondTheGasSaysWhichSideAndHowFar) {
 TEST(CaseGeometry, SolidNearTheRimOfTheGasIsToldTheDistanceThatIsEnough) {
   const TwoBodies near{.right = disk_at(1.95)};
   expect_mistake(near, ring_b + "fluid.body_fitted[1]: ", "solid `b` is 0.05 from the rim of fluid.grid");
-  const double enough = value_after(mistake_in(text_of(near)), "leave ");
+  const double enough = value_after(mistake_in(text_of(near)), ", or leave ");
   EXPECT_EQ(mistake_in(text_of({.right = disk_at(2 - enough - 1e-3)})), "");
 }
 

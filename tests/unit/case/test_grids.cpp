@@ -223,6 +223,66 @@ TEST(ChosenGrids, GridsThatAmplifyErrorsAreRefusedWithARemedyThatConnects) {
   EXPECT_GT(refused, 0);
 }
 
+/// What a message says between two of its words.
+std::string between(const std::string& message, const std::string& before, const std::string& after) {
+  const std::size_t at = message.find(before);
+  if (at == std::string::npos) return "";
+  const std::size_t from = at + before.size(), to = message.find(after, from);
+  return to == std::string::npos ? "" : message.substr(from, to - from);
+}
+
+TEST(RemediesForGrids, NumbersThatAreLeftOutAreToldOnlyWhereTheCaseIsThenValid) {
+  const std::string deep = bodies_case({circle}, "    body_fitted: {lines: 20, spacing: 0.05}\n");
+  const std::string message = mistake_in(deep);
+  EXPECT_NE(message.find(
+                "leave out `grid` and `body_fitted` of solids.body_0, which are then chosen (tried: valid)"),
+            std::string::npos)
+      << message;
+  EXPECT_EQ(mistake_in(bodies_case({circle})), "");
+  const std::string rings = mistake_in(
+      bodies_case({circle}), {"fluid.body_fitted=[{name: ring, solid: body_0, lines: 5, spacing: 0.001}]"});
+  EXPECT_NE(rings.find("(tried: valid)"), std::string::npos) << rings;
+  EXPECT_NE(rings.find("leave out `lines` and `spacing` in fluid.body_fitted"), std::string::npos) << rings;
+}
+
+TEST(RemediesForGrids, ALowFootOfWhichNoNumberIsGivenIsToldTheFactorWithWhichItIsValid) {
+  const std::string foot = bodies_case(
+      {"{kind: polygon, corners: [[-1, -2], [-1, -1.98], [0, -1.8], [0, -2]], walls: [bottom, bottom]}"},
+      "    boundary: {left: free, right: free, bottom: clamped, top: free}\n");
+  const std::string message = mistake_in(foot);
+  EXPECT_EQ(message.find("leave"), std::string::npos) << message;  // nothing was given
+  const std::string factor = between(message, "write `grid: {factor: ", "}` in place of 2 (tried: valid)");
+  ASSERT_FALSE(factor.empty()) << message;
+  EXPECT_EQ(mistake_in(foot, {"grid.factor=" + factor}), "");
+}
+
+TEST(RemediesForGrids, ChangesThatDoNotHelpAreNamedAsTriedInVain) {
+  const std::string spike =
+      wall_case("[[-2, -2], [0, -2], [0.05, -1.5], [0.1, -2], [2, -1.6]], radius: 0", "[left, right]");
+  const std::string message = mistake_in(spike);
+  EXPECT_EQ(message.find("(tried: valid)"), std::string::npos) << message;
+  const std::string tried = between(message, "(tried in vain: ", ")");
+  EXPECT_NE(tried.find("write `grid: {factor: 4}` in place of 2"), std::string::npos) << message;
+  EXPECT_NE(mistake_in(spike, {"grid.factor=4"}), "");
+}
+
+TEST(RemediesForGrids, ATipThatIsTooFlatIsNotToldToBeStiffer) {
+  const std::string message = mistake_in(
+      bodies_case({"{kind: polygon, corners: [[0, -2], [1, -1.95], [1, -2]], walls: [bottom, bottom]}"},
+                  "    boundary: {left: free, right: free, bottom: clamped, top: free}\n"));
+  EXPECT_NE(message.find("degrees above its wall"), std::string::npos) << message;
+  EXPECT_EQ(message.find("stiffer"), std::string::npos) << message;
+}
+
+TEST(RemediesForGrids, CornersThatAreRoundedThroughTheirWallAreNamedAndNotTheBoxThatWasChosen) {
+  const std::string message = mistake_in(
+      bodies_case({"{kind: polygon, corners: [[0, -2], [1, -1.98], [1, -2]], walls: [bottom, bottom]}"},
+                  "    boundary: {left: free, right: free, bottom: clamped, top: free}\n"));
+  EXPECT_NE(message.find("its corners are rounded so far that the outline reaches ("), std::string::npos)
+      << message;
+  EXPECT_EQ(message.find("this box"), std::string::npos) << message;
+}
+
 /// An elastic square alone, its waves of speed 2, without stabilisation.
 std::string square_case(const std::string& spacing) {
   return "time: {end: 1, cfl: 0.5}\nsolids:\n  square:\n    law: linear_elastic\n    rho: 1\n    lambda: 2\n "

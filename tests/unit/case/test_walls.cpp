@@ -100,6 +100,14 @@ TEST(Walls, MistakesNameThePlaceAndWhatToWrite) {
   }
 }
 
+/// The number after some words of a message, as written.
+std::string number_after(const std::string& message, const std::string& words) {
+  const std::size_t at = message.find(words);
+  if (at == std::string::npos) return "";
+  const std::size_t from = at + words.size();
+  return message.substr(from, message.find('`', from) - from);
+}
+
 TEST(Walls, AnElasticBodyHasNoSharpCornersAndTheRadiusThatIsNamedWorks) {
   const auto box = [](const std::string& radius) {
     return "time: {end: 1}\ngrid: {factor: 2}\nsolids:\n  box:\n    law: neo_hookean\n    rho: 1\n    "
@@ -110,11 +118,8 @@ TEST(Walls, AnElasticBodyHasNoSharpCornersAndTheRadiusThatIsNamedWorks) {
   };
   const std::string message = mistake_in(box("0"));
   EXPECT_NE(message.find("sharp corner at (1, 0)"), std::string::npos) << message;
-  const std::string before = "with a `radius`, ";
-  const std::size_t at = message.find(before);
-  ASSERT_NE(at, std::string::npos) << message;
-  const std::string radius =
-      message.substr(at + before.size(), message.find(" for example") - at - before.size());
+  const std::string radius = number_after(message, "with `radius: ");
+  ASSERT_FALSE(radius.empty()) << message;
   EXPECT_EQ(mistake_in(box(radius)), "") << radius;
 }
 
@@ -155,14 +160,6 @@ std::string body_case(const std::string& law, const std::string& shape, const st
          "  boundary: {left: outflow, right: outflow, bottom: slip_wall, top: outflow}\n"
          "  initial: {rho: 1, v: [0, 0], p: 1}\n" +
          ring + "solids:\n  body:\n    rho: 1\n    law: " + law + "\n    shape: " + shape + "\n";
-}
-
-/// The number after some words of a message, as written.
-std::string number_after(const std::string& message, const std::string& words) {
-  const std::size_t at = message.find(words);
-  if (at == std::string::npos) return "";
-  const std::size_t from = at + words.size();
-  return message.substr(from, message.find('`', from) - from);
 }
 
 TEST(LinesAtBends, AreChosenCloseAndGivenOnesThatAreTooWideAreRefusedWithOnesThatHold) {

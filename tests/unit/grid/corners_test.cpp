@@ -213,7 +213,7 @@ TEST(MostSlantedLine, IsThatAtAFlatEndOnAWall) {
 }
 
 TEST(FlatOnAWall, AFoldWhereTheCurveHasComeDownToItsWallSaysSo) {
-  const auto message = [](double height) -> std::string {
+  const auto message = [](double height, double t) -> std::string {
     const auto x = points_on(sharp({{0, 0}, {0.5, height}, {1, 0.6}}, Curve::open), 41);
     HyperbolicMarch march({.points = 41,
                            .lines = 12,
@@ -225,14 +225,18 @@ TEST(FlatOnAWall, AFoldWhereTheCurveHasComeDownToItsWallSaysSo) {
                            .blend = 16});
     Field grid(march.layout(), 2);
     try {
-      march.march(x, grid.view(), 0);
+      march.march(x, grid.view(), t);
     } catch (const NumbersBroke& folded) {
       return folded.what();
     }
     return "";
   };
-  EXPECT_NE(message(-0.02).find("come down to the wall it stands on"), std::string::npos) << message(-0.02);
-  EXPECT_EQ(message(0.3).find("come down"), std::string::npos);
+  EXPECT_NE(message(-0.02, 1).find("come down to the wall it stands on"), std::string::npos)
+      << message(-0.02, 1);
+  EXPECT_EQ(message(0.3, 1).find("come down"), std::string::npos);
+  // In the beginning nothing has come down yet.
+  EXPECT_EQ(message(-0.02, 0).find("come down"), std::string::npos) << message(-0.02, 0);
+  EXPECT_NE(message(-0.02, 0).find("degrees above its wall"), std::string::npos) << message(-0.02, 0);
 }
 
 TEST(CurveCut, ACurveOnAWallIsClosedALittleBehindIt) {

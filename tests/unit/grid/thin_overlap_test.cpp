@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include "common/core/failure.hpp"
@@ -76,6 +77,32 @@ TEST(ThinOverlap, DoesNotAmplifyErrors) {
   }
   EXPECT_GT(implicit, 0U);
   EXPECT_GT(narrowed, 0U);  // with three donors per direction everywhere errors would grow
+}
+
+TEST(ThinOverlap, ABodyThatHasComeToTheRimIsNamedWithItsDistance) {
+  constexpr double h = 0.05;
+  const HyperbolicGrid ring{.name = "ring", .points = 127, .lines = 8, .curve = Side::top, .spacing = h};
+  HyperbolicMarch march(ring);
+  Field x(march.layout(), 2);
+  march.march(points_on(circle({0, 0}, 1), ring.points), x.view(), 0);
+  const auto message = [&](double right, double t) -> std::string {
+    CompositeGrid grids(
+        {.name = "gas", .n1 = 81, .n2 = 81, .x_a = right - 4, .x_b = right, .y_a = -2, .y_b = 2},
+        {{.name = "ring", .n1 = ring.points, .n2 = 8, .curve = Side::top, .of = "body `disk`"}});
+    const ConstFieldView views[] = {x.view()};
+    try {
+      grids.connect(views, t);
+    } catch (const NumbersBroke& broke) {
+      return broke.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(message(1.5, 1), "");
+  const std::string later = message(1.04, 1), first = message(1.04, 0);
+  EXPECT_NE(later.find("; body `disk` has come within "), std::string::npos) << later;
+  EXPECT_NE(later.find("let the run end before"), std::string::npos) << later;
+  EXPECT_NE(first, "");
+  EXPECT_EQ(first.find("has come"), std::string::npos) << first;  // in the beginning nothing has come yet
 }
 
 }  // namespace

@@ -1,0 +1,22 @@
+#pragma once
+/// What else a case file could say where its grids do not fit: changes that are tried before they are named.
+
+#include <functional>
+#include <string>
+
+#include "common/case/grids/no_grids_fit.hpp"
+#include "common/core/input/config.hpp"
+
+namespace fsi {
+
+/// Tries one change of the case after the other: those that the mistake brings, numbers of grids left out (they
+/// are then chosen), rounder corners of polygons, for a gas grid.factor twice and four times what it is, for a body
+/// a rigid one that is held.
+/// @param root   the case as it was written, with what the command line says
+/// @param factor grid.factor of the case [-]
+/// @param valid  whether a case with such a tree is valid
+/// @returns the mistake with the first change that is, or with what was tried in vain
+UserMistake with_remedy(const NoGridsFit& mistake, const config::Node& root, double factor,
+                        const std::function<bool(const config::Node&)>& valid);
+
+}  // namespace fsi
