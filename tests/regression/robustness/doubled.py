@@ -28,6 +28,7 @@ import amp_fsi  # noqa: E402
 import numpy  # noqa: E402
 
 
+COUNTED = ("floors", "positive_fluxes", "positive_values", "vacuum_points")
 LONGER = 2.5  # first steps may be larger than the estimate, which is that of the fastest waves to come
 
 
@@ -93,7 +94,7 @@ def became_whole(path, times, out):
         return [f"{factor:g}", *[""] * 6, "refused: " + refusal], False
     code, summary, last = ran(path, settings, out, None)
     counters = summary.get("counters", {})
-    counted = " ".join(f"{counters[key]:g}" for key in ("floors", "positive_fluxes", "positive_values", "vacuum_points") if key in counters)
+    counted = ", ".join(f"{counters[key]:g} {key.replace('_', ' ')}" for key in COUNTED if counters.get(key)) or "0"
     ended = f"t = {summary['t']:g}, its end" if code == 0 else meeting(summary) or summary.get("failure", {}).get("what", last)
     cells = [f"{factor:g}", f"{found['fluid_points']}", f"{found['cost']['seconds']:.2g}", f"{summary.get('wall_s', 0):.3g}", f"{summary.get('steps')}",
              counted, pressures(out), ended]
@@ -102,8 +103,7 @@ def became_whole(path, times, out):
 
 def whole(cases):
     """Prints the table of whole runs; are all sound?"""
-    heads = ["case", "grid.factor", "points of the gas", "estimate, s", "wall, s", "steps", "floors, fluxes and values made positive, points near vacuum",
-             "p of the gas", "ended at"]
+    heads = ["case", "grid.factor", "points of the gas", "estimate, s", "wall, s", "steps", "counted", "p of the gas", "ended at"]
     print("| " + " | ".join(heads) + " |\n" + "|---" * len(heads) + "|", flush=True)
     sound = True
     for path in map(path_of, cases):
