@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "common/core/failure.hpp"
+#include "common/wire/entries.hpp"
 
 namespace fsi::bus {
 
@@ -44,6 +45,7 @@ class Lengths {
       throw PeerLost(fmt::format("{} sent {} rows, {} columns and {} values of {} for interface '{}'", from_,
                                  matrix.row.size(), matrix.column.size(), entries, array, interface_));
     }
+    if (wire::fits(matrix, rows, columns)) return;
     const auto outside = [](std::int32_t index, std::size_t end) {
       return index < 0 || static_cast<std::size_t>(index) >= end;
     };

@@ -63,10 +63,12 @@ Eigen::VectorXd balance(const Eigen::SparseMatrix<double>& N, std::span<const Ga
   const auto size_of = [&](const Eigen::VectorXd& change) {
     return (N.transpose() * change).cwiseAbs().maxCoeff();
   };
-  constexpr double round_off = 1e-14, least_part = 1e-3;
+  // Near the solution a change leaves its square, which below `close` is less than round-off.
+  constexpr double round_off = 1e-14, close = 1e-8, least_part = 1e-3;
   constexpr int most = 50;
   Eigen::VectorXd change = change_at(q_dot);
   for (int k = 0; k < most && size_of(change) > round_off * scale; ++k) {
+    if (size_of(change) <= close * scale) return q_dot + change;
     double part = 1;
     Eigen::VectorXd next = q_dot + change, after = change_at(next);
     while (size_of(after) > size_of(change) && part > least_part) {

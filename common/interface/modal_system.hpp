@@ -6,9 +6,12 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
+#include <algorithm>
 #include <span>
+#include <variant>
 #include <vector>
 
+#include "common/interface/band.hpp"
 #include "common/interface/modal.hpp"
 
 namespace fsi {
@@ -31,15 +34,45 @@ class AddedMass {
   void find_places();
 
   Eigen::SparseMatrix<double> N_;
-  std::vector<Eigen::Index> places_;  ///< in A of the products of the entries of each column with each other
+  /// Products of an entry of N with entries that follow each other, which go to places of A that do.
+  struct Run {
+    int place = 0, of = 0, first = 0, length = 0;
+  };
+  std::vector<Run> runs_;  ///< of all points, in this order
+  std::vector<std::size_t> ends_of_runs_;
   ModalLoad load_;
 };
 
-/// Solves S x = right as `solve_modes`, and (S + dt A) x = g + dt f as `project_modes`.
+/// S = L D L^T in an order that keeps the factors sparse.
+class SparseFactors {
+ public:
+  /// Takes the order for a matrix with entries in these places.
+  /// @return where each entry of `places`, in its order, is among the values (-1: the upper triangle does not count)
+  std::vector<int> find_order(const Eigen::SparseMatrix<double>& places);
+  void set_zero() { std::fill_n(ordered_.valuePtr(), ordered_.nonZeros(), 0.0); }
+  double* values() { return ordered_.valuePtr(); }
+  /// @return false for a pivot of the size of round-off
+  bool factorize();
+  Eigen::VectorXd solve(const Eigen::VectorXd& right) const { return factors_.solve(right); }
+
+ private:
+  using Matrix = Eigen::SparseMatrix<double>;
+  /// Factors of a matrix that is already in their order: only its numbers are new.
+  struct Factors : Eigen::SimplicialLDLT<Matrix> {
+    void factorize_ordered(const Matrix& ordered) { factorize_preordered<true>(ordered); }
+  };
+
+  Matrix ordered_;                      ///< the upper triangle, in the order of the factors
+  std::vector<Eigen::Index> diagonal_;  ///< places there; -1: none
+  Factors factors_;
+};
+
+/// Solves S x = right as `solve_modes`, and (S + dt A) x = g + dt f as `project_modes`: within a band where
+/// the entries lie near the diagonal.
 class ModalSolver {
  public:
   ModalSolver() = default;
-  /// A copy finds the order anew: it depends on the places alone, so the solutions are the same.
+  /// A copy finds the places anew: they depend on those of the entries alone, so the solutions are the same.
   ModalSolver(const ModalSolver&) {}
   ModalSolver& operator=(const ModalSolver&) { return *this; }
   ~ModalSolver() = default;
@@ -51,23 +84,18 @@ class ModalSolver {
 
  private:
   using Matrix = Eigen::SparseMatrix<double>;
-  /// Factors of a matrix that is already in their order: only its numbers are new.
-  struct Factors : Eigen::SimplicialLDLT<Matrix> {
-    void factorize_ordered(const Matrix& ordered) { factorize_preordered<true>(ordered); }
-  };
-  /// One of the matrices whose sum is factorised, and where its entries are in `ordered_` (-1: they do not count).
+  /// One of the matrices whose sum is factorised, and where its entries are among the values of the factors
+  /// (-1: they do not count).
   struct Term {
     Matrix places;
-    std::vector<Eigen::Index> to;
+    std::vector<int> to;
   };
 
-  void find_order(const Matrix& S, const Matrix& A);
-  Eigen::VectorXd solve_ordered(const Eigen::VectorXd& right);
+  void find_places(const Matrix& S, const Matrix& A);
+  Eigen::VectorXd solve_sum(const Matrix& S, const Matrix& A, double dt, const Eigen::VectorXd& right);
 
-  Term S_, A_;                          ///< of the last sum whose order was found
-  Matrix ordered_;                      ///< the upper triangle of the sum, in the order of the factors
-  std::vector<Eigen::Index> diagonal_;  ///< places there; -1: none
-  Factors factors_;
+  Term S_, A_;  ///< of the last sum
+  std::variant<SparseFactors, BandedFactors> factors_;
 };
 
 }  // namespace fsi

@@ -52,6 +52,28 @@ inline Eigen::SparseMatrix<double> matrix_of(const SparseMatrix& entries, Eigen:
   return matrix;
 }
 
+/// The same into a matrix that is there: where it has the entries of the message already, only its numbers are new.
+inline void put_matrix(const SparseMatrix& entries, Eigen::Index rows, Eigen::Index columns,
+                       Eigen::SparseMatrix<double>& into) {
+  const auto stays = [&] {
+    if (into.rows() != rows || into.cols() != columns || !into.isCompressed()) return false;
+    if (into.nonZeros() != std::ssize(entries.value)) return false;
+    if (!std::ranges::equal(entries.row, std::span(into.innerIndexPtr(), entries.row.size()))) return false;
+    const int* const starts = into.outerIndexPtr();
+    for (Eigen::Index column = 0; column < columns; ++column) {
+      const auto wrong = [&](std::int32_t of_entry) { return of_entry != static_cast<std::int32_t>(column); };
+      const auto own = entries.column.begin();
+      if (std::any_of(own + starts[column], own + starts[column + 1], wrong)) return false;
+    }
+    return true;
+  };
+  if (stays()) {
+    std::ranges::copy(entries.value, into.valuePtr());
+  } else {
+    into = matrix_of(entries, rows, columns);
+  }
+}
+
 /// @param matrix compressed
 inline void put_entries(const Eigen::SparseMatrix<double>& matrix, SparseMatrix& into) {
   into.row.assign(matrix.innerIndexPtr(), matrix.innerIndexPtr() + matrix.nonZeros());

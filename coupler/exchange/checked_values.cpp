@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <cstdint>
 #include <string>
 #include <utility>
 
 #include "common/core/failure.hpp"
+#include "common/wire/entries.hpp"
 
 namespace fsi::coupler {
 
@@ -15,6 +15,13 @@ namespace {
 
 Place place_of(const Moment& moment, const wire::PredictedInterface& state) {
   return {.step = moment.step, .t = moment.t, .program = state.from, .interface = state.interface};
+}
+
+bool all_finite(std::span<const double> values) {
+  unsigned broken = 0;
+#pragma omp simd reduction(| : broken)
+  for (std::size_t k = 0; k < values.size(); ++k) broken |= std::isfinite(values[k]) ? 0U : 1U;
+  return broken == 0;
 }
 
 }  // namespace
@@ -34,6 +41,7 @@ void check_values(const Moment& moment, const wire::PredictedInterface& state, c
     throw PeerLost(fmt::format("\"{}\" sent {} numbers for {} of interface \"{}\", not {}", state.from,
                                values.size(), quantity, state.interface, expected));
   }
+  if (all_finite(values)) return;
   for (std::size_t k = 0; k < expected; ++k) {
     if (!std::isfinite(values[k]))
       throw_broken(moment, state, k % points, fmt::format("{} is {}", quantity, values[k]));
@@ -42,21 +50,13 @@ void check_values(const Moment& moment, const wire::PredictedInterface& state, c
 
 void check_entries(const Moment& moment, const wire::PredictedInterface& state, const char* quantity,
                    const wire::SparseMatrix& matrix, const MatrixSize& size) {
-  const std::size_t entries = matrix.value.size();
-  const auto within = [&](std::size_t e) {
-    const auto is_below = [](std::int32_t index, std::size_t end) {
-      return index >= 0 && static_cast<std::size_t>(index) < end;
-    };
-    return is_below(matrix.row[e], size.rows) && is_below(matrix.column[e], size.columns);
-  };
-  bool fits = matrix.row.size() == entries && matrix.column.size() == entries;
-  for (std::size_t e = 0; fits && e < entries; ++e) fits = within(e);
-  if (!fits) {
+  if (!wire::fits(matrix, size.rows, size.columns)) {
     throw PeerLost(
         fmt::format("\"{}\" sent entries for {} of interface \"{}\" that do not make a matrix of {} x {}",
                     state.from, quantity, state.interface, size.rows, size.columns));
   }
-  for (std::size_t e = 0; e < entries; ++e) {
+  if (all_finite(matrix.value)) return;
+  for (std::size_t e = 0; e < matrix.value.size(); ++e) {
     if (std::isfinite(matrix.value[e])) continue;
     throw NumbersBroke(
         fmt::format("entry ({}, {}) of {} is {}", matrix.row[e], matrix.column[e], quantity, matrix.value[e]),

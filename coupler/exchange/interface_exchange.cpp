@@ -133,7 +133,7 @@ void InterfaceExchange::take(const Moment& moment, const wire::PredictedInterfac
   predicted_gas_ = gas_is_brought ? &transfer_->bring(gas) : &gas;
   solid_ = transfer_ && !gas_is_brought ? &transfer_->bring(solid) : &solid;
   const wire::ModalResponse& modes = solid_->modal;
-  if (modes.modes > 0) N_ = wire::matrix_of(modes.N, modes.modes, static_cast<Eigen::Index>(curve_.n));
+  if (modes.modes > 0) wire::put_matrix(modes.N, modes.modes, static_cast<Eigen::Index>(curve_.n), N_);
   prepare(moment);
 }
 

@@ -7,11 +7,11 @@ namespace fsi::coupler {
 
 Eigen::VectorXd ModalBody::project(const wire::ModalResponse& response, const ModalSide& side, double dt) {
   const auto k = static_cast<Eigen::Index>(response.modes);
-  const Eigen::SparseMatrix<double> S = wire::matrix_of(response.S, k, k);
+  wire::put_matrix(response.S, k, k, S_);
   const Eigen::VectorXd g = Eigen::Map<const Eigen::VectorXd>(response.g.data(), k);
   added_mass_.take(side.N);
   return balance(side.N, side.gas, [&](std::span<const NormalSide> gas) {
-    return solver_.project(S, g, added_mass_.load(gas, side.ds), dt);
+    return solver_.project(S_, g, added_mass_.load(gas, side.ds), dt);
   });
 }
 

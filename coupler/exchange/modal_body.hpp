@@ -31,6 +31,7 @@ class ModalBody {
  private:
   Eigen::VectorXd project(const wire::ModalResponse& response, const ModalSide& side, double dt);
 
+  Eigen::SparseMatrix<double> S_;  ///< of the last step
   AddedMass added_mass_;
   ModalSolver solver_;
 };
