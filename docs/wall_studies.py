@@ -22,6 +22,14 @@ def _pistons(tools):
     return tools.rates("piston-between-gases", "piston_between_gases", LEVELS, variants, ("rho", "v1", "u_bar", "v_bar", "P_bar"))
 
 
+def _bars(tools):
+    variants = [(f"{label}, density {density} of the bar", [*settings, f"parameters.density={density}", "reference.c_p=c_p * sqrt(8 / 9)"],
+                 ["piston=beam"]) for label, settings in CASES for density in DENSITIES]
+    note = ("The same piston as a beam that lies along the duct, whose sides bear no stress: its waves run at sqrt(E'/rho), with "
+            "E' = 8/9 (lambda + 2 mu) for lambda = mu.\n\n")
+    return note + tools.rates("bar-between-gases", "piston_between_gases", LEVELS, variants, ("rho", "v1"))
+
+
 def _plates(tools):
     variants = [(f"m = {mass}", [f"parameters.mass={mass}"], []) for mass in MASSES]
     return tools.rates("taylor-plate", "taylor_plate", LEVELS, variants, ("rho", "v1"))
@@ -57,6 +65,7 @@ def _growth(tools):
 def studies(tools):
     """(title, function) of each study; `tools`: the functions of record_results."""
     yield "Elastic piston between two gases, small pulse", lambda: _pistons(tools)
+    yield "Bar between two gases, small pulse", lambda: _bars(tools)
     yield "Taylor's plate between two gases, any mass", lambda: _plates(tools)
     yield "Taylor's plate between two gases, its ends free", lambda: _free_plates(tools)
     yield "Taylor's plate between two gases: what is left when the pulse is gone", lambda: _growth(tools)

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <tuple>
 #include <utility>
 
 #include "common/grid/geometry/interface_geometry.hpp"
@@ -131,19 +130,19 @@ std::vector<std::uint8_t> Skin::freedom() const {
   return marks;
 }
 
-/// The gas ends at a wall on which a free end stands, and the line goes away from it. A section that turns or
-/// slides there would take the corner of the gas with it; its other side would then push gas that the
-/// mode vectors know nothing of, and a plate much lighter than that gas blows up.
+/// The gas ends at a wall on which a free end stands, or along which the face of one slides; at rest the outline
+/// meets that wall at right angles. A section that turns or slides there would take the corner of the gas with it;
+/// its other side would then push gas that the mode vectors know nothing of, and a plate much lighter than that
+/// gas blows up.
 void Skin::find_walls(const Line& line, const std::array<End, 2>& ends, const std::array<bool, 2>& on_wall) {
   constexpr double close = 1e-9;
   const auto last = static_cast<double>(line.x.size() - 1);
-  for (std::size_t end = 0; end < 2; ++end) {
+  const std::size_t n = points();
+  for (const auto& [end, k] : {std::pair{std::size_t{0}, std::size_t{0}}, std::pair{std::size_t{1}, n - 1}}) {
     if (!on_wall[end]) continue;
-    const double s = (end == 0 ? places_.front() : places_.back()).s;
-    for (const auto& [kind, alpha, at] :
-         {std::tuple{ends[0], line.alpha.front(), 0.0}, std::tuple{ends[1], line.alpha.back(), last}}) {
-      if (kind == End::free && std::abs(s - at) <= close * last)
-        walls_[end] = {std::cos(alpha), std::sin(alpha)};
+    for (const auto& [kind, at] : {std::pair{ends[0], 0.0}, std::pair{ends[1], last}}) {
+      if (kind == End::free && std::abs(places_[k].s - at) <= close * last)
+        walls_[end] = {-n_at_rest_[n + k], n_at_rest_[k]};
     }
   }
 }

@@ -72,7 +72,7 @@ class Skin {
     std::size_t component = 0;  ///< 0, 1: along the normal; 2: turning
     double weight = 0, part = 0;
   };
-  /// Direction across the walls along which the first and the last point slide; zero: along none.
+  /// Normals of the walls along which the first and the last point slide; zero: along none.
   using Walls = std::array<Vec2, 2>;
   static Vec2 along_wall(const Vec2& wall, const Vec2& d) { return d - wall.dot(d) * wall; }
   void find_walls(const Line& line, const std::array<End, 2>& ends, const std::array<bool, 2>& on_wall);

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Walls between two gases, hit by a small smooth pulse of sound: an elastic piston, Taylor's plate of any mass, a rigid block."""
+"""Walls between two gases, hit by a small smooth pulse of sound: an elastic piston, Taylor's plate of any mass, a bar, a rigid block."""
 
 import csv
 import json
@@ -17,6 +17,8 @@ MIN_RATE = 1.85
 RIGID = ("solids.plate={law: rigid, rho: mass / thickness, grid: {x: [0, thickness], y: [0, cells * h], points: [5, 9]}, boundary: "
          "{left: {kind: interface, fluid: left}, right: {kind: interface, fluid: right}, bottom: slip_wall, top: slip_wall}}")
 
+BAR = "reference.c_p=c_p * sqrt(8 / 9)"
+
 
 class TwoGases(unittest.TestCase):
     def setUp(self):
@@ -33,8 +35,8 @@ class TwoGases(unittest.TestCase):
         self.assertEqual(answer.returncode, 0, answer.stderr)
         return folder
 
-    def converge(self, case, *settings):
-        folder = self.fsi("converge", case, "--levels", LEVELS, *(f"--set={s}" for s in settings))
+    def converge(self, case, *settings, solids=()):
+        folder = self.fsi("converge", case, "--levels", LEVELS, *(f"--set={s}" for s in settings), *(f"--solid={s}" for s in solids))
         return json.loads((folder / "converge.json").read_text(encoding="utf-8"))
 
     def assert_second_order(self, table, bounds):
@@ -51,6 +53,13 @@ class TwoGases(unittest.TestCase):
         for density in ("0.02", "200"):
             table = self.converge("piston_between_gases", f"parameters.density={density}")
             self.assert_second_order(table, {"rho": 2.5e-3, "v1": 2e-3})
+
+    def test_bar_loaded_along_its_axis_is_second_order_for_any_density(self):
+        """A beam along the duct: E' = 8/9 (lambda + 2 mu) for lambda = mu, since its sides bear no stress."""
+        for density in ("0.02", "2", "200"):
+            with self.subTest(density=density):
+                table = self.converge("piston_between_gases", f"parameters.density={density}", BAR, solids=["piston=beam"])
+                self.assert_second_order(table, {"rho": 2.5e-3, "v1": 2e-3})
 
     def test_stiff_piston_takes_substeps_between_its_two_gases(self):
         table = self.converge("piston_between_gases", "time.multirate=true", "parameters.c_p=8", "parameters.density=0.5")

@@ -76,6 +76,25 @@ TEST(BeamSkin, FreeEndsKeepToTheWallsAndSoDoTheirModes) {
                 1e-14);
 }
 
+/// The face of a bar in a duct: its corners slide along the walls, which is where the bar goes.
+TEST(BeamSkin, TheFaceOfABarGoesWithIt) {
+  constexpr std::size_t points = 9;
+  rigid::Outline face{.x = std::vector<double>(2 * points, 1), .ends = grid::Curve::open};
+  for (std::size_t k = 0; k < points; ++k)
+    face.x[points + k] = 0.1 * static_cast<double>(k) / (points - 1) - 0.05;
+  BeamMotion motion(straight(plate_section(2, 3, 3, 0.1), 10), loose);
+  Eigen::VectorXd rates = Eigen::VectorXd::Zero(motion.model().freedoms());
+  for (int node = 0; node < motion.model().nodes(); ++node) rates[freedom_of(node)] = 0.3;
+  motion.start(rates);
+  const Skin skin(motion.model().line(), face, loose, {true, true});
+  const SkinState state = skin.state(motion);
+  const Eigen::VectorXd v_n = skin.mode_vectors(state, skin.normals(state.x)).transpose() * motion.q_dot();
+  for (std::size_t k = 0; k < points; ++k) {
+    EXPECT_NEAR(state.v[k], 0.3, 1e-15);
+    EXPECT_NEAR(std::abs(v_n[static_cast<Eigen::Index>(k)]), 0.3, 1e-14);
+  }
+}
+
 TEST(BeamSkin, ItsVelocitiesAreThoseOfItsPositions) {
   BeamMotion motion = bent(loose);
   const Skin skin(motion.model().line(), slab(), loose);
