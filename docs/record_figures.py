@@ -106,6 +106,11 @@ def beam(rho_bar, stiffness, factor):
                (f"grid.factor={factor}", f"parameters.rho_bar={rho_bar}", f"parameters.stiffness={stiffness}"))
 
 
+def beam_by_law(rho_bar, stiffness, factor):
+    continuum = beam(rho_bar, stiffness, factor)
+    return Run(f"beam-law-{rho_bar}-{stiffness}-{factor}", continuum.case, continuum.settings, ("beam=beam",))
+
+
 def beams_from_grid_to_grid(one):
     return Picture((beam(*one, 16), beam(*one, 32)), "centrelines_compared", f"({one[0]}, {one[1]}), h = 1/160 and 1/320.")
 
@@ -163,8 +168,10 @@ FIGURES = (
     Figure("21", "streamlines round a beam", (
         Picture((beam(10, 10, 16),), "streamlines", "(10, 10), h = 1/160 (the paper: 1/320).", tuple(word for t in range(1, 7) for word in ("--at", str(t)))),)),
     Figure("22", "centrelines of the four beams", (
-        Picture(tuple(beam(*one, 16) for one in BEAMS), "centrelines_compared", "h = 1/160."),),
-           sections=("Beam: the four of the paper, h = 1/160",)),
+        Picture(tuple(beam(*one, 16) for one in BEAMS), "centrelines_compared", "h = 1/160."),
+        Picture(tuple(run(*one, 8) for one in BEAMS for run in (beam, beam_by_law)), "centrelines_compared",
+                "The four as continuum and as `law: beam`, h = 1/80.")),
+           sections=("Beam: the four of the paper, h = 1/160", "Beams by law beside the continuum, h = 1/80")),
     Figure("23", "the beam from grid to grid", (beams_from_grid_to_grid((10, 10)),),
            sections=("Beam (100, 100): largest distance between the centrelines of two grids",
                      "Beam (100, 100): centrelines, grids of the beam as fine as the gas's",

@@ -91,7 +91,7 @@ class Centrelines(unittest.TestCase):
         for one in (line := figure.axes[0].get_lines()):
             one.set_xdata(1e-3 * one.get_xdata())
         figure.axes[0].set_aspect("auto")
-        beams._scale(figure.axes[0])
+        beams._scale(figure.axes)
         self.assertEqual((len(line), figure.axes[0].get_aspect()), (2, "auto"))
 
     def test_runs_with_the_same_parameters_are_compared_the_finer_first(self):
@@ -101,6 +101,14 @@ class Centrelines(unittest.TestCase):
         self.assertEqual({(coarse, fine) for _, coarse, fine, _, _ in table}, {(8.0, 16.0)})
         self.assertEqual({label for label, *_ in table}, {"mach = 1.1"})
         self.assertEqual(len(beams.picture(runs).axes), 2)
+
+    def test_a_beam_by_law_is_drawn_into_the_panel_of_its_continuum(self):
+        case = "parameters:\n  rho_bar: 10\ngrid:\n  factor: 8\nsolids:\n  beam:\n    law: {law}\n"
+        runs = [beams.run_of([beam(n)], case.format(law=law)) for n, law in ((101, "neo_hookean"), (201, "beam"))]
+        panels = beams.picture(runs).axes
+        self.assertEqual(len(panels), 1)
+        self.assertIn("neo hookean full, beam dashed", panels[0].get_xlabel())
+        self.assertEqual({label for label, *_ in beams.table(runs)}, {"beam: beam against neo hookean"})
 
 
 class Streamlines(unittest.TestCase):

@@ -28,11 +28,12 @@ class Beam:
 
 @dataclass
 class Run:
-    """A run and what tells it from others: its parameters, and the grid factor apart."""
+    """A run and what tells it from others: its parameters, and apart the grid factor and the laws of its beams."""
 
     parameters: dict
     factor: float
     beams: list
+    laws: str = ""
 
     def beam(self, name):
         return next((beam for beam in self.beams if beam.name == name), None)
@@ -110,7 +111,8 @@ def run_of(series, case):
     entries = several.entries(case)
     parameters = {key.removeprefix("parameters."): value for key, value in entries.items() if key.startswith("parameters.")}
     factor = float(entries.get("grid.factor", 0))
-    return Run(parameters, factor, of(series))
+    found = of(series)
+    return Run(parameters, factor, found, ", ".join(entries.get(f"solids.{beam.name}.law", "").replace("_", " ") for beam in found))
 
 
 # --- comparison
@@ -128,7 +130,7 @@ def distances(a, b):
 
 
 def _groups(runs):
-    """Lists of runs that differ in their grid only, the finest first."""
+    """Lists of runs that differ in their grid or their laws only, the finest first."""
     groups = []
     for run in runs:
         for group in groups:
@@ -147,14 +149,17 @@ def _label(run, runs):
 
 
 def table(runs):
-    """[(label, coarse factor, fine factor, t, largest distance)] of runs that differ in their grid only."""
+    """[(label, coarse factor, fine factor, t, largest distance)] of runs that differ in their grid or their laws only."""
     rows = []
     for group in _groups(runs):
         for fine, coarse in zip(group, group[1:]):
             for beam in fine.beams:
                 other = coarse.beam(beam.name)
                 found = distances(beam, other) if other else {}
-                rows += [(_label(fine, runs) or beam.name, coarse.factor, fine.factor, t, d) for t, d in found.items()]
+                label = _label(fine, runs) or beam.name
+                if fine.laws != coarse.laws:
+                    label += f": {coarse.laws} against {fine.laws}"
+                rows += [(label, coarse.factor, fine.factor, t, d) for t, d in found.items()]
     return rows
 
 
@@ -171,26 +176,29 @@ def _colours(count):
 
 
 def _panel(axes, group, title):
-    """The runs of a group: the finest in full lines, coarser ones broken."""
+    """The runs of a group: the finest, or the first, in full lines, others broken."""
     for run, line in zip(group, (FINEST, *COARSER)):
         for beam in run.beams:
             _draw(axes, beam, line, _colours(len(beam.lines)))
     handles = [handle for handle in axes.get_lines()[:len(group[0].beams[0].lines)]]
     axes.legend(handles=handles, title=units.label("t", "time"), loc="center left", bbox_to_anchor=(1.0, 0.5), handlelength=1.2)
     axes.set_title(title, loc="left")
-    lines = [f"j = {run.factor:g} {name}" for run, name in zip(group, ("full", "dashed", "dotted", "dash-dot"))]
+    same_grid = len({run.factor for run in group}) == 1 and all(run.laws for run in group)
+    lines = [f"{run.laws if same_grid else f'j = {run.factor:g}'} {name}" for run, name in zip(group, ("full", "dashed", "dotted", "dash-dot"))]
     axes.set_xlabel(units.label("x", "length") + (f"      ({', '.join(lines)})" if len(group) > 1 else ""))
 
 
-def _scale(axes):
+def _scale(panels):
     """The same scale both ways, unless beams bend so little that nothing could be seen."""
-    x, y = (np.ptp(np.concatenate([getattr(line, f"get_{name}data")() for line in axes.get_lines()])) for name in "xy")
+    lines = [line for axes in panels for line in axes.get_lines()]
+    x, y = (np.ptp(np.concatenate([getattr(line, f"get_{name}data")() for line in lines])) for name in "xy")
     if min(x, y) > NARROW * max(x, y):
-        axes.set_aspect("equal")
+        for axes in panels:
+            axes.set_aspect("equal")
 
 
 def picture(runs):
-    """Centrelines of all runs, one panel for runs that differ in their grid only; None where there are no beams."""
+    """Centrelines of all runs, one panel for runs that differ in their grid or their laws only; None where there are no beams."""
     groups = _groups([run for run in runs if run.beams])
     if not groups:
         return None
@@ -200,7 +208,7 @@ def picture(runs):
                                     sharex=True, sharey=True)
     for axes, group in zip(panels.flat, groups):
         _panel(axes, group, _label(group[0], [run for other in groups for run in other]) or "centreline")
-    _scale(panels.flat[0])
+    _scale(panels.flat[:len(groups)])
     for axes in list(panels.flat)[len(groups):]:
         axes.set_visible(False)
     for axes in panels[:, 0]:
