@@ -64,7 +64,7 @@ bool is_interface(const BoundarySpec& boundary) {
 }
 
 struct Surface {
-  rigid::Outline outline;
+  bodies::Outline outline;
   bool meets_gas = false;
   std::array<bool, 2> on_wall{false, false};  ///< its first and last point
 };

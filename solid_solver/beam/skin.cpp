@@ -71,7 +71,7 @@ PointState state_of(const BeamMotion& beam, const Attached& point) {
   return {.x = foot + u.head<2>() + r, .v = v.head<2>() + v[2] * across(r), .arm = r, .theta = u[2]};
 }
 
-Skin::Skin(const Line& line, rigid::Outline outline, const std::array<End, 2>& ends,
+Skin::Skin(const Line& line, bodies::Outline outline, const std::array<End, 2>& ends,
            const std::array<bool, 2>& on_wall)
     : outline_(std::move(outline)) {
   const std::size_t n = outline_.x.size() / 2;

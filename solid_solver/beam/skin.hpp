@@ -18,7 +18,7 @@
 
 #include "common/core/types.hpp"
 #include "solid_solver/beam/motion.hpp"
-#include "solid_solver/rigid/body.hpp"
+#include "solid_solver/bodies/outline.hpp"
 
 namespace fsi::beam {
 
@@ -50,10 +50,10 @@ struct SkinState {
 class Skin {
  public:
   /// @param on_wall whether the first and the last point of an open outline slide along a wall that the gas has there
-  Skin(const Line& line, rigid::Outline outline, const std::array<End, 2>& ends,
+  Skin(const Line& line, bodies::Outline outline, const std::array<End, 2>& ends,
        const std::array<bool, 2>& on_wall = {false, false});
 
-  const rigid::Outline& outline() const { return outline_; }
+  const bodies::Outline& outline() const { return outline_; }
   std::size_t points() const { return places_.size(); }
   const Attached& place(std::size_t k) const { return places_[k]; }
   SkinState state(const BeamMotion& beam) const;
@@ -78,7 +78,7 @@ class Skin {
   void find_walls(const Line& line, const std::array<End, 2>& ends, const std::array<bool, 2>& on_wall);
   void find_places_of_modes(const Line& line, const std::array<End, 2>& ends);
 
-  rigid::Outline outline_;
+  bodies::Outline outline_;
   std::vector<Attached> places_;
   std::array<bool, 2> upright_{false,
                                false};  ///< the first and the last point belong to a section that cannot turn

@@ -17,19 +17,14 @@
 #include "common/core/archive.hpp"
 #include "common/core/time/backward_difference.hpp"
 #include "common/core/types.hpp"
-#include "common/grid/geometry/interface_geometry.hpp"
+#include "solid_solver/bodies/outline.hpp"
 #include "solid_solver/rigid/inertia.hpp"
 
 namespace fsi::rigid {
 
 using Vec3 = Eigen::Vector3d;  ///< along x, along y, rotation
 
-/// What the coupler sees of the body: its points where the gas is.
-struct Outline {
-  std::vector<double> x;  ///< reference positions, 2 n component-major
-  grid::Curve ends = grid::Curve::closed;
-  double orientation = 1;  ///< of the normals (grid::normals) [-]
-};
+using bodies::Outline;
 
 struct Pose {
   Vec2 centre = Vec2::Zero();  ///< of mass

@@ -1,9 +1,9 @@
 #include "solid_solver/rigid/port.hpp"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <array>
 #include <limits>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -15,41 +15,16 @@ namespace {
 
 constexpr std::array<const char*, 8> quantities{"u1", "u2", "v1", "v2", "P11", "P12", "P21", "P22"};
 
-std::vector<double> numbers(const Eigen::VectorXd& values) {
-  return {values.begin(), values.end()};
-}
-
 }  // namespace
 
 RigidParticipant::RigidParticipant(const Setup& setup, const SolidSpec& spec)
-    : setup_(setup),
-      spec_(spec),
+    : bodies::BodyParticipant(setup, spec, quantities),
       from_case_(body_from_case(spec)),
       body_(from_case_.body),
-      fields_(setup.run_dir, "solid_" + spec.name),
-      own_(own_load(0)),
-      initial_(totals()) {
-  place_grids();
-  open_tables();
-}
-
-wire::Hello RigidParticipant::hello() const {
-  wire::Hello hello;
-  hello.role = "solid";
-  hello.name = spec_.name;
-  hello.law = spec_.law;
-  hello.config_digest = setup_.problem.digest;
-  hello.points = body_.points();
-  if (!from_case_.meets_gas) return hello;
-  const std::vector<std::string> gases = gases_at(spec_);
-  for (std::size_t k = 0; k < body_.outlines(); ++k) {
-    const Outline& outline = body_.outline(k);
-    hello.interfaces.push_back({.name = interface_name(spec_, gases[k]),
-                                .dimension = 2,
-                                .x = outline.x,
-                                .n = grid::normals(outline.x, outline.ends, outline.orientation)});
-  }
-  return hello;
+      own_(own_load(0)) {
+  Shape shape{.outlines = {}, .points = body_.points(), .meets_gas = from_case_.meets_gas};
+  for (std::size_t k = 0; k < body_.outlines(); ++k) shape.outlines.push_back(body_.outline(k));
+  begin(std::move(shape), "body", [&](std::size_t, std::size_t) { return body_.reference_centre(); });
 }
 
 TimeStepBid RigidParticipant::compute_time_step() const {
@@ -66,9 +41,9 @@ void RigidParticipant::fill(std::size_t k, wire::PredictedInterface& predicted) 
   }
   predicted.modal = {.modes = static_cast<std::int32_t>(body_.modes()),
                      .S = wire::lower_entries_of(body_.response().sparseView()),
-                     .g = numbers(body_.history(own_)),
+                     .g = bodies::numbers(body_.history(own_)),
                      .N = wire::entries_of(body_.mode_vectors(k).sparseView()),
-                     .q_dot = numbers(body_.modal_velocity())};
+                     .q_dot = bodies::numbers(body_.modal_velocity())};
 }
 
 void RigidParticipant::apply_bcs(double /*t*/, ProjectedStates projected) {
@@ -79,12 +54,12 @@ void RigidParticipant::apply_bcs(double /*t*/, ProjectedStates projected) {
                         : Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(q_dot.data(), body_.modes())));
   }
   if (alone) return;
+  std::vector<bodies::GasLoad> loads;
   for (std::size_t k = 0; k < projected.size(); ++k) {
     const wire::ProjectedInterface& gas = *projected[k];
-    const GasLoad load = load_of_gas(body_.positions(k), gas.n, gas.w_n, gas.v_n);
-    load_ = k == 0 ? load : load_ + load;
+    loads.push_back(bodies::load_of_gas(body_.positions(k), gas.n, gas.w_n, gas.v_n));
   }
-  impulse_.add(load_, dt_);
+  take(loads);
 }
 
 /// Any number of substeps is one: nothing happens inside a body during a step.
@@ -94,73 +69,35 @@ void RigidParticipant::advance(double t, double dt, int /*substeps*/, ProjectedS
   if (!spec_.fixed) body_.advance(dt);
 }
 
-std::vector<io::GridOutput> RigidParticipant::fields() {
-  std::vector<io::GridOutput> grids;
-  for (Drawn& drawn : drawn_) {
-    const int n = drawn.reference.layout().n1;
-    for (int j = 0; j < 2; ++j) {
-      for (int i = 0; i < n; ++i) {
-        const Vec2 x_bar(drawn.reference(0, i, j), drawn.reference(1, i, j));
-        const Vec2 x = body_.position(x_bar), v = body_.velocity_at(x);
-        for (int c = 0; c < 2; ++c) {
-          drawn.state(c, i, j) = x[c] - x_bar[c];
-          drawn.state(2 + c, i, j) = v[c];
-        }
-      }
-    }
-    std::vector<io::NamedPlane> planes;
-    for (std::size_t k = 0; k < quantities.size(); ++k) {
-      planes.push_back({quantities[k], drawn.state.view(), static_cast<int>(k)});
-    }
-    grids.push_back({.grid = drawn.grid,
-                     .x = drawn.reference.view(),
-                     .u = drawn.state.view(),
-                     .fields = std::move(planes)});
-  }
-  return grids;
+void RigidParticipant::values_at(const Vec2& x_bar, std::span<double> values) const {
+  const Vec2 x = body_.position(x_bar), v = body_.velocity_at(x);
+  std::ranges::copy(std::array<double, 8>{x[0] - x_bar[0], x[1] - x_bar[1], v[0], v[1], 0, 0, 0, 0},
+                    values.begin());
 }
 
-void RigidParticipant::write_fields(double t, std::uint64_t step) {
-  fields_.write(t, step, fields());
+void RigidParticipant::values_at(const bodies::DrawnPoint& point, std::span<double> values) const {
+  values_at(point.x_bar, values);
 }
 
-/// The body as it is: predicted where the others broke.
-void RigidParticipant::write_last_state(double t, std::uint64_t step) {
-  fields_.write_apart("last_state", t, step, fields());
-}
-
-void RigidParticipant::archive(Archive& archive) {
+void RigidParticipant::archive_motion(Archive& archive) {
   archive.inside("body", [&] { body_.archive(archive); });
   archive.values("own", {own_.data(), 3});
-  archive.inside("load", [&] { load_.archive(archive); });
-  archive.inside("impulse", [&] { impulse_.archive(archive); });
-  archive.number("dt", dt_);
-  archive.inside("fields", [&] { fields_.archive(archive); });
-  archive.inside("forces", [&] { forces_->archive(archive); });
-  if (probe_table_) archive.inside("probes", [&] { probe_table_->archive(archive); });
 }
 
 void RigidParticipant::write_tables(double t, double /*dt*/, ProjectedStates /*projected*/) {
+  std::vector<double> probes(quantities.size() * probe_places_.size());
+  for (std::size_t k = 0; k < probe_places_.size(); ++k)
+    values_at(probe_places_[k], std::span(probes).subspan(k * quantities.size(), quantities.size()));
   const Pose& pose = body_.pose();
   const Vec3 v = body_.velocity();
-  forces_->row(t, load_, {.centre = pose.centre, .velocity = {v[0], v[1]}, .angle = pose.angle});
-  if (!probe_table_) return;
-  std::vector<double> row{t};
-  for (const Vec2& x_bar : probes_) {
-    const Vec2 x = body_.position(x_bar), velocity = body_.velocity_at(x);
-    row.insert(row.end(), {x[0] - x_bar[0], x[1] - x_bar[1], velocity[0], velocity[1], 0, 0, 0, 0});
-  }
-  probe_table_->row(row);
+  write_rows(t, {.centre = pose.centre, .velocity = {v[0], v[1]}, .angle = pose.angle}, probes);
 }
 
-void RigidParticipant::report(double /*t*/, io::Part& part) const {
-  part.health["min_det_F"] = 1;
-  part.conservation = conservation_of(
-      totals(), initial_, impulse_.sum(),
-      !spec_.body_force && !spec_.body_fitted.empty() && spec_.body_fitted.front().curve.closed());
+bool RigidParticipant::is_surrounded() const {
+  return !spec_.body_force && !spec_.body_fitted.empty() && spec_.body_fitted.front().curve.closed();
 }
 
-BodyTotals RigidParticipant::totals() const {
+bodies::BodyTotals RigidParticipant::totals() const {
   return {.momentum = body_.momentum(),
           .angular_momentum = body_.angular_momentum(),
           .energy = body_.kinetic_energy()};
@@ -172,29 +109,6 @@ Vec3 RigidParticipant::own_load(double t) const {
   const Vec2& centre = body_.reference_centre();
   return from_case_.area * Vec3(spec_.body_force->c1(centre[0], centre[1], t),
                                 spec_.body_force->c2(centre[0], centre[1], t), 0);
-}
-
-void RigidParticipant::open_tables() {
-  forces_.emplace(setup_, spec_.name);
-  probes_ = probe_places(setup_, spec_.name);
-  probe_table_ = probe_table(setup_, spec_.name, quantities);
-}
-
-void RigidParticipant::place_grids() {
-  for (std::size_t k = 0; k < body_.outlines(); ++k) {
-    const Outline& outline = body_.outline(k);
-    const auto n = static_cast<int>(body_.points(k));
-    Drawn& drawn = drawn_.emplace_back();
-    drawn.grid = k == 0 ? "body" : "body_" + gases_at(spec_)[k];
-    drawn.reference = Field(Layout(n, 2), 2);
-    drawn.state = Field(Layout(n, 2), static_cast<int>(quantities.size()));
-    for (int i = 0; i < n; ++i) {
-      for (int c = 0; c < 2; ++c) {
-        drawn.reference(c, i, 0) = outline.x[static_cast<std::size_t>(c * n + i)];
-        drawn.reference(c, i, 1) = body_.reference_centre()[c];
-      }
-    }
-  }
 }
 
 }  // namespace fsi::rigid

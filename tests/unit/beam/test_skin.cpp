@@ -21,7 +21,7 @@ constexpr std::array cantilever{End::clamped, End::free}, loose{End::free, End::
 const Section soft{.EA = 3, .GA = 1, .EI = 0.02, .mass = 0.5, .inertia = 0.01};
 
 /// A slab with rounded ends around the line.
-rigid::Outline slab() {
+bodies::Outline slab() {
   const grid::SmoothedPolygon polygon{.corners = {{-0.05, -0.05}, {1.05, -0.05}, {1.05, 0.05}, {-0.05, 0.05}},
                                       .ends = grid::Curve::closed};
   return {.x = grid::points_on(grid::smoothed_polygon(polygon), 121)};
@@ -58,7 +58,7 @@ TEST(BeamSkin, ItsModeVectorsGiveTheNormalVelocityOfItsPoints) {
 /// One side of the beam, between walls at its ends: these neither turn nor slide off them with free sections.
 TEST(BeamSkin, FreeEndsKeepToTheWallsAndSoDoTheirModes) {
   constexpr std::size_t points = 21;
-  rigid::Outline side{.x = std::vector<double>(2 * points, 0.05), .ends = grid::Curve::open};
+  bodies::Outline side{.x = std::vector<double>(2 * points, 0.05), .ends = grid::Curve::open};
   for (std::size_t k = 0; k < points; ++k) side.x[k] = static_cast<double>(k) / (points - 1);
   const BeamMotion motion = bent(loose);
   const Skin skin(motion.model().line(), side, loose, {true, true});
@@ -79,7 +79,7 @@ TEST(BeamSkin, FreeEndsKeepToTheWallsAndSoDoTheirModes) {
 /// The face of a bar in a duct: its corners slide along the walls, which is where the bar goes.
 TEST(BeamSkin, TheFaceOfABarGoesWithIt) {
   constexpr std::size_t points = 9;
-  rigid::Outline face{.x = std::vector<double>(2 * points, 1), .ends = grid::Curve::open};
+  bodies::Outline face{.x = std::vector<double>(2 * points, 1), .ends = grid::Curve::open};
   for (std::size_t k = 0; k < points; ++k)
     face.x[points + k] = 0.1 * static_cast<double>(k) / (points - 1) - 0.05;
   BeamMotion motion(straight(plate_section(2, 3, 3, 0.1), 10), loose);
@@ -134,7 +134,7 @@ TEST(BeamSkin, BetweenTheNodesItHasNoCorners) {
   // The direction of a bent outline between points closer than
   // the nodes, by fourth-order smoothness of the cubics.
   const BeamMotion motion = bent(cantilever);
-  rigid::Outline line{.x = {}, .ends = grid::Curve::open};
+  bodies::Outline line{.x = {}, .ends = grid::Curve::open};
   constexpr std::size_t points = 97;
   for (const double y : {0.0, 1.0}) {
     for (std::size_t k = 0; k < points; ++k)

@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numbers>
 #include <cmath>
 #include <functional>
-#include <numbers>
 #include <string>
 #include <vector>
 
@@ -14,8 +14,8 @@
 #include "common/interface/modal.hpp"
 #include "common/wire/sparse.hpp"
 #include "coupler/exchange/interface_exchange.hpp"
+#include "solid_solver/bodies/load.hpp"
 #include "solid_solver/rigid/body.hpp"
-#include "solid_solver/rigid/load.hpp"
 
 namespace fsi::rigid {
 namespace {
@@ -63,7 +63,7 @@ class InGas {
   }
 
   const RigidBody& body() const { return body_; }
-  const GasLoad& impulse() const { return impulse_.sum(); }
+  const bodies::GasLoad& impulse() const { return impulse_.sum(); }
 
  private:
   RigidBody body_;
@@ -71,7 +71,7 @@ class InGas {
   Vec3 own_;
   InterfaceExchange exchange_;
   coupler::ModalBody modes_;
-  Impulse impulse_;
+  bodies::Impulse impulse_;
   double t_ = 0;
   std::uint64_t step_ = 0;
 
@@ -106,7 +106,7 @@ class InGas {
     wire::ProjectedInterface answer;
     exchange_.fill_state(answer);
     if (dt > 0) body_.correct(Eigen::Map<const Eigen::VectorXd>(exchange_.q_dot().data(), 3));
-    impulse_.add(load_of_gas(body_.positions(), answer.n, answer.w_n, answer.v_n), dt);
+    impulse_.add(bodies::load_of_gas(body_.positions(), answer.n, answer.w_n, answer.v_n), dt);
   }
 };
 

@@ -1,8 +1,8 @@
-#include "solid_solver/rigid/body_report.hpp"
+#include "solid_solver/bodies/report.hpp"
 
 #include <fmt/format.h>
 
-namespace fsi::rigid {
+namespace fsi::bodies {
 
 std::map<std::string, double> conservation_of(const BodyTotals& now, const BodyTotals& initial,
                                               const GasLoad& impulse, bool only_gas) {
@@ -57,4 +57,4 @@ std::optional<io::CsvWriter> probe_table(const Setup& setup, const std::string& 
   return table;
 }
 
-}  // namespace fsi::rigid
+}  // namespace fsi::bodies

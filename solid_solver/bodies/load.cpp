@@ -1,8 +1,8 @@
-#include "solid_solver/rigid/load.hpp"
+#include "solid_solver/bodies/load.hpp"
 
 #include <cstddef>
 
-namespace fsi::rigid {
+namespace fsi::bodies {
 
 GasLoad operator+(const GasLoad& a, const GasLoad& b) {
   return {.force = a.force + b.force, .moment = a.moment + b.moment, .power = a.power + b.power};
@@ -43,4 +43,4 @@ void Impulse::add(const GasLoad& load, double dt) {
   last_ = load;
 }
 
-}  // namespace fsi::rigid
+}  // namespace fsi::bodies

@@ -1,13 +1,12 @@
 #pragma once
-/// What the gas does to a rigid body along its outline.
+/// What the gas does to a body along its outline.
 
 #include <span>
 
 #include "common/core/archive.hpp"
 #include "common/core/types.hpp"
-#include "solid_solver/rigid/body.hpp"
 
-namespace fsi::rigid {
+namespace fsi::bodies {
 
 struct GasLoad {
   Vec2 force = Vec2::Zero();
@@ -35,4 +34,4 @@ class Impulse {
   GasLoad sum_, last_;
 };
 
-}  // namespace fsi::rigid
+}  // namespace fsi::bodies

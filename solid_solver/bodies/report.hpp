@@ -11,9 +11,9 @@
 #include "common/core/types.hpp"
 #include "common/io/csv_writer.hpp"
 #include "common/program/program.hpp"
-#include "solid_solver/rigid/load.hpp"
+#include "solid_solver/bodies/load.hpp"
 
-namespace fsi::rigid {
+namespace fsi::bodies {
 
 /// Of a body, per unit thickness.
 struct BodyTotals {
@@ -51,4 +51,4 @@ std::vector<Vec2> probe_places(const Setup& setup, const std::string& name);
 std::optional<io::CsvWriter> probe_table(const Setup& setup, const std::string& name,
                                          std::span<const char* const> quantities);
 
-}  // namespace fsi::rigid
+}  // namespace fsi::bodies
