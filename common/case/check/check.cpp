@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/case/check/check_beam.hpp"
 #include "common/case/check/check_ends.hpp"
 #include "common/case/check/check_expectations.hpp"
 #include "common/case/check/check_geometry.hpp"
@@ -308,6 +309,7 @@ void check_case(const Case& problem, const Node& root) {
   check_reference(problem, root);
   check_interfaces(problem, root);
   check_held_ends(problem, root);
+  check_beams(problem, root);
   check_motion(problem, root);
   check_projection(problem, root);
   check_probes(problem, root);

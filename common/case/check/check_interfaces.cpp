@@ -143,9 +143,9 @@ void check_named(const Case& problem, const SolidSpec& solid, const std::string&
     const FluidSpec* fluid = fluid_named(problem, name);
     if (first == nullptr || fluid == nullptr || fluid->p_e == first->p_e) continue;
     fail(place.place, path,
-         fmt::format(
-             "p_e, at which the solid is free of stress, is {} in {} and {} in {}; write the same in both",
-             first->p_e, first->path, fluid->p_e, fluid->path));
+         fmt::format("p_e, at which the solid is free of stress, is {} in {} and {} in {}; write the same in "
+                     "both (either may begin at another pressure)",
+                     first->p_e, first->path, fluid->p_e, fluid->path));
   }
 }
 

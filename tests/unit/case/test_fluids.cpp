@@ -124,7 +124,7 @@ TEST(Fluids, MistakesSayWhereAndWhatToWrite) {
   EXPECT_EQ(mistake_in(with("gamma: 1.6\n    p_e: 1", "gamma: 1.6\n    p_e: 2")),
             "case.yaml:30:7: solids.piston.boundary: p_e, at which the solid is free of stress, is 1 in "
             "fluids.left and "
-            "2 in fluids.right; write the same in both");
+            "2 in fluids.right; write the same in both (either may begin at another pressure)");
   EXPECT_EQ(mistake_in(with("  right:\n    gamma", "  piston:\n    gamma")),
             "case.yaml:23:3: solids: `piston` is the name of another program; choose another");
   EXPECT_EQ(mistake_in(with("  left:\n    p_e", "  coupler:\n    p_e")),

@@ -1,0 +1,112 @@
+#include "common/case/check/check_beam.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "common/case/grids/grid_points.hpp"
+#include "common/case/schema/laws.hpp"
+#include "common/core/choices.hpp"
+
+namespace fsi {
+
+namespace {
+
+using config::fail;
+using config::Node;
+
+/// Places along the line at which its thickness is looked at.
+constexpr int stations = 64;
+
+/// On the polygon through the points of the line; part 0 .. 1 of them.
+Vec2 on_line(const BeamSpec& beam, double part) {
+  const double s = part * static_cast<double>(beam.line.size() - 1);
+  const auto k = std::min(static_cast<std::size_t>(s), beam.line.size() - 2);
+  return beam.line[k] + (s - static_cast<double>(k)) * (beam.line[k + 1] - beam.line[k]);
+}
+
+/// The largest one.
+double check_thickness(const SolidSpec& solid, const Node& beam) {
+  double largest = 0;
+  for (int k = 0; k < stations; ++k) {
+    const Vec2 x = on_line(*solid.beam, (k + 0.5) / stations);
+    const double d = solid.beam->thickness(x.x(), x.y(), 0);
+    largest = std::max(largest, d);
+    if (d > 0 && std::isfinite(d)) continue;
+    fail(beam.find("thickness")->place, fmt::format("solids.{}.beam.thickness", solid.name),
+         fmt::format("is {:.4g} at ({:.4g}, {:.4g}); let it be positive along the line [length]", d, x.x(),
+                     x.y()));
+  }
+  return largest;
+}
+
+/// Of the outline, or of the grid.
+Eigen::AlignedBox2d box_of(const SolidSpec& solid) {
+  Eigen::AlignedBox2d box;
+  if (!solid.body_fitted.empty()) {
+    const std::vector<double>& x = solid.body_fitted.front().curve.x;
+    for (std::size_t k = 0; k < x.size() / 2; ++k) box.extend(Vec2(x[k], x[x.size() / 2 + k]));
+    return box;
+  }
+  constexpr int along = 32;
+  for (int k = 0; k <= along; ++k) {
+    const double part = static_cast<double>(k) / along;
+    for (const double end : {0.0, 1.0}) {
+      box.extend(place(solid.grid, part, end, 0));
+      box.extend(place(solid.grid, end, part, 0));
+    }
+  }
+  return box;
+}
+
+void check_line(const SolidSpec& solid, const Node& beam, double thickness) {
+  const Eigen::AlignedBox2d box = box_of(solid);
+  for (const Vec2& x : solid.beam->line) {
+    if (box.exteriorDistance(x) <= thickness) continue;
+    fail(beam.find("line")->place, fmt::format("solids.{}.beam.line", solid.name),
+         fmt::format("({:.4g}, {:.4g}) is not in the body, which lies in ({:.4g}, {:.4g}) .. ({:.4g}, "
+                     "{:.4g}); the line "
+                     "goes along the middle of the body",
+                     x.x(), x.y(), box.min().x(), box.min().y(), box.max().x(), box.max().y()));
+  }
+}
+
+/// The end of the line that is nearest to an end of the outline.
+void check_foot(const SolidSpec& solid, const Node& beam, std::size_t end) {
+  const CurveSpec& curve = solid.body_fitted.front().curve;
+  const std::size_t n = curve.x.size() / 2, k = end == 0 ? 0 : n - 1;
+  const Vec2 x(curve.x[k], curve.x[n + k]);
+  const bool last = (solid.beam->line.back() - x).norm() < (solid.beam->line.front() - x).norm();
+  const BeamEnd kind = solid.beam->ends[last ? 1 : 0];
+  if (kind == BeamEnd::clamped || kind == BeamEnd::guided) return;
+  const Node* ends = beam.find("ends");
+  fail(ends != nullptr ? ends->place : beam.place, fmt::format("solids.{}.beam.ends", solid.name),
+       fmt::format(
+           "the outline ends at ({:.4g}, {:.4g}) on a wall, and the {} end of the line there is {}: the "
+           "section "
+           "would {} and leave the wall, and the grid of the gas with it; write clamped, or guided (it moves "
+           "across the line)",
+           x.x(), x.y(), last ? "last" : "first", name_of(kind), kind == BeamEnd::free ? "move" : "turn"));
+}
+
+}  // namespace
+
+void check_beams(const Case& problem, const Node& root) {
+  for (const SolidSpec& solid : problem.solids) {
+    if (solid.law != beam_law || !solid.beam) continue;
+    const Node& beam = *root.find("solids")->find(solid.name)->find("beam");
+    check_line(solid, beam, check_thickness(solid, beam));
+    if (problem.fluids.empty() && !problem.time.dt) {
+      fail(root.find("time")->place, "time",
+           "a beam without a gas has no largest step of its own; write `dt` [time]");
+    }
+    if (solid.body_fitted.empty() || solid.body_fitted.front().curve.closed() || solid.beam->closed) continue;
+    for (const std::size_t end : {0U, 1U}) check_foot(solid, beam, end);
+  }
+}
+
+}  // namespace fsi
