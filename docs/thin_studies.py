@@ -2,8 +2,11 @@
 law beside the continuum, and solids that can hardly change their volume."""
 
 import csv
+import subprocess
 import sys
+import tempfile
 from pathlib import Path
+from xml.etree import ElementTree
 
 import numpy as np
 
@@ -65,6 +68,20 @@ def _panels(tools, case, grids):
     return f"last run: `{typed}`\n\n{_table(heading, rows)}\n![deflection of the tip](figures/{case}.png)\n"
 
 
+# --- the beam alone
+MECHANICS = ["build/release/bin/test_beam_mechanics", "--gtest_filter=BeamModel.*:BeamMotion.*"]
+
+
+def _mechanics():
+    """What the tests of the beam's mechanics note of themselves: relative errors, and orders where two resolutions are compared."""
+    with tempfile.TemporaryDirectory() as scratch:
+        file = Path(scratch) / "found.xml"
+        subprocess.run([*MECHANICS, f"--gtest_output=xml:{file}"], cwd=Path(__file__).resolve().parent.parent, check=True,
+                       stdout=subprocess.DEVNULL)
+        notes = [(one.get("name"), *one.get("value").split()) for one in ElementTree.parse(file).iter("property")]
+    return f"`{MECHANICS[0]} '{MECHANICS[1]}'`\n\n{_table(['', 'relative error', 'order'], notes)}"
+
+
 def _lines(directory):
     from fsi_launch.plot.one_run import beams
     from fsi_launch.plot.reading import data
@@ -116,6 +133,7 @@ def _incompressible(tools):
 
 def studies(tools):
     """(title, function) of each study; `tools`: the functions of record_results."""
+    yield "Beam by law, alone", _mechanics
     yield "Shocked panel, from grid to grid", lambda: _panels(tools, "shocked_panel", PANELS)
     yield "Shocked panel on its step", lambda: _panels(tools, "shocked_panel_on_step", ON_STEP)
     yield "Beams by law beside the continuum, h = 1/80", lambda: _beside(tools)

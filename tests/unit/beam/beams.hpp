@@ -1,9 +1,13 @@
 #pragma once
 /// Beams for the tests.
 
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
 #include <Eigen/Core>
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include "solid_solver/beam/motion.hpp"
@@ -11,6 +15,12 @@
 namespace fsi::beam::testing {
 
 using std::numbers::pi;
+
+/// Notes in the test's XML what docs/results.md shows. @param coarse error with half the resolution, where there is an order
+inline void note(const std::string& what, double error, double coarse = 0) {
+  const std::string order = coarse > 0 ? fmt::format("{:.2f}", std::log2(coarse / error)) : "-";
+  ::testing::Test::RecordProperty(what, fmt::format("{:.1e} {}", error, order));
+}
 
 /// A beam whose stretch and shear are of the order of 1e-8.
 inline Section slender(double mass = 0) {
