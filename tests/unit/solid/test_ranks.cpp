@@ -157,7 +157,7 @@ void expect_same(const Archive::Entries& one, const Archive::Entries& other, con
 void expect_same_on_ranks(const MakeSolid& make, int steps) {
   const Archive::Entries whole = after_steps(make, 1, steps);
   ASSERT_FALSE(whole.empty());
-  for (const int ranks : {2, 3, 7})
+  for (const int ranks : {2, 3, 7, 13})
     expect_same(whole, after_steps(make, ranks, steps), std::to_string(ranks) + " ranks");
   expect_same(whole, after_steps(make, 4, steps, 3), "4 ranks with new rows every 3 steps");
 }
