@@ -2,38 +2,29 @@
 """Gases and solids that several ranks compute: the same files to the bit as with one, for any number of ranks and whatever rows they
 get, also after a restart on other ranks; and when a rank is killed or stopped, or mpirun is, all end and the rank is named.
 
-test_ranks.py --kills N [SEED]           so many runs with two ranks for the gas and two for the solid, of which somebody is killed or stopped at a random moment
+test_ranks.py --kills N [SEED]           so many runs with two ranks for gas and solid each, of which somebody is killed or stopped
 test_ranks.py --all [RANKS..] [CASE..]  all shipped cases, or these, for some steps, with so many ranks (default: 2 3 4 7)
 test_ranks.py --restarts [RANKS..] [CASE..]  the same, from a checkpoint of the first number of ranks on with the second, and so on around
                                         (default: 3 2 4)
 """
 
-import json
 import os
-import random
 import re
 import shutil
 import signal
-import subprocess
 import sys
-import tempfile
 import unittest
 from pathlib import Path
 
-from running import BIN, EndToEnd, FSI, Launched, PATIENT, ROOT, let_pass, processes, until
-from test_restart import Restarting, health, numbers, results
-from fsi_launch.living.ranks import knows_ranks
+from running import BIN, EndToEnd, PATIENT, processes, until
+from test_restart import Restarting
+from many_on_ranks import LASTING, RECUT, compare_all, kill_again_and_again, restart_all
 
-# Other rows for everybody after so many steps, in whatever way.
-RECUT = "from fsi_launch.living import ranks\nranks.EXTRA = ['--recut', '{every}']\n"
 MISSING = [what for what, there in (("libfsi_ranks_mpi.so", (BIN / "libfsi_ranks_mpi.so").is_file()),
                                     ("mpirun", shutil.which("mpirun"))) if not there]
 
-# A run that lasts, with a gas of two ranks, or with a solid of two.
-LASTING = ("elastic_piston", "--set", "grid.factor=2", "--set", "time.dt=1e-7", "--set", "output.times=[1e-6, 0.8]", "--set",
-           "expect={}", "--ranks", "fluid=2")
+# As LASTING, with a solid of two ranks.
 LASTING_SOLID = (*LASTING[:-1], "solid=2")
-
 
 # A panel between two gases, each with a grid along it before a background of two levels.
 TWO_GASES = """
@@ -273,133 +264,6 @@ class Refusals(EndToEnd):
 
     def test_no_number(self):
         self.assertIn("'fluid=0' is not NAME=N with N from 1 to 64", self.refused("fluid=0"))
-
-
-# --- all shipped cases
-
-def few_steps(case, steps):
-    """Options for a run of about so many steps."""
-    answer = subprocess.run([BIN / "fsi_case", "check", case], capture_output=True, text=True, check=True, cwd=ROOT).stdout
-    steps_of = re.search(r"steps? of ([0-9.e+-]+)[;,\s]", answer)
-    if steps_of is None:
-        return ["--set", "expect={}", "--set", "output.checkpoint_at_end=true"]
-    end = steps * float(steps_of.group(1))
-    return ["--set", f"time.end={end:.6g}", "--set", f"output.times=[{end / 2:.6g}, {end:.6g}]", "--set", "expect={}",
-            "--set", "output.checkpoint_at_end=true"]
-
-
-def digest_of(directory):
-    """What two runs must have in common: files, numbers, the state in the checkpoint."""
-    import h5py
-    state = {}
-    for path in sorted(directory.glob("checkpoints/*/*.h5")):
-        with h5py.File(path) as file:
-            def take(name, one, of=path.name):
-                if isinstance(one, h5py.Dataset) and "report" not in name:
-                    state[of, name] = one[()].tobytes()
-            file.visititems(take)
-    run = Launched.__new__(Launched)
-    run.directory = directory
-    return results(directory), numbers(run.summary()), health(directory), state
-
-
-def shipped(cases):
-    """(path, name, who can have ranks) of the shipped cases where somebody can, or those of them that are named."""
-    for path in sorted((ROOT / "configs").glob("*.yaml")):
-        if path.stem == "template" or cases and path.stem not in cases:
-            continue
-        told = json.loads(subprocess.run([BIN / "fsi_case", "resolve", path], capture_output=True, text=True, check=True, cwd=ROOT).stdout)
-        able = [one["name"] for one in told["participants"] if knows_ranks(one["executable"])]
-        if able:
-            yield path, path.stem, able
-
-
-def on_ranks(able, number):
-    return ["--ranks", ",".join(f"{name}={number}" for name in able)] if number > 1 else []
-
-
-def restart_all(numbers_of_ranks, cases, steps=16):
-    """The names of cases whose restart on other ranks is not the run that was never interrupted."""
-    failed = []
-    for path, case, able in shipped(cases):
-        with tempfile.TemporaryDirectory() as scratch:
-            options = few_steps(f"configs/{path.name}", steps)
-            whole = Launched(Path(scratch), case, *options, out="whole")
-            verdicts = [] if whole.wait() == 0 else [f"1: {whole.stderr.strip().splitlines()[-1]}"]
-            for before, after in zip(numbers_of_ranks, [*numbers_of_ranks[1:], numbers_of_ranks[0]]):
-                if verdicts and "same" not in verdicts[-1]:
-                    break
-                verdicts.append(restarted(Path(scratch), case, [*options, *on_ranks(able, before)], on_ranks(able, after), whole))
-                verdicts[-1] = f"{before} -> {after}: {verdicts[-1]}"
-        failed += [] if all("same" in verdict for verdict in verdicts) else [case]
-        print(f"{case:25} {', '.join(verdicts)}", flush=True)
-    return failed
-
-
-def restarted(scratch, case, options, ranks, whole):
-    """What became of a run that goes on from its first checkpoint on other ranks, in a word."""
-    for every in (10, 4, 2):    # of few steps
-        run = Launched(scratch, case, *options, "--set", f"output.checkpoint_every={every}", out=f"run{len(list(scratch.iterdir()))}")
-        if run.wait() != 0:
-            return run.stderr.strip().splitlines()[-1]
-        if len(run.checkpoints()) > 1:
-            break
-    for step in run.checkpoints()[1:]:
-        shutil.rmtree(next(one for one in run.directory.glob("checkpoints/*") if int(one.name) == step))
-    again = Launched(scratch, "--restart", str(run.directory), *ranks, out=None)
-    again.directory = run.directory
-    if again.wait() != 0:
-        return again.stderr.strip().splitlines()[-1]
-    same = [mine == its for mine, its in zip(digest_of(whole.directory)[:3], digest_of(again.directory)[:3])]
-    return f"same from step {run.checkpoints()[0]}" if all(same) else f"DIFFERENT {same}"
-
-
-def compare_all(numbers_of_ranks, cases, steps=16):
-    failed = []
-    with tempfile.TemporaryDirectory() as scratch:
-        for path, case, able in shipped(cases):
-            verdicts = []
-            whole = None
-            for number, every in [(1, 0), *((n, 0) for n in numbers_of_ranks), (numbers_of_ranks[-1], 5)]:
-                folder = Path(scratch) / case / f"{number}_{every}"
-                folder.mkdir(parents=True)
-                run = Launched(folder, case, *few_steps(f"configs/{path.name}", steps), *on_ranks(able, number),
-                               script=RECUT.format(every=every) if every else None)
-                if run.wait() != 0:
-                    verdicts.append(f"{number}: {run.stderr.strip().splitlines()[-1]}")
-                    break
-                found = digest_of(run.directory)
-                whole = whole or found
-                same = [mine == its for mine, its in zip(whole, found)]
-                verdicts.append(f"{number}{'*' if every else ''}: {'same' if all(same) else f'DIFFERENT {same}'}")
-            ok = all("same" in verdict for verdict in verdicts)
-            failed += [] if ok else [case]
-            print(f"{case:25} {', '.join(verdicts)}", flush=True)
-            shutil.rmtree(Path(scratch) / case)
-    return failed
-
-
-def kill_again_and_again(runs, seed):
-    """The number of runs that did not end as they should."""
-    chance, failed = random.Random(seed), 0
-    for number in range(runs):
-        with tempfile.TemporaryDirectory() as scratch:
-            run = Launched(Path(scratch), *LASTING[:-1], "fluid=2,solid=2")
-            run.until_stepping()
-            let_pass(chance.uniform(0, 0.5))
-            ranks = {f"rank {rank} of {name}": int(pid) for name in ("fluid", "solid")
-                     for rank, pid in re.findall(r"rank (\d+) is process (\d+)", run.log(name))}
-            others = {f"{one.program} of {one.name}": one.pid for one in processes.programs_of(run.directory)
-                      if one.pid not in ranks.values()}
-            who, pid = chance.choice(sorted((ranks | others).items()))
-            word = chance.choice(["SIGKILL", "SIGKILL", "SIGSTOP"]) if "mpirun" not in who else "SIGKILL"
-            os.kill(pid, signal.Signals[word])
-            code, reason = run.wait(), run.summary()["reason"]
-            gone = until(lambda: not run.leftovers() and not any(Path(f"/proc/{one}").exists() for one in ranks.values()))
-            sound = code == 4 and gone and who.split()[-1] in reason
-            failed += 0 if sound else 1
-            print(f"{number:4} {word} {who:28} exit {code}: {'' if sound else 'WRONG '}{reason}", flush=True)
-    return failed
 
 
 if __name__ == "__main__":
