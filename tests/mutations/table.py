@@ -104,8 +104,6 @@ MUTATIONS = [
     ("levels on ranks: what averages are made of is not brought", "fluid_solver/levels/levels_on_ranks.cpp",
      "level.to_restrict = averages_of(scene, l, level.restricted);", "level.to_restrict = scene.share.nothing_yet();", "test_fluid",
      "LevelsOnRanks*"),
-    ("levels on ranks: averages of halos are not brought", "common/ranks/rows/share.cpp",
-     "if (one.averaged != nullptr) need_halos", "if (one.averaged == nullptr) need_halos", "test_fluid", "LevelsOnRanks*"),
     ("ranks: runs of one's own rows alone", "fluid_solver/component.cpp",
      "for (const grid::Interval& run : discretised_.row(j)) row.push_back({run.begin, run.end});",
      "for (const grid::Interval& run : discretised_.row(j))\n      if (rows_.owns(j)) row.push_back({run.begin, run.end});", "test_fluid",
