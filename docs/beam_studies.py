@@ -79,7 +79,7 @@ def _centrelines(tools, beam, name="beam", settings=()):
              f"({ends[t][-1][0]:.3f}, {ends[t][-1][1]:.3f})"]
             for t in sorted(ends) if t > 0 and all(t in pair for pair in pairs)]
     heading = ["t", "j = 8 against 16", "j = 16 against 32", "order", "the end of the beam, j = 32"]
-    return f"`{typed}`\n\n" + _table(heading, rows) + "\n" + tools.costs(kept)
+    return f"`{typed}`\n\n" + _table(heading, rows) + ("" if settings else "\n" + tools.costs(kept))
 
 
 # --- alone
