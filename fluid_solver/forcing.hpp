@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "common/core/field.hpp"
-#include "fluid_solver/gas_options.hpp"
 #include "common/ranks/rows/rank_rows.hpp"
+#include "fluid_solver/gas_options.hpp"
 #include "fluid_solver/state_vector.hpp"
 
 namespace fsi::fluid {

@@ -18,10 +18,10 @@
 #include "common/grid/geometry/near_curves.hpp"
 #include "common/grid/moving_grid.hpp"
 #include "common/grid/overlap/composite_grid.hpp"
+#include "common/ranks/rows/share.hpp"
 #include "fluid_solver/component.hpp"
 #include "fluid_solver/gas_options.hpp"
 #include "fluid_solver/levels/gas_levels.hpp"
-#include "common/ranks/rows/share.hpp"
 
 namespace fsi::fluid {
 

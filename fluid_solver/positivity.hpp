@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "common/grid/overlap/interpolation.hpp"
-#include "fluid_solver/kernels/sweep.hpp"
 #include "common/ranks/rows/rank_rows.hpp"
+#include "fluid_solver/kernels/sweep.hpp"
 
 namespace fsi::fluid {
 
