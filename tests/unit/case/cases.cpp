@@ -37,7 +37,7 @@ std::vector<std::string> config_paths() {
   return paths;
 }
 
-std::string text_of(const std::string& path) {
+std::string text_of_file(const std::string& path) {
   std::ifstream file(path);
   std::ostringstream text;
   text << file.rdbuf();

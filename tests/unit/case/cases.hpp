@@ -26,7 +26,7 @@ class TemporaryFolder {
 /// Paths of all files in configs/.
 std::vector<std::string> config_paths();
 
-std::string text_of(const std::string& path);
+std::string text_of_file(const std::string& path);
 
 /// Loads a case written as text in a file case.yaml.
 Case load_text(const std::string& text, const std::vector<std::string>& overrides = {},

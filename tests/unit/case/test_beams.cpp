@@ -11,7 +11,7 @@ namespace fsi {
 namespace {
 
 using tests::mistake_in;
-using tests::text_of;
+using tests::text_of_file;
 
 /// A beam of its own, without a gas.
 const std::string alone = R"(time: {end: 1, dt: 0.1}
@@ -30,8 +30,8 @@ TEST(Beams, MistakesSayWhereAndWhatToWrite) {
   struct Mistake {
     std::string text, setting, says;
   };
-  const std::string panel = text_of(FSI_ROOT "/configs/shocked_panel.yaml"),
-                    plate = text_of(FSI_ROOT "/configs/taylor_plate.yaml");
+  const std::string panel = text_of_file(FSI_ROOT "/configs/shocked_panel.yaml"),
+                    plate = text_of_file(FSI_ROOT "/configs/taylor_plate.yaml");
   EXPECT_EQ(mistake_in(alone), "");
   for (const auto& [text, setting, says] : std::vector<Mistake>{
            {panel, "solids.panel.beam.ends=[free, free]",

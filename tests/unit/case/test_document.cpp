@@ -36,7 +36,7 @@ std::vector<const Key*> all_keys() {
 }
 
 TEST(CaseFileDocument, IsTheOneInDocs) {
-  EXPECT_EQ(tests::text_of(FSI_ROOT "/docs/case_file.md"), case_file_document())
+  EXPECT_EQ(tests::text_of_file(FSI_ROOT "/docs/case_file.md"), case_file_document())
       << "docs/case_file.md is out of date: write it again with fsi_case document > docs/case_file.md";
 }
 
@@ -55,7 +55,7 @@ TEST(CaseFileDocument, NamesEveryLaw) {
 }
 
 TEST(Template, MentionsEveryKey) {
-  const std::string text = tests::text_of(FSI_ROOT "/configs/template.yaml");
+  const std::string text = tests::text_of_file(FSI_ROOT "/configs/template.yaml");
   for (const Key* key : all_keys()) {
     if (key->name == "equals") continue;  // the bare word is shown instead, with a comment
     const std::string name(key->name);

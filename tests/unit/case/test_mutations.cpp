@@ -262,7 +262,7 @@ TEST(DamagedCase, IsAMistakeWithItsPlaceOrFineButNeverACrash) {
   for (int seed = 1; seed <= damages; ++seed) {
     const std::string& path = paths[static_cast<std::size_t>(seed) % paths.size()];
     const tests::TemporaryFolder folder;
-    const std::string text = coarse(tests::text_of(path));
+    const std::string text = coarse(tests::text_of_file(path));
     const std::string damaged = seed % 3 == 0 ? Hostile(static_cast<unsigned>(seed), folder).mutate(text)
                                               : Mutator(static_cast<unsigned>(seed)).mutate(text);
     tally.load(folder.write("case.yaml", damaged), fmt::format("{}, seed {}", path, seed));
