@@ -2,7 +2,8 @@
 """Sources that are compiled together (TOGETHER in a CMakeLists.txt) define no name twice. Usage: check_together.py [ROOT]
 
 A compiler cache compiles each source alone and does not notice it; a build without one then fails. Looked at is what stands in
-anonymous namespaces: types, variables and functions; functions may be overloads of each other.
+anonymous namespaces: types, variables and functions; functions may be overloads of each other, but not of what a `using` brings
+there from elsewhere.
 """
 
 import os
@@ -14,6 +15,8 @@ BLOCK = re.compile(r"\bfsi_(?:library|program|test)\(\s*(\w+)\s+TOGETHER\b([^)]*
 NOISE = re.compile(r'//[^\n]*|/\*.*?\*/|R"(\w*)\(.*?\)\1"|"(?:\\.|[^"\\\n])*"|(?<!\w)\'(?:\\.|[^\'\\\n])+\'|^[ \t]*#[^\n]*', re.S | re.M)
 OPENS = re.compile(r"\bnamespace\s*\{")
 TYPE = re.compile(r"^(?:template\s*<.*?>\s*)?(?:struct|class|union|enum(?:\s+class)?)\s+(\w+)", re.S)
+USING = re.compile(r"^using\s+(?!namespace\b)[\w:]+::(\w+)\s*$")
+BROUGHT = "brought by using"    # in place of parameters
 REPEATABLE = re.compile(r"^using\b|^namespace\s+\w+\s*=|^(?:\[\[.*?\]\]\s*)?[A-Z][A-Z_]+\s*\(")  # aliases, and macros as TEST(..)
 FUNCTION = re.compile(r"([\w~]+)\s*\((.*)$", re.S)
 VARIABLE = re.compile(r"(\w+)\s*(?:\[[^\]]*\]\s*)*(?:=|$)")
@@ -62,6 +65,8 @@ def parameters(text):
 def key_of(head):
     """What must not be defined twice: a name, or a function's name and parameters."""
     head = TEMPLATE.sub("", head.strip())
+    if found := USING.match(head):
+        return found.group(1), BROUGHT
     if REPEATABLE.match(head):
         return None
     if found := TYPE.match(head):
@@ -96,6 +101,13 @@ def targets(root):
             yield found.group(1), [lists.parent / word for word in words if word.endswith(".cpp")]
 
 
+def clash(one, other):
+    """Whether two definitions of a name, told by their parameters, cannot stand beside each other."""
+    if BROUGHT in (one, other):
+        return one != other
+    return one is None or other is None or one == other
+
+
 def offences(root):
     for target, sources in targets(root):
         first = {}
@@ -104,7 +116,7 @@ def offences(root):
                 continue
             for (name, types), line in defined(source).items():
                 for other_types, place in first.get(name, ()):
-                    if types is None or other_types is None or types == other_types:
+                    if clash(types, other_types):
                         yield (f"{source.relative_to(root).as_posix()}:{line}: '{name}' is defined at {place} too, and {target} compiles "
                                "both together: give one of them a name of its own, or keep both in one place")
                         break

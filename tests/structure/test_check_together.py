@@ -35,6 +35,10 @@ class Together(unittest.TestCase):
         self.assert_twice("head", 'const char* const head = "a";', "constexpr std::array<int, 2> head{1, 2};")
         self.assert_twice("Kind", "enum class Kind { a };", "class Kind;")
 
+    def test_what_using_brings_beside_a_function_of_that_name_is_found(self):
+        self.assert_twice("text_of", "using tests::text_of;", "std::string text_of(const TwoBodies& bodies) { return bodies.text; }")
+        self.assert_twice("text_of", "int text_of(int x) { return x; }", "using tests::text_of;")
+
     def test_it_says_the_line(self):
         self.assertIn("b.cpp:7:", self.found("int f() { return 1; }", "/// Of\n/// it.\nint f() { return 2; }")[0])
 
