@@ -13,7 +13,7 @@ namespace fsi::wire {
 inline bool all_below(std::span<const std::int32_t> indices, std::size_t end) {
   unsigned outside = 0;
 #pragma omp simd reduction(| : outside)
-  for (std::size_t e = 0; e < indices.size(); ++e)
+  for (std::size_t e = 0; e < indices.size(); ++e)  // NOLINT(modernize-loop-convert): simd counts
     outside |= static_cast<std::uint32_t>(indices[e]) >= end ? 1U : 0U;
   return outside == 0;
 }

@@ -20,7 +20,8 @@ Place place_of(const Moment& moment, const wire::PredictedInterface& state) {
 bool all_finite(std::span<const double> values) {
   unsigned broken = 0;
 #pragma omp simd reduction(| : broken)
-  for (std::size_t k = 0; k < values.size(); ++k) broken |= std::isfinite(values[k]) ? 0U : 1U;
+  for (std::size_t k = 0; k < values.size(); ++k)  // NOLINT(modernize-loop-convert): simd counts
+    broken |= std::isfinite(values[k]) ? 0U : 1U;
   return broken == 0;
 }
 
