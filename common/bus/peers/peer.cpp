@@ -90,13 +90,24 @@ Peer::Peer(std::string label, const std::string& host, int pid)
   }
 }
 
-void Peer::check_process() const {
-  if (born_ != 0 && start_time(pid_) != born_) throw PeerLost(fmt::format("{} has died", called_));
+bool Peer::is_dead() const {
+  return born_ != 0 && start_time(pid_) != born_;
+}
+
+void Peer::miss(const char* how) {
+  const auto now = std::chrono::steady_clock::now();
+  if (!gone_since_) gone_since_ = now;
+  if (std::chrono::duration<double>(now - *gone_since_).count() >= last_word_s)
+    throw PeerLost(fmt::format("{} {}", called_, how));
+}
+
+void Peer::check_process() {
+  if (is_dead()) miss("has died");
 }
 
 void Peer::check(int matched, int alive, double timeout_s) {
-  check_process();
-  if (matched == 0) throw PeerLost(fmt::format("{} has left the run without saying why", called_));
+  if (is_dead()) return miss("has died");
+  if (matched == 0) return miss("has left the run without saying why");
   if (alive > 0) {
     silent_since_.reset();
     check_pulse(timeout_s);

@@ -37,10 +37,13 @@ struct Pulse {
   bool ready = false;     ///< computing, or waiting for a processor that others have
 };
 
-/// Watches one program. A dead process counts at once; an expired liveliness lease only starts a clock,
-/// because a Ctrl-Z recovers from it, and not even that as long as the system shows that the program goes on
-/// or would if it had a processor: a busy machine is no failure. A program that lives but sleeps without end
-/// (a deadlock) is lost too: ours wake up ten times a second whatever they wait for.
+/// Who is found gone counts as lost only after so long [s]: the reason it gave when it left may just have arrived.
+inline constexpr double last_word_s = 0.3;
+
+/// Watches one program. Who died or left counts as lost after `last_word_s`; an expired liveliness lease only
+/// starts a clock, because a Ctrl-Z recovers from it, and not even that as long as the system shows that the
+/// program goes on or would if it had a processor: a busy machine is no failure. A program that lives but
+/// sleeps without end (a deadlock) is lost too: ours wake up ten times a second whatever they wait for.
 class Peer {
  public:
   /// `label` names it in messages: solid 'beam'.
@@ -59,7 +62,7 @@ class Peer {
   /// `step_timeout_s` without waiting once
   void check_endless(double step_timeout_s);
   /// Only whether its process lives, for a program whose writers are not known yet.
-  void check_process() const;
+  void check_process();
   /// It has just been heard.
   void spoke() { quiet_.reset(); }
   /// True when it has only slept and woken up for so many seconds since it was heard: it waits for something.
@@ -72,12 +75,16 @@ class Peer {
   std::string host_;    ///< where that is, if not here
   int pid_;
   std::uint64_t born_ = 0;  ///< start time of the process; 0: not visible from here, only liveliness tells
-  std::optional<std::chrono::steady_clock::time_point> silent_since_, asleep_since_, quiet_since_;
+  std::optional<std::chrono::steady_clock::time_point> silent_since_, asleep_since_, quiet_since_,
+      gone_since_;
   Pulse pulse_;
   std::optional<Pulse> step_began_, last_nap_, quiet_;
   std::optional<std::chrono::steady_clock::time_point> owes_since_;
   double work_s_ = 0, longest_work_s_ = 0;  ///< processor time of this step and of the longest one [s]
 
+  bool is_dead() const;
+  /// It is gone, in words: throws when that has been so for `last_word_s`.
+  void miss(const char* how);
   /// The process has computed or woken up since the last call, or is ready to.
   bool goes_on();
   void check_pulse(double timeout_s);

@@ -14,7 +14,7 @@ namespace fsi::bus {
 namespace {
 
 /// An Abort must not be lost, but a dead peer must not hold up the end either [s].
-constexpr double abort_patience_s = 0.3;
+constexpr double abort_patience_s = 1;
 /// Cyclone forgets a silent participant after this time [s]; it must outlive `peer_timeout`.
 constexpr double shortest_participant_lease_s = 10;
 /// Who waits for long repeats its telemetry this often [s].

@@ -8,6 +8,10 @@
 #include <unistd.h>
 
 #include <cmath>
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
 
 #include "common/core/failure.hpp"
 #include "tests/waiting.hpp"
@@ -64,6 +68,36 @@ TEST(SilentPeer, OfAnotherMachineIsLostWhateverRunsHereUnderItsNumber) {
   const BusyChild child;
   Peer peer("solid 'beam'", "another-machine", child.pid());
   EXPECT_THROW(watch_in_silence(peer), PeerLost);
+}
+
+/// Looks after a program until it counts as lost; how often it was looked after before that, and why.
+std::pair<int, std::string> looks_until_lost(const std::function<void()>& look) {
+  for (int looks = 0;; ++looks) {
+    try {
+      look();
+    } catch (const PeerLost& lost) {
+      return {looks, lost.what()};
+    }
+    fsi::test::let_pass(last_word_s / 4);
+  }
+}
+
+/// Its reason may have arrived between two looks at the mail: it must be read before the peer counts as lost.
+TEST(PeerThatIsGone, IsNotLostBeforeItsLastWordCouldBeRead) {
+  const BusyChild child;
+  Peer peer("solid 'beam'", host_name(), child.pid());
+  const auto [looks, why] = looks_until_lost([&] { peer.check(0, 0, timeout); });
+  EXPECT_GE(looks, 1);
+  EXPECT_NE(why.find("has left the run without saying why"), std::string::npos) << why;
+}
+
+TEST(PeerThatIsGone, IsNotLostBeforeItsLastWordCouldBeReadWhenItDied) {
+  auto child = std::make_unique<BusyChild>();
+  Peer peer("solid 'beam'", host_name(), child->pid());
+  child.reset();
+  const auto [looks, why] = looks_until_lost([&] { peer.check_process(); });
+  EXPECT_GE(looks, 1);
+  EXPECT_NE(why.find("has died"), std::string::npos) << why;
 }
 
 }  // namespace
