@@ -128,7 +128,21 @@ void Coupler::agree_on_time_step(std::span<const wire::PredictedInterface> predi
                 .reason = state->dt_reason,
                 .may_substep = options_.multirate && k >= gases_};
   }
+  if (moment_.dt == 0) shorten_first_step();
   next_ = agreement_.agree(bids_);
+}
+
+/// A gas proposes its first step from waves alone: it does not know how its sides begin to move.
+void Coupler::shorten_first_step() {
+  for (std::size_t k = 0; k < gases_; ++k) {
+    double share = 1;
+    for (const InterfaceExchange& interface : interfaces_) {
+      if (interface.pair().fluid == bids_[k].from) share = std::min(share, interface.share_of_first_step());
+    }
+    if (share == 1) continue;
+    bids_[k].dt *= share;
+    bids_[k].reason = fmt::format("a side that begins to move {:.3g} times as fast as waves", 1 / share);
+  }
 }
 
 std::int32_t Coupler::substeps_of(const std::string& participant) const {

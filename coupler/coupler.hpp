@@ -84,6 +84,7 @@ class Coupler {
   void project_interface(std::span<const wire::PredictedInterface> predicted);
   Eigen::VectorXd project_modes(Solid& solid) const;
   void agree_on_time_step(std::span<const wire::PredictedInterface> predicted);
+  void shorten_first_step();
   void answer();
   std::int32_t substeps_of(const std::string& participant) const;
 

@@ -12,7 +12,8 @@ namespace {
 /// Points that lie closer than this part of the curve's length are one.
 constexpr double coincident = 1e-9;
 
-/// For derivatives of a path in time: truncation and rounding are of the order of 1e-8.
+/// For derivatives of a path in time, part of the time in which it changes by much: truncation and rounding
+/// are of the order of 1e-8.
 constexpr double path_step = 1e-4;
 
 Vec2 point(std::span<const double> x, std::size_t k) {
@@ -93,6 +94,9 @@ void arclength(std::span<const double> x, std::span<double> s) {
   for (std::size_t k = 1; k < x.size() / 2; ++k) s[k] = s[k - 1] + (point(x, k) - point(x, k - 1)).norm();
 }
 
+PrescribedMotion::PrescribedMotion(Path path, std::span<const double> x)
+    : path_(std::move(path.position)), step_(path_step * path.time_scale), x_(x.begin(), x.end()) {}
+
 template <class Value>
 void PrescribedMotion::each(std::span<double> out, const Value& value) const {
   const std::size_t n = x_.size() / 2;
@@ -109,14 +113,13 @@ void PrescribedMotion::position(double t, std::span<double> x) const {
 
 void PrescribedMotion::velocity(double t, std::span<double> v) const {
   each(v, [&](double x1, double x2) -> Vec2 {
-    return (path_(x1, x2, t + path_step) - path_(x1, x2, t - path_step)) / (2 * path_step);
+    return (path_(x1, x2, t + step_) - path_(x1, x2, t - step_)) / (2 * step_);
   });
 }
 
 void PrescribedMotion::acceleration(double t, std::span<double> a) const {
   each(a, [&](double x1, double x2) -> Vec2 {
-    return (path_(x1, x2, t + path_step) - 2 * path_(x1, x2, t) + path_(x1, x2, t - path_step)) /
-           (path_step * path_step);
+    return (path_(x1, x2, t + step_) - 2 * path_(x1, x2, t) + path_(x1, x2, t - step_)) / (step_ * step_);
   });
 }
 

@@ -51,14 +51,20 @@ void point_lengths(std::span<const double> x, std::span<double> ds);
 /// Length from point 0 along the curve.
 void arclength(std::span<const double> x, std::span<double> s);
 
-/// Position at t of the interface point that is at (x, y) at t = 0.
-using Path = std::function<Vec2(double x, double y, double t)>;
+/// Where an interface goes.
+struct Path {
+  using Position = std::function<Vec2(double x, double y, double t)>;
+  Position position = {};  ///< at t of the point that is at (x, y) at t = 0; empty: nobody knows
+  double time_scale = 1;   ///< time in which it changes by much [time]
+
+  explicit operator bool() const { return static_cast<bool>(position); }
+};
 
 /// An interface that goes its own way, whatever the solid does: for chosen solutions.
 class PrescribedMotion {
  public:
   /// @param x positions of the points at t = 0
-  PrescribedMotion(Path path, std::span<const double> x) : path_(std::move(path)), x_(x.begin(), x.end()) {}
+  PrescribedMotion(Path path, std::span<const double> x);
 
   void position(double t, std::span<double> x) const;
   /// By central differences of the path.
@@ -66,7 +72,8 @@ class PrescribedMotion {
   void acceleration(double t, std::span<double> a) const;
 
  private:
-  Path path_;
+  Path::Position path_;
+  double step_;  ///< of differences in time [time]
   std::vector<double> x_;
 
   template <class Value>

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "common/case/scales.hpp"
 #include "common/core/log.hpp"
 #include "common/program/picture.hpp"
 
@@ -25,11 +26,12 @@ bus::CouplerSession join(const Setup& setup) {
   return {bus_options(setup), std::move(who), problem.digest};
 }
 
-Path path_of(const InterfaceSpec& interface) {
-  if (!interface.motion) return {};
-  return [motion = *interface.motion](double x, double y, double t) {
+Path path_of(const Case& problem) {
+  if (!problem.interface.motion) return {};
+  const auto position = [motion = *problem.interface.motion](double x, double y, double t) {
     return Vec2(motion.c1(x, y, t), motion.c2(x, y, t));
   };
+  return {.position = position, .time_scale = crossing_time_of(problem.solids.front())};
 }
 
 /// Interfaces between two periodic sides of a gas.
@@ -68,7 +70,7 @@ CouplerOptions options_of(const Case& problem) {
           .combination = {.projection = problem.interface.projection,
                           .wave_curve = problem.interface.riemann == GasResponse::exact},
           .checkpoint_at_end = problem.output.checkpoint_at_end,
-          .path = path_of(problem.interface),
+          .path = path_of(problem),
           .periodic = periodic_interfaces(problem)};
 }
 

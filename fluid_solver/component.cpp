@@ -199,8 +199,8 @@ void Component::move(double t_new, double dt, std::span<const grid::SideCommand>
   last_dt_ = dt;
 }
 
-void Component::force(const StateField& exact) {
-  forcing_.emplace(exact, scheme_.gamma);
+void Component::force(const StateField& exact, const Forcing::Scales& scales) {
+  forcing_.emplace(exact, scheme_.gamma, scales);
   source_ = Field(grid_.layout(), 4);
   has_source_ = false;
 }

@@ -68,7 +68,7 @@ class Component {
 
   /// From now on the source terms of an exact state act, and
   /// conditions on the sides hold for the difference to it.
-  void force(const StateField& exact);
+  void force(const StateField& exact, const Forcing::Scales& scales);
   const Forcing* forcing() const { return forcing_ ? &*forcing_ : nullptr; }
   /// From now on only these points are advanced, and only these have a value.
   void use_points(const grid::RowSets& discretised, const grid::RowSets& valid);

@@ -4,9 +4,9 @@ namespace fsi::fluid {
 
 namespace {
 
-/// Step of the central differences: small against all that varies, so that their error, of second order in
-/// it, and that of rounding lie far below those of any grid.
-constexpr double delta = 1e-5;
+/// Step of the central differences, part of the scales: small against all that varies, so that their error, of
+/// second order in it, and that of rounding lie far below those of any grid.
+constexpr double part_of_scale = 1e-6;
 
 template <class Action>
 void each_point(const Layout& layout, const RankRows& rows, const Action& action) {
@@ -40,13 +40,12 @@ StateVector flux(const State& s, int c, double gamma) {
 }  // namespace
 
 StateVector Forcing::source(double x, double y, double t) const {
-  const StateVector in_t = conserved(to_vector(exact_(x, y, t + delta)), gamma_) -
-                           conserved(to_vector(exact_(x, y, t - delta)), gamma_);
-  const StateVector in_x =
-      flux(exact_(x + delta, y, t), 0, gamma_) - flux(exact_(x - delta, y, t), 0, gamma_);
-  const StateVector in_y =
-      flux(exact_(x, y + delta, t), 1, gamma_) - flux(exact_(x, y - delta, t), 1, gamma_);
-  return (in_t + in_x + in_y) / (2 * delta);
+  const double d = part_of_scale * scales_.length, dt = part_of_scale * scales_.time;
+  const StateVector in_t =
+      conserved(to_vector(exact_(x, y, t + dt)), gamma_) - conserved(to_vector(exact_(x, y, t - dt)), gamma_);
+  const StateVector in_x = flux(exact_(x + d, y, t), 0, gamma_) - flux(exact_(x - d, y, t), 0, gamma_);
+  const StateVector in_y = flux(exact_(x, y + d, t), 1, gamma_) - flux(exact_(x, y - d, t), 1, gamma_);
+  return in_t / (2 * dt) + (in_x + in_y) / (2 * d);
 }
 
 void Forcing::evaluate(ConstFieldView x, double t, FieldView source_field, const RankRows& rows) const {

@@ -17,8 +17,15 @@ namespace fsi::fluid {
 
 class Forcing {
  public:
+  /// Distances in space and time over which the exact state changes by much.
+  struct Scales {
+    double length = 1;  ///< [length]
+    double time = 1;    ///< [time]
+  };
+
   /// `exact` must be smooth, also a little outside the domain: at ghost points.
-  Forcing(StateField exact, double gamma) : exact_(std::move(exact)), gamma_(gamma) {}
+  Forcing(StateField exact, double gamma, const Scales& scales)
+      : exact_(std::move(exact)), gamma_(gamma), scales_(scales) {}
 
   const StateField& exact() const { return exact_; }
   /// dq/dt + df_j/dx_j of the exact state, q = (rho, rho v1, rho v2, rho E). paper eq. (1)
@@ -31,6 +38,7 @@ class Forcing {
  private:
   StateField exact_;
   double gamma_;
+  Scales scales_;
 };
 
 }  // namespace fsi::fluid

@@ -124,7 +124,16 @@ std::span<const FieldView> GasSolver::gather_fields() {
 }
 
 void GasSolver::force(const StateField& exact) {
-  for (Component& component : components_) component.force(exact);
+  const ConstFieldView x = components_.front().grid().x();
+  const int i = x.layout.n1 - 1, j = x.layout.n2 - 1;
+  double size = 0;
+  for (int c = 0; c < 2; ++c) {
+    const auto [low, high] = std::minmax({x(c, 0, 0), x(c, i, 0), x(c, 0, j), x(c, i, j)});
+    size = std::max(size, high - low);
+  }
+  const State q = exact(x(0, 0, 0), x(1, 0, 0), t_);
+  const double speed = std::sqrt(q.v1 * q.v1 + q.v2 * q.v2) + std::sqrt(options_.gamma * q.p / q.rho);
+  for (Component& component : components_) component.force(exact, {.length = size, .time = size / speed});
 }
 
 void GasSolver::assign_initial_conditions(const StateField& initial) {

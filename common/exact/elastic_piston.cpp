@@ -23,8 +23,8 @@ constexpr std::array<double, 4> gauss_weights{0.36268378337836198, 0.31370664587
                                               0.10122853629037626};
 
 template <class Function>
-double integral(Function f, double from, double to) {
-  const int panels = std::max(1, static_cast<int>(std::ceil((to - from) / 0.05)));
+double integral(Function f, double from, double to, double widest) {
+  const int panels = std::max(1, static_cast<int>(std::ceil((to - from) / widest)));
   const double half = 0.5 * (to - from) / panels;
   double sum = 0;
   for (int k = 0; k < panels; ++k) {
@@ -58,7 +58,7 @@ ElasticPiston::ElasticPiston(const ElasticPistonData& data)
   if (!(data.c_p > 0)) throw std::invalid_argument("c_p must be positive");
   if (!(data.gamma > 1)) throw std::invalid_argument("gamma must be greater than 1");
   series_ = impulse_series(2 * data.gamma / (data.gamma - 1));
-  const double drop_rate = 0.5 * (data.gamma - 1) * std::fabs(data.amplitude);
+  const double drop_rate = 0.5 * (data.gamma - 1) * std::fabs(data.amplitude) / data.a_0;
   const bool ends = series_.size() < 64;
   series_end_ = ends || drop_rate == 0 ? std::numeric_limits<double>::infinity()
                                        : std::cbrt(largest_drop_of_series / drop_rate);
@@ -77,16 +77,16 @@ double ElasticPiston::path_acceleration(double t) const {
 }
 
 double ElasticPiston::sound_speed(double tau) const {
-  return 1 + 0.5 * (data_.gamma - 1) * path_velocity(tau);
+  return data_.a_0 + 0.5 * (data_.gamma - 1) * path_velocity(tau);
 }
 
 double ElasticPiston::p_I(double t) const {
-  return p_e() * std::pow(sound_speed(t), 2 * data_.gamma / (data_.gamma - 1));
+  return p_e() * std::pow(sound_speed(t) / data_.a_0, 2 * data_.gamma / (data_.gamma - 1));
 }
 
 /// Time tau at which the state found at (x, t) left the interface, along the axis of the piston.
 double ElasticPiston::departure(double x, double t) const {
-  if (x >= t) return 0;
+  if (x >= data_.a_0 * t) return 0;
   const auto distance = [&](double tau) {
     const double speed = path_velocity(tau) + sound_speed(tau);
     return std::pair{path(tau) + speed * (t - tau) - x,
@@ -95,7 +95,8 @@ double ElasticPiston::departure(double x, double t) const {
   double late = std::max(t, 0.0);
   // on the interface itself the distance is round-off and must still move the bracket
   const double least = 8 * std::numeric_limits<double>::epsilon() * late;
-  for (int k = 0; distance(late).first > 0 && k < 32; ++k) late += std::max(2 * distance(late).first, least);
+  for (int k = 0; distance(late).first > 0 && k < 32; ++k)
+    late += std::max(2 * distance(late).first / data_.a_0, least);
   return root_between(distance, 0, late, t - (x - path(t)) / sound_speed(t));
 }
 
@@ -103,26 +104,27 @@ GasState ElasticPiston::gas(double x, double y, double t) const {
   const double tau = departure(cos_ * x + sin_ * y, t);
   const double v = path_velocity(tau);
   const double a = sound_speed(tau);
-  const double rho = std::pow(a, 2 / (data_.gamma - 1));
+  const double rho = data_.rho_0 * std::pow(a / data_.a_0, 2 / (data_.gamma - 1));
   return {.rho = rho, .v1 = v * cos_, .v2 = v * sin_, .p = rho * a * a / data_.gamma};
 }
 
 /// Integral of p_I - p_e from 0 to t.
 double ElasticPiston::impulse(double t) const {
   const double until = std::min(t, series_end_);
-  const double z = 0.5 * (data_.gamma - 1) * path_velocity(until);
+  const double z = 0.5 * (data_.gamma - 1) * path_velocity(until) / data_.a_0;
   double sum = 0;
   for (std::size_t n = series_.size(); n-- > 0;) sum = (sum + series_[n]) * z;
   double result = p_e() * until * sum;
   if (t > until) {
-    result += integral([this](double tau) { return p_I(tau) - p_e(); }, until, t);
+    constexpr double part = 0.02;  // of the time in which the speed of sound falls to a half
+    result += integral([this](double tau) { return p_I(tau) - p_e(); }, until, t, part * until);
   }
   return result;
 }
 
 SolidState ElasticPiston::solid(double x_bar, double y_bar, double t) const {
   const double x = cos_ * x_bar + sin_ * y_bar;
-  const double c_p = data_.c_p;
+  const double c_p = this->c_p();
   const double stiffness = rho_bar() * c_p * c_p;  // lambda + 2 mu
   const double left = std::max(
       0.0, t - x / c_p);  // when the wave that moves on to the right will be, or was, at the interface

@@ -23,9 +23,11 @@ struct ElasticPistonData {
   double amplitude = 0.25;   ///< A of F(t) = -A t^4 / 4 [length/time^4]; positive pulls away from the gas
   double rotation = 0;       ///< of the whole set-up about the origin [rad]
   double gamma = 1.4;        ///< ratio of specific heats [-]
+  double rho_0 = 1;          ///< density of the gas at rest [mass/volume]
+  double a_0 = 1;            ///< its speed of sound [velocity]
 };
 
-/// The gas has rho_0 = 1, a_0 = 1, hence p_0 = p_e = 1 / gamma; the solid lambda = mu = rho_bar c_p^2 / 3.
+/// p_0 = p_e = rho_0 a_0^2 / gamma; the solid has lambda = mu = rho_bar c_p^2 / 3 with its own speed c_p.
 class ElasticPiston final : public Solution {
  public:
   /// @throws std::invalid_argument for data without a solution
@@ -42,10 +44,10 @@ class ElasticPiston final : public Solution {
   double path_acceleration(double t) const;
   /// Gas pressure at the interface, p_0 (1 + (gamma - 1)/2 F'/a_0)^(2 gamma/(gamma - 1)).
   double p_I(double t) const;
-  double p_e() const { return 1 / data_.gamma; }
-  double rho_bar() const { return data_.density_ratio; }
+  double p_e() const { return data_.rho_0 * (data_.a_0 * data_.a_0) / data_.gamma; }
+  double rho_bar() const { return data_.density_ratio * data_.rho_0; }
   /// lambda = mu of the solid.
-  double lambda() const { return rho_bar() * data_.c_p * data_.c_p / 3; }
+  double lambda() const { return rho_bar() * c_p() * c_p() / 3; }
 
  private:
   ElasticPistonData data_;
@@ -53,6 +55,7 @@ class ElasticPiston final : public Solution {
   double series_end_;           ///< the power series of the impulse is used up to this time [time]
   std::vector<double> series_;  ///< its coefficients, in powers of the drop of the sound speed
 
+  double c_p() const { return data_.c_p * data_.a_0; }
   double sound_speed(double tau) const;
   double departure(double x, double t) const;
   double impulse(double t) const;

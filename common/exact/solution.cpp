@@ -48,6 +48,8 @@ std::unique_ptr<Solution> make_elastic_piston(Numbers numbers) {
   data.amplitude = numbers.take("amplitude", data.amplitude);
   data.rotation = numbers.take("rotation", data.rotation);
   data.gamma = numbers.take("gamma", data.gamma);
+  data.rho_0 = numbers.take("rho_0", data.rho_0);
+  data.a_0 = numbers.take("a_0", data.a_0);
   numbers.expect_none_left();
   return std::make_unique<ElasticPiston>(data);
 }

@@ -1,11 +1,12 @@
 #include "common/interface/modal.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
+#include "common/interface/band.hpp"
 #include "common/interface/modal_system.hpp"
 
 namespace fsi {
@@ -25,8 +26,32 @@ ModalLoad modal_load(const Eigen::SparseMatrix<double>& N, std::span<const Norma
 
 Eigen::VectorXd solve_modes(const Eigen::SparseMatrix<double>& S, const Eigen::VectorXd& right) {
   if (S.rows() > few_modes) return ModalSolver().solve(S, right);
-  const Eigen::MatrixXd dense = Eigen::MatrixXd(S).selfadjointView<Eigen::Lower>();
-  return dense.ldlt().solve(right);
+  return solve_few_modes(Eigen::MatrixXd(S), right);
+}
+
+/// Column by column: L below the diagonal, D on it. A pivot that is round-off of its entry of the diagonal
+/// belongs to a direction without resistance.
+Eigen::VectorXd solve_few_modes(Eigen::MatrixXd S, Eigen::VectorXd x) {
+  const Eigen::Index n = S.rows();
+  Eigen::VectorXd inverse(n);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    double pivot = S(k, k);
+    for (Eigen::Index j = 0; j < k; ++j) pivot -= S(k, j) * S(k, j) * S(j, j);
+    inverse[k] = std::abs(pivot) > pivot_round_off * std::abs(S(k, k)) ? 1 / pivot : 0;
+    for (Eigen::Index i = k + 1; i < n; ++i) {
+      for (Eigen::Index j = 0; j < k; ++j) S(i, k) -= S(i, j) * S(k, j) * S(j, j);
+      S(i, k) *= inverse[k];
+    }
+    S(k, k) = pivot;
+  }
+  for (Eigen::Index k = 0; k < n; ++k) {
+    for (Eigen::Index j = 0; j < k; ++j) x[k] -= S(k, j) * x[j];
+  }
+  for (Eigen::Index k = n; k-- > 0;) {
+    x[k] *= inverse[k];
+    for (Eigen::Index i = k + 1; i < n; ++i) x[k] -= S(i, k) * x[i];
+  }
+  return x;
 }
 
 Eigen::VectorXd project_modes(const Eigen::SparseMatrix<double>& S, const Eigen::VectorXd& g,

@@ -17,7 +17,7 @@
 
 namespace fsi {
 
-/// Up to so many modes a dense factorisation with pivoting costs less than a sparse one.
+/// Up to so many modes a dense factorisation costs less than a sparse one.
 inline constexpr Eigen::Index few_modes = 16;
 
 /// Load of the gas on the modes: f~ - A q_dot.
@@ -32,10 +32,12 @@ struct ModalLoad {
 ModalLoad modal_load(const Eigen::SparseMatrix<double>& N, std::span<const NormalSide> gas,
                      std::span<const double> ds);
 
-/// Solution of S x = right for a symmetric S, of which the lower triangle counts; a few unknowns with
-/// pivoting (a direction of no resistance at all gets no velocity), many sparsely.
-/// @return empty where S is singular
+/// Solution of S x = right for a symmetric S without negative eigenvalues, of which the lower triangle counts;
+/// many unknowns sparsely. @return empty where S of many unknowns is singular
 Eigen::VectorXd solve_modes(const Eigen::SparseMatrix<double>& S, const Eigen::VectorXd& right);
+/// The same for few unknowns, S = L D L^T in the order they have: pivots would compare a mass with a moment of
+/// inertia. A direction of no resistance at all gets no velocity.
+Eigen::VectorXd solve_few_modes(Eigen::MatrixXd S, Eigen::VectorXd right);
 
 /// Velocities at the end of a step dt of a solid that answers a load by S q_dot = g + dt f.
 /// @return empty where nothing resists a mode

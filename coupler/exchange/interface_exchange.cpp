@@ -294,6 +294,16 @@ void InterfaceExchange::fill_robin(wire::ProjectedInterface& answer) const {
   }
 }
 
+double InterfaceExchange::share_of_first_step() const {
+  double share = 1;
+  for (std::size_t k = 0; k < curve_.n; ++k) {
+    if (gas_[k].curve.rho == 0) continue;  // says no speed of sound
+    const double waves = gas_[k].curve.sound() + std::abs(gas_[k].state.v_n);
+    share = std::min(share, waves / std::max(waves, std::abs(levels_.front().v_n[k])));
+  }
+  return share;
+}
+
 void InterfaceExchange::fill_motion(double dt, wire::ProjectedInterface& answer) const {
   answer.x_next.resize(2 * curve_.n);
   if (dt > 0 && prescribed_) {

@@ -70,6 +70,9 @@ class InterfaceExchange {
   void fill_state(wire::ProjectedInterface& answer) const;
   /// Robin data of the gas characteristic for the solid's substeps.
   void fill_robin(wire::ProjectedInterface& answer) const;
+  /// Part of the first step that the gas proposes, from waves alone since its grid rests, in which no point of the
+  /// interface goes further along its normal than waves would in all of it; 1 where none is faster than they.
+  double share_of_first_step() const;
   /// Position commanded for a next step of size `dt`.
   void fill_motion(double dt, wire::ProjectedInterface& answer) const;
   /// What is above speaks of the points of the exchange; this gives a side that has others its own.

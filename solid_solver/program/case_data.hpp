@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/case/scales.hpp"
 #include "common/core/failure.hpp"
 #include "common/exact/solution.hpp"
 #include "common/grid/geometry/interface_geometry.hpp"
@@ -33,10 +34,10 @@ inline TensorFunction function_of(const TensorExpressions& P) {
   };
 }
 
-/// Rate of change of a formula in t, by fourth-order differences.
-inline VectorFunction rate_of(VectorFunction f) {
-  return [f = std::move(f)](double x, double y, double t) -> Vec2 {
-    constexpr double h = 1e-3;
+/// Rate of change of a formula in t, by fourth-order differences. @param time_scale time in which it changes by
+/// much [time]
+inline VectorFunction rate_of(VectorFunction f, double time_scale) {
+  return [f = std::move(f), h = 1e-3 * time_scale](double x, double y, double t) -> Vec2 {
     return (8 * (f(x, y, t + h) - f(x, y, t - h)) - (f(x, y, t + 2 * h) - f(x, y, t - 2 * h))) / (12 * h);
   };
 }
@@ -51,6 +52,7 @@ class CaseData {
  public:
   CaseData(const Setup& setup, const SolidSpec& spec, const L& law)
       : spec_(spec),
+        crossing_time_(crossing_time_of(spec)),
         cfl_(setup.problem.time.cfl),
         solution_(reference_from_case(setup.problem, setup.run_dir)) {
     const ReferenceSpec& reference = setup.problem.reference;
@@ -58,7 +60,7 @@ class CaseData {
       ChosenFields fields{.u = function_of(*reference.u)};
       if (reference.v) fields.v = function_of(*reference.v);
       if (reference.P) fields.P = function_of(*reference.P);
-      manufactured_ = std::make_shared<Manufactured<L>>(std::move(fields), law, spec.rho);
+      manufactured_ = std::make_shared<Manufactured<L>>(std::move(fields), law, spec.rho, size_of(spec.grid));
       if (reference.kind == "manufactured") {
         chosen_ = reference.v || reference.P || reference.fluid;
         forced_ = !chosen_;
@@ -172,7 +174,8 @@ class CaseData {
         result.kind = Boundary::Kind::displacement;
         if (spec.vector) {
           result.vector = function_of(*spec.vector);
-          result.velocity = spec.velocity ? function_of(*spec.velocity) : rate_of(result.vector);
+          result.velocity =
+              spec.velocity ? function_of(*spec.velocity) : rate_of(result.vector, crossing_time_);
         }
         if (spec.from_reference) {
           const StateFunction exact = required_reference(side);
@@ -239,6 +242,7 @@ class CaseData {
   }
 
   const SolidSpec& spec_;
+  double crossing_time_;  ///< of a p-wave through the body [time]
   double cfl_;
   std::shared_ptr<const exact::Solution> solution_;
   std::shared_ptr<const Manufactured<L>> manufactured_;  ///< motion given by formulas

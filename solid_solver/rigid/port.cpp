@@ -1,12 +1,12 @@
 #include "solid_solver/rigid/port.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <limits>
 #include <utility>
 #include <vector>
 
+#include "common/interface/modal.hpp"
 #include "common/wire/sparse.hpp"
 
 namespace fsi::rigid {
@@ -50,7 +50,7 @@ void RigidParticipant::apply_bcs(double /*t*/, ProjectedStates projected) {
   const bool alone = projected.empty();
   if (dt_ > 0 && !spec_.fixed) {
     const std::span<const double> q_dot = alone ? std::span<const double>{} : projected.front()->q_dot;
-    body_.correct(alone ? Eigen::VectorXd(body_.response().ldlt().solve(body_.history(own_)))
+    body_.correct(alone ? solve_few_modes(body_.response(), body_.history(own_))
                         : Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(q_dot.data(), body_.modes())));
   }
   if (alone) return;

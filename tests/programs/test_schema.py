@@ -15,7 +15,7 @@ from running import BIN, ROOT
 class Schema(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        schema = json.loads(subprocess.run([BIN / "fsi_case", "schema"], capture_output=True, text=True, check=True).stdout)
+        cls.schema = schema = json.loads(subprocess.run([BIN / "fsi_case", "schema"], capture_output=True, text=True, check=True).stdout)
         jsonschema.Draft7Validator.check_schema(schema)
         cls.validator = jsonschema.Draft7Validator(schema)
         cls.piston = cls.read(ROOT / "configs" / "elastic_piston.yaml")
@@ -59,6 +59,14 @@ class Schema(unittest.TestCase):
         def formula(case):
             case["time"]["end"] = "2 * h"
         self.assertEqual(self.mistakes(formula), [])
+
+    def test_units_are_powers_of_length_time_and_density_and_defaults_are_values(self):
+        keys = self.schema["definitions"]["The gas"]["properties"]
+        self.assertEqual(keys["p_e"]["x-unit"], {"name": "pressure", "length": 2, "time": -2, "density": 1})
+        self.assertEqual((keys["p_e"]["default"], keys["gamma"]["default"]), (0, 1.4))
+        self.assertNotIn("x-unit", keys["gamma"])
+        interface = self.schema["definitions"]["The interface"]["properties"]
+        self.assertEqual(interface["projection"]["default"], "simplified")
 
 
 if __name__ == "__main__":

@@ -5,8 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <stdexcept>
 
 #include "common/case/schema/schema.hpp"
+#include "common/case/schema/units.hpp"
 
 namespace fsi {
 
@@ -78,7 +81,28 @@ class Writer {
     std::string text(key.meaning);
     if (key.unit != "-") text += fmt::format(" [{}]", key.unit);
     if (!key.fallback.empty()) text += fmt::format("; default: {}", key.fallback);
-    return with_description(schema, text);
+    schema = with_description(schema, text);
+    if (const Json value = default_of(key); !value.is_null()) schema["default"] = value;
+    if (key.unit != "-") schema["x-unit"] = unit_of(key);
+    return schema;
+  }
+
+  /// Null where the default is no value of its own but words.
+  static Json default_of(const Key& key) {
+    const bool word = std::ranges::find(key.words, key.fallback) != key.words.end();
+    if (word) return key.fallback;
+    const Json value = Json::parse(key.fallback, nullptr, false);
+    return value.is_number() || value.is_boolean() ? value : Json();
+  }
+
+  /// Its name, and the powers of the case's units of length, time and density that it is made of.
+  static Json unit_of(const Key& key) {
+    const std::optional<schema::Dimensions> dimensions = schema::dimensions_of(key.unit);
+    if (!dimensions) throw std::logic_error(fmt::format("{}: '{}' is no unit", key.name, key.unit));
+    return {{"name", key.unit},
+            {"length", dimensions->length},
+            {"time", dimensions->time},
+            {"density", dimensions->density}};
   }
 
   static Json with_description(Json schema, const std::string& text) {

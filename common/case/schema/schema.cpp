@@ -19,6 +19,7 @@ constexpr Range at_most_a_day{.low = 0, .high = 86400, .low_open = true};  ///< 
 constexpr array grid_keys{
     Key{.name = "factor",
         .meaning = "resolution factor j; expressions know h = 1 / (10 j)",
+        .unit = "1/length",
         .fallback = "1",
         .range = {.low = 0, .high = 10000, .low_open = true}},
 };

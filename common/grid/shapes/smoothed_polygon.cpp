@@ -22,35 +22,35 @@ double log_cosh(double a) {
 struct Edge {
   double from, to, sharpness;
   Vec2 slope;
+  Vec2 base;  ///< of the line along which edges are added: the polygon's length in both directions
 
   /// V of numerics: what the edge adds to s.
   Vec2 rise(double s) const {
     const double steps = log_cosh(sharpness * (s - from)) - log_cosh(sharpness * (s - to));
-    return (slope - Vec2::Ones()) * steps / (2 * sharpness);
+    return (slope - base) * steps / (2 * sharpness);
   }
   /// How far the bell's averages at the edge's ends lie from the polygon at s.
   Vec2 rounding(double s) const {
     const double steps = log_cosh(sharpness * (s - from)) - sharpness * std::abs(s - from) -
                          log_cosh(sharpness * (s - to)) + sharpness * std::abs(s - to);
-    return (slope - Vec2::Ones()) * steps / (2 * sharpness);
+    return (slope - base) * steps / (2 * sharpness);
   }
   Vec2 rise_slope(double s) const {
-    return 0.5 * (slope - Vec2::Ones()) *
-           (std::tanh(sharpness * (s - from)) - std::tanh(sharpness * (s - to)));
+    return 0.5 * (slope - base) * (std::tanh(sharpness * (s - from)) - std::tanh(sharpness * (s - to)));
   }
 };
 
 struct Outline {
   std::vector<Edge> edges;
-  Vec2 constant;  ///< x(s) = constant + s + sum of the edges' rises
+  Vec2 constant;  ///< x(s) = constant + s base + sum of the edges' rises
 
   Vec2 position(double s) const {
-    Vec2 x = constant + Vec2::Constant(s);
+    Vec2 x = constant + s * edges.front().base;
     for (const Edge& edge : edges) x += edge.rise(s);
     return x;
   }
   Vec2 slope(double s) const {
-    Vec2 d = Vec2::Ones();
+    Vec2 d = edges.front().base;
     for (const Edge& edge : edges) d += edge.rise_slope(s);
     return d;
   }
@@ -86,7 +86,8 @@ std::vector<Edge> edges_of(const SmoothedPolygon& shape) {
     if (!(width > 0))
       throw UserMistake(fmt::format("corners {} and {} of a smoothed polygon coincide", k, k + 1));
     const double sharpness = shape.sharpness_at.empty() ? shape.sharpness : shape.sharpness_at[k];
-    edges.push_back({from, from + width, sharpness, (corners[k + 1] - corners[k]) / width});
+    edges.push_back(
+        {from, from + width, sharpness, (corners[k + 1] - corners[k]) / width, Vec2::Constant(total)});
     from += width;
   }
   return edges;

@@ -314,5 +314,44 @@ TEST(Coupler, MessagesThatDoNotFitAreNamed) {
             std::string::npos);
 }
 
+/// Gas at rest with the speed of sound 1, and a solid much heavier, which begins with the velocity `v`.
+std::vector<wire::PredictedInterface> start_with(double v) {
+  auto gas = gas_state(n, 0);
+  auto solid = solid_state(n, 0);
+  gas.rho.assign(n, 1.0);
+  gas.gamma.assign(n, 1.4);
+  gas.dt_bid = 0.01;
+  solid.dt_bid = 0.02;
+  solid.v = everywhere(n, v, 0);
+  for (double& z : solid.Z) z *= 1e9;
+  solid.z_p *= 1e9;
+  return {gas, solid};
+}
+
+TEST(Coupler, NoSideGoesFurtherInTheFirstStepThanWavesWould) {
+  for (const bool multirate : {false, true}) {
+    auto options = until(1);
+    options.multirate = multirate;
+    for (const double v : {1.5, -7.0, 100.0, -100.0}) {
+      Coupler coupler(options, piston_hellos(n));
+      const auto predicted = start_with(v);
+      const auto answers = coupler.step(predicted);
+      const double way = std::abs(answers[0].x_next[1] - predicted[0].x[1]);
+      EXPECT_LE(way, predicted[0].dt_bid * (1 + 1e-12)) << v;
+      EXPECT_GT(way, 0.9 * predicted[0].dt_bid) << v;
+    }
+  }
+}
+
+TEST(Coupler, WhereNoSideIsFasterThanSoundTheFirstStepIsThatOfTheGas) {
+  const auto first_step = [](double v) {
+    Coupler coupler(until(1), piston_hellos(n));
+    return coupler.step(start_with(v))[0].dt_next;
+  };
+  EXPECT_EQ(first_step(0.99), first_step(0));
+  EXPECT_EQ(first_step(-0.5), first_step(0));
+  EXPECT_LT(first_step(1.1), first_step(0));
+}
+
 }  // namespace
 }  // namespace fsi::coupler

@@ -199,12 +199,11 @@ TEST(InterfaceMotion, UniformMotionStartsWithoutAcceleration) {
 }
 
 TEST(PrescribedMotion, GoesAlongItsPathWithTheVelocityAndAccelerationOfThePath) {
-  const PrescribedMotion motion(
-      [](double x, double y, double t) -> Vec2 {
-        return {x + 0.5 * t + y * t * t, y + std::sin(2 * t)};
-      },
-      points_of(
-          3, [](double r) { return r; }, [](double r) { return 2 * r; }));
+  const PrescribedMotion motion({.position = [](double x, double y, double t) -> Vec2 {
+                                  return {x + 0.5 * t + y * t * t, y + std::sin(2 * t)};
+                                }},
+                                points_of(
+                                    3, [](double r) { return r; }, [](double r) { return 2 * r; }));
   constexpr double t = 0.3, rounding = 1e-6;
   std::vector<double> x(6), v(6), a(6);
   motion.position(t, x);
@@ -216,6 +215,31 @@ TEST(PrescribedMotion, GoesAlongItsPathWithTheVelocityAndAccelerationOfThePath) 
   EXPECT_NEAR(v[3], 2 * std::cos(2 * t), rounding);
   EXPECT_NEAR(a[1], 2, rounding);
   EXPECT_NEAR(a[4], -4 * std::sin(2 * t), rounding);
+}
+
+TEST(PrescribedMotion, IsTheSameToTheBitInOtherUnits) {
+  constexpr double length = 0x1p-7, time = 0x1p11, t = 0.3;
+  const Path::Position go = [](double x, double y, double s) -> Vec2 {
+    return {x + 0.3 * std::sin(3 * s + y), y + s * s};
+  };
+  const std::vector<double> x{0, 0.5, 1, 0, 0.25, 2};
+  std::vector<double> scaled = x;
+  for (double& each : scaled) each *= length;
+  const PrescribedMotion one({.position = go, .time_scale = 0.7}, x);
+  const PrescribedMotion other({.position = [&](double a, double b, double s) -> Vec2 {
+                                  return length * go(a / length, b / length, s / time);
+                                },
+                                .time_scale = 0.7 * time},
+                               scaled);
+  std::vector<double> v(6), a(6), its_v(6), its_a(6);
+  one.velocity(t, v);
+  one.acceleration(t, a);
+  other.velocity(t * time, its_v);
+  other.acceleration(t * time, its_a);
+  for (std::size_t k = 0; k < v.size(); ++k) {
+    EXPECT_EQ(length / time * v[k], its_v[k]);
+    EXPECT_EQ(length / (time * time) * a[k], its_a[k]);
+  }
 }
 
 }  // namespace

@@ -218,5 +218,31 @@ TEST(ModalLoad, Eq19GasAtRestResistsEveryMotionOfARigidBody) {
   EXPECT_GT(A(2, 2), 0.0);
 }
 
+/// A mass and a moment of inertia that are compared with each other would choose another order of elimination in
+/// other units.
+TEST(ModalProjection, FewModesHaveTheSameSolutionToTheBitInOtherUnits) {
+  Eigen::MatrixXd S(3, 3);
+  S << 1.3, 0, 0.2, 0, 1.7, -0.4, 0.2, -0.4, 0.9;
+  const Eigen::Vector3d right(0.3, -0.7, 1.1);
+  const Eigen::VectorXd x = solve_few_modes(S, right);
+  EXPECT_LT((S * x - right).norm(), 1e-15);
+  for (const double length : {0x1p-20, 0x1p-1, 0x1p9}) {
+    const Eigen::DiagonalMatrix<double, 3> lever(1, 1, length);  // of a rotation
+    const Eigen::VectorXd in_units = solve_few_modes(lever * S * lever, lever * right);
+    EXPECT_EQ(in_units[0], x[0]);
+    EXPECT_EQ(in_units[1], x[1]);
+    EXPECT_EQ(length * in_units[2], x[2]);
+  }
+}
+
+TEST(ModalProjection, ADirectionThatNothingResistsGetsNoVelocity) {
+  const Eigen::Vector3d along(0.6, 0.8, 0.1), across(0.8, -0.6, 0);
+  const Eigen::MatrixXd S = 2.3 * along * along.transpose() + 0.7 * across * across.transpose();
+  const Eigen::Vector3d load = S * Eigen::Vector3d(0.4, -0.2, 0.5);
+  const Eigen::VectorXd x = solve_few_modes(S, load);
+  EXPECT_EQ(x[2], 0);
+  EXPECT_LT((S * x - load).norm(), 1e-14);
+}
+
 }  // namespace
 }  // namespace fsi

@@ -167,5 +167,31 @@ TEST(ElasticPiston, RefusesASolidWithoutMass) {
   EXPECT_THROW(ElasticPiston({.density_ratio = 0}), std::invalid_argument);
 }
 
+TEST(ElasticPiston, IsTheSameToTheBitInOtherUnits) {
+  constexpr double length = 0x1p-4, time = 0x1p7, density = 0x1p3, speed = length / time,
+                   pressure = density * speed * speed;
+  for (const double gamma : {1.4, 1.3}) {
+    const ElasticPiston one({.density_ratio = 0.3, .rotation = 0.4, .gamma = gamma});
+    const ElasticPiston other({.density_ratio = 0.3,
+                               .amplitude = 0.25 * length / (time * time * time * time),
+                               .rotation = 0.4,
+                               .gamma = gamma,
+                               .rho_0 = density,
+                               .a_0 = speed});
+    for (const double t : {0.1, 0.8, 2.4}) {
+      const GasState gas = one.gas(0.3 * t, -0.1, t),
+                     its = other.gas(0.3 * t * length, -0.1 * length, t * time);
+      EXPECT_EQ(density * gas.rho, its.rho);
+      EXPECT_EQ(speed * gas.v1, its.v1);
+      EXPECT_EQ(pressure * gas.p, its.p);
+      const SolidState solid = one.solid(-0.1, 0.1, t),
+                       same = other.solid(-0.1 * length, 0.1 * length, t * time);
+      EXPECT_EQ(Vec2(length * solid.u), same.u);
+      EXPECT_EQ(Vec2(speed * solid.v), same.v);
+      EXPECT_EQ(Mat2(pressure * solid.P), same.P);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace fsi::exact

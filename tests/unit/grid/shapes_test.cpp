@@ -315,5 +315,20 @@ TEST(Shapes, MistakesAreTheUsers) {
   EXPECT_THROW(distribute(circle({0, 0}, 1), 40, away), UserMistake);
 }
 
+TEST(Shapes, SmoothedPolygonsHaveTheSameBitsInOtherUnits) {
+  constexpr double length = 0x1p-9;
+  for (const Curve ends : {Curve::closed, Curve::open}) {
+    SmoothedPolygon shape{
+        .corners = {{0.1, 0}, {1.3, 0.2}, {1, 0.9}, {-0.3, 0.7}}, .ends = ends, .sharpness = 20};
+    const PlaneCurve curve = smoothed_polygon(shape);
+    for (Vec2& corner : shape.corners) corner *= length;
+    const PlaneCurve other = smoothed_polygon(shape);
+    for (const double s : {0.0, 0.13, 0.4, 0.77}) {
+      EXPECT_EQ(Vec2(length * curve.position(s)), other.position(s));
+      EXPECT_EQ(Vec2(length * curve.slope(s)), other.slope(s));
+    }
+  }
+}
+
 }  // namespace
 }  // namespace fsi::grid

@@ -18,7 +18,7 @@ TEST(Manufactured, Eq2NeedsNoForceForAPlaneWaveOfTheLinearLaw) {
   const Manufactured<LinearElastic> wave({.u = [=](double x, double y, double t) -> Vec2 {
                                            return 0.01 * std::sin(3 * (n[0] * x + n[1] * y - c_p * t)) * n;
                                          }},
-                                         law, rho);
+                                         law, rho, 1);
   // Inertia alone is rho (3 c_p)^2 0.01 = 0.24; what is left is the error of the differences.
   EXPECT_LT(wave.body_force(0.3, 0.2, 0.4).norm(), 1e-9);
 }
@@ -29,7 +29,7 @@ TEST(Manufactured, ForceIsInertiaMinusTheDivergenceOfTheStressOfEq10) {
       {.u = [](double x, double y, double t) -> Vec2 {
         return {0.05 * std::sin(2 * x + y) * std::cos(t), 0.04 * std::cos(x - 2 * y) * std::sin(t + 1)};
       }},
-      law, 1.5);
+      law, 1.5, 1);
   const double x = 0.2, y = -0.3, t = 0.7, h = 1e-3;
   const auto P = [&](double a, double b) { return motion.state(a, b, t).P; };
   const auto rate = [&](double a) { return motion.velocity(x, y, a); };
@@ -59,7 +59,7 @@ TEST(Eq46ChosenFields, SourcesAreWhatTheRatesOfEq4Lack) {
                             .P = [](double a, double b, double c) -> Tensor2 {
                               return {a * a, 3 * c, a * b, b * c};
                             }};
-  const Manufactured<NeoHookean> chosen(fields, law, rho);
+  const Manufactured<NeoHookean> chosen(fields, law, rho, 1);
   const SolidState source = chosen.source(x, y, t);
   EXPECT_LT((source.u + fields.v(x, y, t) - Vec2(0.1 * x, 0.2 * y * y)).norm(), 1e-9);       // du/dt
   EXPECT_LT((rho * source.v + Vec2(2 * x + x, t) - rho * Vec2(0, 2 * t * x)).norm(), 1e-8);  // dv/dt
@@ -78,12 +78,34 @@ TEST(Eq46ChosenFields, NeedOnlyTheBodyForceWhereVelocityAndStressFollowFromTheDi
       {.u = [](double x, double y, double t) -> Vec2 {
         return {0.05 * std::sin(2 * x + y) * std::cos(t), 0.04 * std::cos(x - 2 * y) * std::sin(t + 1)};
       }},
-      law, 1.5);
+      law, 1.5, 1);
   const SolidState source = motion.source(0.2, -0.3, 0.7);
   EXPECT_LT(source.u.norm(), 1e-9);
   EXPECT_LT((source.v - motion.body_force(0.2, -0.3, 0.7) / 1.5).norm(), 1e-7);
   EXPECT_LT(std::abs(source.P.a11) + std::abs(source.P.a12) + std::abs(source.P.a21) + std::abs(source.P.a22),
             1e-7);
+}
+
+TEST(Manufactured, IsTheSameToTheBitInOtherUnits) {
+  constexpr double length = 0x1p-5, time = 0x1p9, density = 0x1p3, speed = length / time,
+                   pressure = density * speed * speed;
+  const VectorFunction u = [](double x, double y, double t) -> Vec2 {
+    return {0.05 * std::sin(2 * x + y) * std::cos(t), 0.04 * std::cos(x - 2 * y) * std::sin(t + 1)};
+  };
+  const VectorFunction its_u = [&](double x, double y, double t) -> Vec2 {
+    return length * u(x / length, y / length, t / time);
+  };
+  const Manufactured<NeoHookean> one({.u = u}, NeoHookean{1.1, 0.8}, 1.5, 1.3);
+  const Manufactured<NeoHookean> other({.u = its_u}, NeoHookean{1.1 * pressure, 0.8 * pressure},
+                                       1.5 * density, 1.3 * length);
+  constexpr double x = 0.2, y = -0.3, t = 0.7;
+  EXPECT_EQ(Vec2(speed * one.velocity(x, y, t)), other.velocity(x * length, y * length, t * time));
+  EXPECT_EQ(Vec2(pressure / length * one.body_force(x, y, t)),
+            other.body_force(x * length, y * length, t * time));
+  const SolidState source = one.source(x, y, t), its = other.source(x * length, y * length, t * time);
+  EXPECT_EQ(Vec2(speed * source.u), its.u);
+  EXPECT_EQ(Vec2(speed / time * source.v), its.v);
+  EXPECT_EQ(pressure / time * source.P.a12, its.P.a12);
 }
 
 }  // namespace
