@@ -35,6 +35,8 @@ and what to write.
 - YAML aliases, merge keys and second documents are not read; a key that is there twice is an error.
 - **Editors** complete and check case files by their JSON Schema: `./launch/fsi schema > case.schema.json`, and as the first line
   of the case `# yaml-language-server: $schema=case.schema.json`. Only `check` knows formulas and what fits together.
+  For scripts, each key has its `default`, where that is a value, and its unit as `x-unit`: the name, and the powers of length,
+  time and density.
 - Limits: a file of 4 MiB of UTF-8 text, 24 sections and lists within each other, 1000 keys in a section, 20 000 entries in
   a list (or points in a file of points), 16 384 characters in a value, 100 definitions, 100 parameters that need each other one after the other.
 - **Memory**: `check` estimates what the programs of a run need together, and refuses a case that needs more than the machine
