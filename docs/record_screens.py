@@ -203,7 +203,8 @@ def main():
     parser.add_argument("--pause-at", default="400")
     parser.add_argument("--out", type=Path, default=ROOT / "docs" / "figures")
     options = parser.parse_args()
-    page = browser.Browser(browser.find())
+    program = browser.Browser(browser.find())
+    page = program.page()
     with tempfile.TemporaryDirectory() as scratch:
         folder = f"{scratch}/run"
         run = subprocess.Popen([FSI, "run", options.case, "--out", folder, "--pause-at", options.pause_at, "--no-progress"],
@@ -223,7 +224,7 @@ def main():
         run.wait()
         monitor.kill()
         monitor.wait()
-    page.close()
+    program.close()
 
 
 if __name__ == "__main__":
