@@ -64,6 +64,8 @@ class Coupler {
   double dt() const { return moment_.dt; }
   /// The step agreed on in the last exchange.
   const AgreedStep& next() const { return next_; }
+  /// What everybody proposed for it.
+  const std::vector<Bid>& bids() const { return bids_; }
   /// What the last exchange did, one per interface.
   std::vector<InterfaceReport> reports() const;
   /// For the monitor: values along each interface at the last exchange.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -84,6 +85,14 @@ Coupler coupler_of(const Case& problem, bus::CouplerSession& session) {
   }
 }
 
+/// The programs that propose steps.
+std::vector<std::string> bidders(const Case& problem) {
+  std::vector<std::string> names;
+  for (const FluidSpec& fluid : problem.fluids) names.push_back(fluid.name);
+  for (const SolidSpec& solid : problem.solids) names.push_back(solid.name);
+  return names;
+}
+
 std::vector<std::string> columns_of(const Case& problem) {
   std::vector<std::string> columns{"step", "t [time]", "dt [time]"};
   for (const std::string& name : interface_names(problem)) {
@@ -92,6 +101,8 @@ std::vector<std::string> columns_of(const Case& problem) {
       columns.push_back(fmt::format("{}.{}", name, quantity));
     }
   }
+  for (const std::string& name : bidders(problem)) columns.push_back(name + ".dt_bid [time]");
+  columns.emplace_back("limited_by");
   return columns;
 }
 
@@ -103,6 +114,7 @@ CoupledRun::CoupledRun(const Setup& setup, io::Part& part)
       session_(join(setup)),
       coupler_(coupler_of(setup.problem, session_)),
       table_(setup.run_dir + "/interface.csv", columns_of(setup.problem), setup.opening()),
+      proposed_(bidders(setup.problem).size(), std::nan("")),
       progress_(setup.problem.time.end),
       checkpoints_(setup, part, [this](Archive& archive) { this->archive(archive); }),
       due_(setup.problem.output),
@@ -114,6 +126,11 @@ CoupledRun::CoupledRun(const Setup& setup, io::Part& part)
 void CoupledRun::archive(Archive& archive) {
   coupler_.archive(archive);
   archive.inside("table", [&] { table_.archive(archive); });
+  archive.values("proposed", proposed_);
+  const std::vector<std::string> names = names_of_limits(setup_.problem);
+  auto limit = static_cast<std::size_t>(std::ranges::find(names, limited_by_) - names.begin());
+  archive.number("limit", limit);
+  if (limit < names.size()) limited_by_ = names[limit];
 }
 
 void CoupledRun::run() {
@@ -221,7 +238,20 @@ void CoupledRun::record() {
     extremes.traction_scale = std::max(extremes.traction_scale, report->traction_scale);
     part_.counters["vacuum_points"] += static_cast<double>(report->vacuum);
   }
-  table_.row(row);
+  row.insert(row.end(), proposed_.begin(), proposed_.end());
+  const std::string limit = limited_by_;
+  note_agreement();
+  table_.row(row, limit);
+}
+
+void CoupledRun::note_agreement() {
+  if (coupler_.finished()) return;
+  const std::vector<std::string> names = bidders(setup_.problem);
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    const auto bid = std::ranges::find(coupler_.bids(), names[k], &Bid::from);
+    proposed_[k] = bid == coupler_.bids().end() ? std::nan("") : bid->dt;
+  }
+  limited_by_ = coupler_.next().limited_by;
 }
 
 /// The interfaces where they are, with the pressure on them.

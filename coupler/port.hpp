@@ -30,6 +30,8 @@ class CoupledRun {
   void exchange();
   void complete_checkpoint();
   void record();
+  /// What is known now of the step that follows, for its line in the table.
+  void note_agreement();
   void show();
   /// Telemetry of the last exchange.
   void publish();
@@ -41,6 +43,8 @@ class CoupledRun {
   bus::CouplerSession session_;
   Coupler coupler_;
   io::CsvWriter table_;
+  std::vector<double> proposed_;     ///< by each program, for the step that led here [time]
+  std::string limited_by_ = "none";  ///< that step
   ProgressLines progress_;
   Checkpoints checkpoints_;
   CheckpointClock due_;

@@ -27,6 +27,10 @@ std::string without_unit(const std::string& heading) {
   return heading.substr(0, heading.find(" ["));
 }
 
+bool is_proposal(const std::string& heading) {
+  return heading.ends_with(".dt_bid");
+}
+
 }  // namespace
 
 void Series::add(double at, double value) {
@@ -86,15 +90,22 @@ void History::read_table(const std::string& path) {
     headings[k] = without_unit(headings[k]);
     if (headings[k] == "t") time = k;
   }
+  double before = 0;  // what is said of a step was agreed on where it began
   while (std::getline(file, line)) {
     const std::vector<std::string> cells = split(line);
     if (cells.size() != headings.size() || time >= cells.size()) continue;
     const double t = std::strtod(cells[time].c_str(), nullptr);
     for (std::size_t k = 0; k < cells.size(); ++k) {
-      if (k == time || headings[k] == "step") continue;
-      if (headings[k] == "dt" && t == 0) continue;  // no step led to the initial state
-      add(headings[k], t, std::strtod(cells[k].c_str(), nullptr));
+      const bool of_step = headings[k] == "dt" || headings[k] == "limited_by" || is_proposal(headings[k]);
+      if (k == time || headings[k] == "step" || (of_step && t == 0))
+        continue;  // none led to the initial state
+      if (headings[k] == "limited_by") {
+        limiters_.add(before, cells[k]);
+      } else {
+        add(headings[k], is_proposal(headings[k]) ? before : t, std::strtod(cells[k].c_str(), nullptr));
+      }
     }
+    before = t;
   }
 }
 

@@ -56,7 +56,7 @@ class History {
   void add(const wire::Telemetry& leader);
   /// Under a name "dt", "INTERFACE.gap" ...; what lies before the last point of that name is left out.
   void add(const std::string& name, double t, double value) { series_[name].add(t, value); }
-  /// Steps taken before anybody watched, from the coupler's
+  /// Steps taken before anybody watched, what was proposed for them and who limited them, from the coupler's
   /// table in the folder of the run. Unreadable: nothing.
   void read_table(const std::string& path);
   /// By name; empty before there was anything.

@@ -53,12 +53,12 @@ CsvWriter::~CsvWriter() {
   }
 }
 
-void CsvWriter::row(std::span<const double> values) {
-  if (values.size() != columns_) {
-    throw std::logic_error(
-        fmt::format("a line of '{}' has {} columns, not {}", path_, columns_, values.size()));
-  }
-  fmt::format_to(std::back_inserter(pending_), "{}\n", fmt::join(values, ","));
+void CsvWriter::row(std::span<const double> values, std::string_view word) {
+  const std::size_t given = values.size() + (word.empty() ? 0 : 1);
+  if (given != columns_)
+    throw std::logic_error(fmt::format("a line of '{}' has {} columns, not {}", path_, columns_, given));
+  fmt::format_to(std::back_inserter(pending_), "{}{}{}\n", fmt::join(values, ","), word.empty() ? "" : ",",
+                 word);
   if (++waiting_ >= batch_) flush();
 }
 

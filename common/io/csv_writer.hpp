@@ -7,6 +7,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "common/core/archive.hpp"
@@ -16,7 +17,7 @@ namespace fsi::io {
 /// Whether an output begins or goes on where a checkpoint left it.
 enum class Opening { fresh, continued };
 
-/// Numbers only, with as many digits as they need to read back exactly. Lines reach the file in batches: a
+/// Numbers, with as many digits as they need to read back exactly. Lines reach the file in batches: a
 /// kill loses at most the last `batch` of them, and never leaves half a line before a whole one.
 class CsvWriter {
  public:
@@ -31,8 +32,9 @@ class CsvWriter {
   CsvWriter& operator=(const CsvWriter&) = delete;
   ~CsvWriter();  ///< hands over the last lines
 
-  /// One value per column. @throws OutputFailed @throws std::logic_error when the number of values is wrong
-  void row(std::span<const double> values);
+  /// One value per column; with `word` that is the last one. It holds no comma and no quotation mark.
+  /// @throws OutputFailed @throws std::logic_error when the number of values is wrong
+  void row(std::span<const double> values, std::string_view word = {});
   void row(std::initializer_list<double> values) {
     row(std::span<const double>(values.begin(), values.size()));
   }

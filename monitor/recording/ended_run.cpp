@@ -136,6 +136,8 @@ void EndedRun::listen(RunState& state, double /*seconds*/) {
       if (said.role == "coupler") said.interfaces = interfaces_of(state.history(), part);
       if (said.t > 0 && said.dt == 0 && !state.history().of("dt").points().empty())
         said.dt = state.history().of("dt").points().back().value;
+      const auto& proposed = state.history().of(said.from + ".dt_bid").points();
+      if (!proposed.empty()) said.dt_bid = proposed.back().value;
       state.hear(said, 0);
     } catch (const json::exception&) {  // of another version
       continue;

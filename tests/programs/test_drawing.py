@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Pictures drawn by several processes are those of one, failures come out, and labels have the units of the case."""
+"""Pictures drawn by several processes are those of one, failures come out, and labels and curves are those of the case."""
 
 import errno
 import subprocess
@@ -17,7 +17,7 @@ from running import ROOT
 sys.path.insert(0, str(ROOT / "launch"))
 from fsi_launch.plot.look import drawing, style, units  # noqa: E402
 from fsi_launch.plot.one_run import curves, movie  # noqa: E402
-from fsi_launch.plot.reading import data  # noqa: E402
+from fsi_launch.plot.reading import data, scales  # noqa: E402
 
 
 def picture(k):
@@ -138,6 +138,17 @@ class Units(unittest.TestCase):
         self.assertGreater(len(headings), 10)
         units.use("SI")
         self.assertEqual([heading for heading in sorted(headings) if units.heading(heading) == heading and "[rad]" not in heading], [])
+
+
+class Proposals(unittest.TestCase):
+    def test_what_was_proposed_is_drawn_beside_the_steps_taken_and_who_limited_them_is_no_curve(self):
+        t = np.array([0.0, 0.1, 0.2, 0.3])
+        table = data.Table("interface", {"t [time]": t, "dt [time]": np.array([0, 0.1, 0.1, 0.1]), "beam.gap [length]": 1e-3 * t,
+                                         "fluid.dt_bid [time]": np.array([np.nan, 0.1, 0.11, 0.12]), "body.dt_bid [time]": np.full(4, np.inf),
+                                         "limited_by": np.array(["none", "fluid", "fluid", "fluid"])})
+        figure = curves._table_picture(table, scales.Scales(1, 1, 1))
+        self.assertEqual([len(axes.lines) for axes in figure.axes], [2, 1])
+        self.assertEqual([line.get_label() for line in figure.axes[0].lines], ["taken", "fluid"])
 
 
 if __name__ == "__main__":

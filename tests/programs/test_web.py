@@ -1,77 +1,26 @@
 #!/usr/bin/python3
-"""`./launch/fsi monitor --web` serves the state of a run; `test_web.py Page` looks at its page in a headless Chromium."""
+"""`./launch/fsi monitor --web` serves the state of a run."""
 
 import contextlib
 import http.client
 import json
-import os
 import pathlib
 import re
 import socket
 import struct
-import subprocess
-import sys
 import unittest
 import urllib.error
 import urllib.parse
 import urllib.request
 
-import browser
-from running import BIN, EndToEnd, FSI, LONG, WATCHDOG, until
-
-NOT_INSTALLED = 77  # exit code that CTest shows as skipped
+from running import LONG, WATCHDOG, until
+from served import WebTest
 
 
 def resident_mib(pid):
     """Memory of a process now."""
     status = pathlib.Path(f"/proc/{pid}/status").read_text()
     return int(re.search(r"VmRSS:\s+(\d+) kB", status)[1]) / 1024
-
-
-class WebTest(EndToEnd):
-    """A run and a monitor that serves it."""
-
-    def serve(self, run, *words):
-        """The monitor; its page's address is in `self.url`, without the token that allows requests."""
-        monitor = subprocess.Popen([FSI, "monitor", *words, "--web", "0"], stdin=subprocess.DEVNULL, text=True,
-                                   stdout=subprocess.PIPE,
-                                   env=os.environ | {"FSI_BIN": str(BIN), "XDG_RUNTIME_DIR": str(run.runtime)})
-        self.addCleanup(monitor.stdout.close)
-        self.addCleanup(monitor.wait)
-        self.addCleanup(monitor.kill)
-        self.url, _, fragment = monitor.stdout.readline().strip().partition("#")
-        self.token = fragment.removeprefix("token=")
-        return monitor
-
-    def begin(self, *words):
-        run = self.launch(*(words or LONG))
-        run.until_stepping()
-        return run, self.serve(run, str(run.directory))
-
-    def get(self, path, **headers):
-        with urllib.request.urlopen(urllib.request.Request(self.url + path, headers=headers), timeout=WATCHDOG) as answer:
-            return answer.read().decode()
-
-    def state(self):
-        return json.loads(self.get("api/state.json"))
-
-    def running(self):
-        """Waits until the monitor has heard all three programs of the run at work."""
-        self.assertTrue(until(lambda: len(self.state()["participants"]) == 3 and self.state()["status"] == "running"))
-
-    def assert_ends_after(self, paused, run):
-        """A run that is stopped while it pauses takes the step it was about to take, and the one after which its checkpoint is whole."""
-        self.assertIn(run.summary()["steps"] - paused, (1, 2))
-
-    def ask(self, command, token):
-        request = urllib.request.Request(f"{self.url}api/control?command={command}", method="POST",
-                                         headers={"X-AMP-FSI-Token": token})
-        try:
-            with urllib.request.urlopen(request, timeout=WATCHDOG) as answer:
-                return answer.status
-        except urllib.error.HTTPError as error:
-            with error:
-                return error.code
 
 
 class Server(WebTest):
@@ -192,209 +141,5 @@ class Server(WebTest):
         self.assertEqual(monitor.wait(timeout=WATCHDOG), 0)
 
 
-class Page(WebTest):
-    """Each test looks at a page of its own; whatever it asks of that, it waits for."""
-
-    @classmethod
-    def setUpClass(cls):
-        cls.browser = browser.Browser(browser.find())
-        cls.addClassCleanup(cls.browser.close)
-
-    def setUp(self):
-        super().setUp()
-        self.page = self.another_page()
-
-    def another_page(self):
-        page = self.browser.page()
-        self.addCleanup(page.close)
-        return page
-
-    def shows(self, element, words):
-        found = until(lambda: words in (self.page.value(f"document.getElementById('{element}').innerText") or ""))
-        self.assertTrue(found, f"{element} does not show '{words}'")
-
-    def becomes(self, script, value=True, words=""):
-        """Waits for an expression of the page to have a value."""
-        self.assertTrue(until(lambda: self.page.value(script) == value), words or f"{script} never is {value}: {self.page.value(script)}")
-
-    def coloured(self, canvas):
-        """Waits until something is drawn on a canvas."""
-        self.becomes(f"(() => {{ const c = document.getElementById('{canvas}'); const d = c.getContext('2d')"
-                     ".getImageData(0, 0, c.width, c.height).data; let n = 0;"
-                     " for (let k = 3; k < d.length; k += 4) n += d[k] > 0; return n > 300; })()", words=f"nothing is drawn on {canvas}")
-
-    def click(self, command):
-        """Presses a button once it can be pressed."""
-        button = f"document.querySelector('[data-command={command}]')"
-        self.becomes(f"{button}.disabled", False)
-        self.page.do(f"{button}.click()")
-
-    def choose(self, element, value):
-        self.page.do(f"document.getElementById('{element}').value = '{value}'; document.getElementById('{element}').onchange()")
-
-    def test_page_follows_the_run_survives_its_end_and_the_loss_of_the_monitor(self):
-        run, monitor = self.begin()
-        self.page.show(self.url + "#token=" + self.token)
-        self.shows("status", "running")
-        self.shows("programs", "alive")
-        self.shows("interfaces", "solid")
-        step = self.page.do("memory.state.step")
-        self.becomes(f"memory.state.step > {step} + 5", words="the page stands still")
-        for canvas in ("shape", "pressure", "velocity", "timeline"):
-            self.coloured(canvas)
-        self.assertEqual(self.page.problems, [])
-        self.click("pause")
-        self.shows("status", "paused")
-        self.click("resume")
-        self.shows("status", "running")
-        self.click("pause")
-        self.shows("status", "paused")
-        paused = self.page.do("memory.state.step")
-        self.assertEqual(self.ask("stop", self.token), 200)
-        self.shows("status", "ended")
-        self.shows("notice", "the run has ended")
-        self.becomes("[...document.querySelectorAll('[data-command]')].every((button) => button.disabled)")
-        self.assertEqual(run.wait(), 0, run.stderr)
-        self.assert_ends_after(paused, run)
-        self.assertLessEqual(paused, self.page.do("memory.state.step"))
-        self.assertLessEqual(self.page.do("memory.state.step"), run.summary()["steps"])
-        self.assertEqual(self.page.problems, [])
-        self.page = self.another_page()  # one opened afterwards shows it too
-        self.page.show(self.url)
-        self.shows("status", "ended")
-        self.assertEqual(self.page.problems, [])
-        monitor.kill()
-        self.shows("notice", "the monitor has left")
-
-    def test_both_sides_of_a_wall_between_two_gases_are_named_within_their_picture(self):
-        self.begin("piston_between_gases", "--set", "grid.factor=4", "--set", "parameters.cells=4", "--set", "time.dt=1e-7",
-                   "--set", "output.times=[1e-6, 1.6]", "--set", "expect={}")
-        self.page.show(self.url + "#token=" + self.token)
-        for words in ("piston.left", "piston.right"):
-            self.shows("interfaces", words)
-        for words in ("left", "right", "piston", "coupler"):
-            self.shows("programs", words)
-        self.page.do("""(() => {
-            window.drawn = {};
-            const draw = CanvasRenderingContext2D.prototype.fillText;
-            CanvasRenderingContext2D.prototype.fillText = function (words, x, ...rest) {
-              const wide = this.measureText(words).width, left = this.textAlign === "right" ? x - wide : x;
-              drawn[this.canvas.id + " " + words] = [left, left + wide, this.canvas.clientWidth];
-              draw.call(this, words, x, ...rest);
-            };
-            memory.stale = true;
-          })()""")
-        for name in ("piston.left", "piston.right"):
-            self.becomes(f"'shape {name}' in drawn")
-            begin, end, width = self.page.do(f"drawn['shape {name}']")
-            self.assertGreaterEqual(begin, 0, name)
-            self.assertLessEqual(end, width, name)
-        self.assertEqual(self.page.problems, [])
-
-    SHOWN = "[...currentFrame().pictures.values()].map((p) => p.from + ' ' + p.quantity).sort().join()"
-    GAS_DRAWN = "live.drawn.find((p) => p.role === 'fluid')"
-
-    def begin_paused(self):
-        """A page beside a run that pauses after 30 steps, with the fields of that step."""
-        run = self.launch(*LONG, "--pause-at", "30")
-        run.until_paused()
-        self.serve(run, str(run.directory))
-        self.page.show(self.url + "#token=" + self.token)
-        self.becomes(self.SHOWN, "fluid pressure,solid speed")
-        self.becomes("currentFrame().step", 30)
-        return run
-
-    def test_fields_are_shown_while_the_run_is_paused(self):
-        self.begin_paused()
-        self.coloured("picture")
-        self.becomes("memory.state.step >= 29", words="the numbers are not those of the step it stands at")
-        self.becomes("live.frames[0].step < 30", words="what was written before the page was opened is not shown")
-        for quantity in ("schlieren", "pressure"):  # another picture of the same step
-            self.choose("gas-quantity", quantity)
-            self.becomes(self.SHOWN, f"fluid {quantity},solid speed")
-            self.becomes(f"{self.GAS_DRAWN}.quantity", quantity)
-        # the raster holds values of the field
-        self.becomes("live.drawn[0].role", "fluid")
-        value, low, high = self.page.do("(() => { const k = live.raster.owner.indexOf(1), [p] = live.drawn; "
-                                        "return [live.raster.value[k], p.low, p.high]; })()")
-        self.assertTrue(low * (1 - 1e-6) <= value <= high * (1 + 1e-6), (low, value, high))
-        self.assertEqual(self.page.problems, [])
-
-    def test_colours_and_a_chosen_moment_hold_while_the_run_goes_on(self):
-        self.begin_paused()
-        self.becomes(f"{self.GAS_DRAWN}.quantity", "pressure")
-        self.choose("gas-limits", "fixed")
-        self.page.do("document.getElementById('gas-high').value = 77; document.getElementById('gas-high').oninput({target: document.getElementById('gas-high')})")
-        self.click("resume")
-        self.becomes("live.frames.length > 5", words="no new moments")
-        self.becomes(f"{self.GAS_DRAWN}.step > 30 && rangeOf({self.GAS_DRAWN})[1]", 77)
-        moment = "document.getElementById('moment')"
-        self.becomes(f"(() => {{ {moment}.value = live.frames.findIndex((f) => f.step === 30); {moment}.oninput(); return currentFrame().step; }})()", 30)
-        count = self.page.do("live.frames.length")
-        self.becomes(f"live.frames.length > {count}", words="nothing is kept while one looks back")
-        self.assertEqual(self.page.do("currentFrame().step"), 30)
-        self.page.do("document.getElementById('follow').click()")
-        self.becomes("currentFrame().step > 30")
-        self.assertEqual(self.page.problems, [])
-
-    def test_proposals_of_time_steps_are_shown_beside_the_traffic(self):
-        self.begin()
-        self.page.show(self.url)
-        self.shows("traffic", "solid")
-        self.shows("programs", "proposes dt")
-        limits = "proposal({limited_by: 'fluid'}, '%s', {role: 'fluid', dt_bid: 0.5}).textContent"
-        self.assertEqual([self.page.do(limits % name) for name in ("fluid", "other")], ["0.5 limits", "0.5"])
-        self.coloured("bids")
-        self.assertEqual(self.page.problems, [])
-
-    def test_one_cursor_reads_all_plots_and_a_zoom_holds_for_all(self):
-        self.begin()
-        self.page.show(self.url)
-        self.shows("status", "running")
-        over_time = "[...plots.values()].filter(({plot}) => plot.axis === 't')"
-        gap = "[...plots].find(([, one]) => one.plot.title.startsWith('gap'))"
-        self.becomes(f"{over_time}.length >= 5 && {over_time}.every(({{plot}}) => plot.curves[0].x.length > 5) && {gap} !== undefined")
-        words = self.page.do(f"(() => {{ const [canvas] = {gap}; canvas.focus(); canvas.dispatchEvent(new KeyboardEvent('keydown', {{ key: 'ArrowLeft' }})); "
-                             "return document.getElementById('said').textContent; })()")
-        self.assertRegex(words, r"^gap, log, t = \S+: \S+$")
-        at = self.page.do("axes.t.at")
-        self.page.do("setSpan('t', [0, axes.t.at])")
-        self.assertEqual(self.page.do(f"[...new Set({over_time}.map(({{drawn}}) => drawn.across[1]))]"), [at])
-        labels = self.page.do("[...document.querySelectorAll('main canvas')].filter((c) => !c.getAttribute('aria-label') && !c.getAttribute('aria-hidden')).map((c) => c.id)")
-        self.assertEqual(labels, [], "a canvas says nothing to those who do not see it")
-        self.assertEqual(self.page.problems, [])
-
-    def test_run_that_is_over_is_shown_from_its_folder(self):
-        run = self.complete("sod_tube", "--set", "grid.factor=2", "--set", "output.times=[0.05, 0.1]", "--set", "expect={}")
-        self.serve(run, "--replay", str(run.directory))
-        self.page.show(self.url)
-        self.shows("status", "ended")
-        self.becomes("live.frames.map((f) => f.t).join()", "0.05,0.1,0.2")
-        self.choose("gas-quantity", "density")
-        self.becomes("live.frames.every((f) => f.pictures.get('fluid').quantity === 'density')")
-        self.assertAlmostEqual(self.page.do("live.frames[2].pictures.get('fluid').high"), 1, places=2)
-        self.shows("facts", "fluid")    # who limited the steps
-        self.assertEqual(self.page.problems, [])
-
-    def test_histories_of_a_run_that_is_over_are_those_of_its_tables(self):
-        run = self.complete("elastic_piston", "--set", "grid.factor=2", "--set", "expect={}")
-        self.serve(run, "--replay", str(run.directory))
-        self.page.show(self.url)
-        drawn = "Math.max(0, ...[...plots.values()].filter(({plot}) => plot.title.startsWith('gap')).map(({plot}) => plot.curves[0].x.length))"
-        self.becomes(drawn, run.summary()["steps"] + 1, "not all that the table holds is drawn")
-        self.assertEqual(self.page.problems, [])
-
-    def test_lost_connection_is_shown_while_the_run_goes_on(self):
-        run, monitor = self.begin()
-        self.page.show(self.url)
-        self.shows("status", "running")
-        monitor.kill()
-        self.shows("status", "no connection")
-        self.assertIsNone(run.process.poll())
-
-
 if __name__ == "__main__":
-    if sys.argv[1:] == ["Page"] and browser.find() is None:
-        print("not tested: the package chromium is not installed, so no page can be looked at")
-        sys.exit(NOT_INSTALLED)
     unittest.main()

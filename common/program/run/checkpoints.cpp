@@ -14,14 +14,19 @@
 
 namespace fsi {
 
-namespace {
-
-/// Steps by who limited them: all programs, and the settings that may.
-void archive_limits(Archive& archive, io::Part& part, const Case& problem) {
+std::vector<std::string> names_of_limits(const Case& problem) {
   std::vector<std::string> names;
   for (const ParticipantSummary& one : participants_of(problem)) names.push_back(one.name);
   for (const StepLimit limit : {StepLimit::growth, StepLimit::largest, StepLimit::output})
     names.push_back(name_of(limit, {}));
+  return names;
+}
+
+namespace {
+
+/// Steps by who limited them.
+void archive_limits(Archive& archive, io::Part& part, const Case& problem) {
+  const std::vector<std::string> names = names_of_limits(problem);
   std::vector<double> counts;
   for (const std::string& name : names)
     counts.push_back(part.limited_by.contains(name) ? static_cast<double>(part.limited_by[name]) : 0);

@@ -4,12 +4,17 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <string>
+#include <vector>
 
 #include "common/core/archive.hpp"
 #include "common/io/checkpoint.hpp"
 #include "common/program/program.hpp"
 
 namespace fsi {
+
+/// Names of all that may limit a step: the programs, and the settings of the case.
+std::vector<std::string> names_of_limits(const Case& problem);
 
 class Checkpoints {
  public:

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -68,6 +69,15 @@ TEST_F(Csv, AKillLosesAtMostOneBatchAndNeverLeavesHalfALine) {
   }
   csv.flush();
   EXPECT_EQ(std::ranges::count(content(dir + "/interface.csv"), '\n'), 12);
+}
+
+TEST_F(Csv, AWordIsTheLastColumn) {
+  CsvWriter csv(dir + "/a.csv", {"t", "x", "who"});
+  const std::array values = {1.0, 2.5};
+  csv.row(values, "fluid");
+  EXPECT_THROW(csv.row(values), std::logic_error);
+  csv.flush();
+  EXPECT_EQ(content(dir + "/a.csv"), "t,x,who\n1,2.5,fluid\n");
 }
 
 TEST_F(Csv, RefusesALineOfTheWrongLength) {

@@ -25,6 +25,12 @@ class Site(launcher.InScratch):
         for page in (site.paths.ROOT / "docs").glob("*.md"):
             self.assertTrue((site.SITE / f"{page.stem}.html").is_file(), page)
 
+    def test_no_page_shows_the_source_of_a_picture(self):
+        self.made()
+        for page in site.SITE.glob("*.html"):
+            self.assertNotIn("language-mermaid", page.read_text(encoding="utf-8"), page)
+        self.assertTrue((site.SITE / "site.css").is_file())
+
     def test_dead_link_is_found(self):
         with mock.patch.object(site, "FROM_ELSEWHERE", {}), self.assertRaisesRegex(Failure, "wire.md"):
             self.made()

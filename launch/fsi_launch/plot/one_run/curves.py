@@ -15,6 +15,8 @@ SAME = 1e-3        # variation across the line, part of the variation along it, 
 MOST_TIMES = 6
 REFERENCE = {"color": "black", "linewidth": 2.6, "alpha": 0.3, "zorder": 1}
 SAME_VALUE = 1e-11  # differences, part of the values, that are round-off
+PROPOSED = ".dt_bid"   # of the name of a column
+FAR = 30            # times the step taken: proposals beyond take a logarithmic scale
 FEW = 16            # times, which are marked: between them nothing is known
 WORDS = {"dt": "time step", "force1": "force along $x$", "force2": "force along $y$", "centre1": "$x$ of the centre", "centre2": "$y$ of the centre",
          "velocity1": "velocity of the centre along $x$", "velocity2": "velocity of the centre along $y$", "angle": "angle turned",
@@ -107,7 +109,7 @@ def _time_column(table):
 
 def _groups(table):
     """{label: mask} by the columns that hold words (an interface's or a probe's name)."""
-    words = [name for name, values in table.columns.items() if values.dtype.kind == "U"]
+    words = [name for name, values in table.columns.items() if values.dtype.kind == "U" and name != "limited_by"]
     if not words:
         return {"": np.ones(len(next(iter(table.columns.values()))), dtype=bool)}
     keys = table.columns[words[0]]
@@ -163,10 +165,30 @@ def _zero(axes, t, largest):
     axes.text(0.02, 0.6, text, transform=axes.transAxes, fontsize=8, color="#666666")
 
 
+def _proposals(axes, table, t):
+    """What the programs proposed, beside the steps that were taken."""
+    proposed = {_bare(name).removesuffix(PROPOSED): np.where(np.isfinite(values), values, np.nan)
+                for name, values in table.columns.items() if _bare(name).endswith(PROPOSED)}
+    proposed = {name: values for name, values in proposed.items() if not np.isnan(values).all()}
+    if not proposed:
+        return
+    axes.lines[-1].set(label="taken", color="black", linestyle="--", zorder=3)
+    for name, values in proposed.items():
+        axes.plot(t, values, label=name.replace("_", " "))
+    drawn = np.concatenate([line.get_ydata() for line in axes.lines])
+    if np.nanmax(drawn) > FAR * np.nanmin(drawn):
+        axes.set_yscale("log")
+    axes.autoscale(axis="y")
+    axes.legend()
+
+
+def _drawn_alone(name, values, time):
+    return values.dtype.kind == "f" and name != time and _bare(name) != "step" and not _bare(name).endswith(PROPOSED)
+
+
 def _table_picture(table, scales):
     time = _time_column(table)
-    names = [name for name, values in table.columns.items()
-             if values.dtype.kind == "f" and name != time and _bare(name) != "step"]
+    names = [name for name, values in table.columns.items() if _drawn_alone(name, values, time)]
     if time is None or not names:
         return None
     columns = min(3, len(names))
@@ -183,6 +205,8 @@ def _table_picture(table, scales):
         _steady(axes, table.columns[name])
         for label, mask in _groups(table).items():
             _curve(axes, name, table.columns[time][mask], table.columns[name][mask], label, floor)
+        if _bare(name) == "dt":
+            _proposals(axes, table, table.columns[time])
         if len(_groups(table)) > 1:
             axes.legend()
     for axes in panels.flat[len(names):]:
