@@ -39,6 +39,7 @@ def main(options):
     """Makes build/site, prints where it begins, and opens it."""
     shutil.rmtree(PAGES, ignore_errors=True)
     shutil.copytree(paths.ROOT / "docs" / "figures", PAGES / "figures")
+    shutil.copy(paths.ROOT / "docs" / "site.css", PAGES)
     for page in sorted((paths.ROOT / "docs").glob("*.md")):
         _copy(page, page.name)
     for source, name in FROM_ELSEWHERE.items():

@@ -116,6 +116,14 @@ class Captions(unittest.TestCase):
         self.assertEqual(caption.of_case(own, several.entries(own)), "mine, h = 1/40, neo hookean")
 
 
+    def test_a_long_title_takes_as_many_lines_as_fit(self):
+        figure, _ = pyplot.subplots(figsize=(4.4, 3.2))
+        caption.head(figure, "A shock of Mach 2 and a rigid cylinder: regular reflection, then a Mach stem, and all that follows")
+        figure.draw_without_rendering()
+        self.assertGreaterEqual(figure._suptitle.get_text().count("\n"), 1)
+        self.assertLess(figure._suptitle.get_window_extent().width, figure.bbox.width)
+
+
 class Cells(unittest.TestCase):
     def test_holes_are_left_free(self):
         grid = background()
@@ -153,6 +161,7 @@ class Numbers(unittest.TestCase):
         self.assertEqual(size.of("length/time"), 5.0)
         self.assertEqual(size.of("force*length/depth"), size.of("force"))
         self.assertEqual(size.of("power"), size.of("force") * size.of("length/time"))
+        self.assertEqual(size.of("energy/depth"), size.of("force"))
         self.assertEqual(size.floor("apples"), 0.0)
 
     def test_without_fields_nothing_is_taken_for_round_off(self):
@@ -299,6 +308,15 @@ class Schlieren(unittest.TestCase):
         self.assertTrue(schlieren.has_shocks(self.gas(lambda x, y: 1 + 0.3 * (x > 0.5) + 0.2 * np.sin(6 * x))))
         self.assertFalse(schlieren.has_shocks(self.gas(lambda x, y: 1 + 0.3 * np.sin(6 * x) * np.cos(6 * y))))
         self.assertFalse(schlieren.has_shocks(self.gas(lambda x, y: 1 + 0.001 * (x > 0.5))))
+
+    def test_a_solid_that_rests_is_plain_and_has_no_colour_bar(self):
+        still = ring()
+        still.fields |= {"v1": 0 * still.x1, "v2": 0 * still.x1}
+        series = [data.Series("fluid", [self.gas(lambda x, y: 1 + 0.3 * (x > 0.5))]), data.Series("body", [data.Output(1.0, [still])])]
+        [(_, draw)] = schlieren.pictures(series, scales.Scales(1, 1, 1))
+        self.assertEqual(len(draw().axes), 1)
+        still.fields["v1"] += 1
+        self.assertEqual(len(draw().axes), 2)
 
     def test_a_solid_beside_the_gas_is_within_the_picture(self):
         around = data.Output(1.0, [ring()])

@@ -2,6 +2,8 @@
 
 from matplotlib import pyplot
 
+from fsi_launch.plot.look import caption
+
 COLUMNS = 3
 KNOWN = {"color": "black", "linewidth": 2.6, "alpha": 0.3}
 COMPUTED = {"color": "#b5281e", "linewidth": 1.0}
@@ -35,5 +37,5 @@ def draw(problem, curves, others=()):
     for axes in list(panels.flat)[len(curves):]:
         axes.set_visible(False)
     panels.flat[0].legend()
-    figure.suptitle(problem.title, x=0.01, ha="left", fontsize=10)
+    caption.head(figure, problem.title)
     return figure

@@ -58,11 +58,15 @@ def use(line):
     _caption = line
 
 
+def head(figure, line):
+    """Writes a line above all else, in as many as the width of the picture makes of it."""
+    figure.suptitle(textwrap.fill(line, max(SHORTEST, int(LETTERS * figure.get_figwidth()))), x=0.01, ha="left", fontsize=10)
+
+
 def write(figure):
     """Puts it before what a picture says of itself."""
     if not _caption:
         return
     own = figure._suptitle.get_text() if figure._suptitle else ""      # noqa: SLF001
     if not own.startswith(_caption):
-        line = f"{_caption}: {own}" if own else _caption
-        figure.suptitle(textwrap.fill(line, max(SHORTEST, int(LETTERS * figure.get_figwidth()))), x=0.01, ha="left", fontsize=10)
+        head(figure, f"{_caption}: {own}" if own else _caption)

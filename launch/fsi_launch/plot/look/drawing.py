@@ -1,5 +1,6 @@
 """Draws many pictures at once, one process on each processor, and says how far it is."""
 
+import gc
 import multiprocessing
 import os
 import sys
@@ -55,8 +56,10 @@ def _drawn(count, jobs):
     if jobs < 2:
         yield from map(_draw, range(count))
         return
+    gc.freeze()     # what is here now stays: the processes need not look for garbage in it
     with multiprocessing.get_context("fork").Pool(jobs, interrupts.ignore_terminal) as pool:
         yield from pool.imap(_draw, range(count))
+    gc.unfreeze()
 
 
 def draw(pictures, say, jobs=None):

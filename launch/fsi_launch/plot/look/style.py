@@ -67,9 +67,9 @@ def _save_drawn_part(figure, path):
     from PIL import Image
     width, height = figure.get_size_inches()
     drawn = io.BytesIO()
-    figure.savefig(drawn, format="png", bbox_inches=Bbox([[-BEYOND, -BEYOND], [width + BEYOND, height + BEYOND]]),
-                   pil_kwargs={"compress_level": 0})
-    pixels = np.asarray(Image.open(drawn).convert("RGB"))
+    whole = Bbox([[-BEYOND, -BEYOND], [width + BEYOND, height + BEYOND]])
+    figure.savefig(drawn, format="rgba", bbox_inches=whole)
+    pixels = np.frombuffer(drawn.getbuffer(), np.uint8).reshape(-1, int(whole.width * figure.dpi), 4)[..., :3]
     part, margin = (pixels < 255).any(axis=2), round(MARGIN * figure.dpi)
     rows, columns = np.flatnonzero(part.any(axis=1)), np.flatnonzero(part.any(axis=0))
     if len(rows):
@@ -160,4 +160,4 @@ def bar(figure, axes, mesh, label, constant=None):
     one.outline.set_visible(False)
     one.ax.tick_params(labelsize=8)
     lines = (label, f"${base:.10g} +$" if base else "", f"$\\times 10^{{{exponent}}}$" if exponent else "")
-    one.ax.set_title("\n".join(line for line in lines if line), fontsize=7.5, loc="left")
+    one.ax.set_title("\n".join(line for line in lines if line), fontsize=7.5, loc="left", y=1)    # nothing lies in its way

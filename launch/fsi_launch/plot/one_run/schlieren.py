@@ -8,6 +8,7 @@ from matplotlib import pyplot
 from matplotlib.collections import LineCollection, TriMesh
 
 from fsi_launch.plot.look import shading, style, units
+from fsi_launch.plot.one_run import fields
 from fsi_launch.plot.reading import data, mesh
 
 STRENGTH = 12.0
@@ -88,11 +89,13 @@ def _shade(axes, grid, grey):
 
 
 def _colour(axes, solids, speed):
-    """Speed of the solids; returns what a colour bar needs."""
+    """Speed of the solids; returns what a colour bar needs. Solids that rest at all times (`speed` is 0) are plain and need none."""
     drawn = None
     for one in solids:
-        for grid in one.grids:
-            drawn = shading.shade(axes, grid, np.where(grid.used() & (speed > 0), grid.speed(), 0), SPEED_MAP, (0, speed or 1)) or drawn
+        if not speed:
+            fields.fill(axes, one.grids)
+        for grid in one.grids if speed else ():
+            drawn = shading.shade(axes, grid, np.where(grid.used(), grid.speed(), 0), SPEED_MAP, (0, speed)) or drawn
         lines = [line for grid in one.grids for line in mesh.outer_lines(grid)]
         axes.add_collection(LineCollection(lines, colors="black", linewidths=0.6))
     return drawn
@@ -157,9 +160,9 @@ def _picture(gas, solids, chosen, natural):
     for one, k in zip(axes.flat, chosen):
         drawn = draw(one, gas.outputs[k], [solid.outputs[k] for solid in solids], size)
     if drawn is not None:
-        bar = figure.colorbar(drawn, ax=list(axes.flat), shrink=0.7, aspect=28, pad=0.01, ticks=[0] if rests else None)
+        bar = figure.colorbar(drawn, ax=list(axes.flat), shrink=0.7, aspect=28, pad=0.01)
         bar.outline.set_visible(False)
         bar.ax.set_title(units.label("$|\\bar v|$", "length/time"), fontsize=9)
-    figure.suptitle("numerical schlieren of the gas" + (", speed of the solid" if solids else ""), x=0.01, ha="left",
+    figure.suptitle("numerical schlieren of the gas" + (", speed of the solid" if solids and not rests else ""), x=0.01, ha="left",
                     fontsize=10)
     return figure

@@ -103,7 +103,8 @@ def _inside(solids, points):
         for grid in solid.grids:
             for line in mesh.outer_lines(grid):
                 if not grid.is_cartesian():
-                    covered |= Path(line).contains_points(flat)
+                    near = ((flat >= line.min(axis=0)) & (flat <= line.max(axis=0))).all(axis=1)
+                    covered[near] |= Path(line).contains_points(flat[near])
     return covered.reshape(points[0].shape)
 
 
@@ -185,5 +186,5 @@ def _picture(series, gas, solids, moments, floor):
     figure, axes = _panels(len(moments), box)
     for one, index in zip(axes, moments):
         _panel(figure, one, (gas.outputs[index], [solid.outputs[index] for solid in solids]), most)
-    figure.suptitle("streamlines of the gas, speed of the solid", x=0.01, ha="left", fontsize=10)
+    figure.suptitle("streamlines of the gas" + (", speed of the solid" if most[1] else ""), x=0.01, ha="left", fontsize=10)
     return figure

@@ -21,7 +21,8 @@ class Scales:
         without fields: nothing is below it."""
         force = self.pressure * self.length ** 2
         words = {"length": self.length, "depth": self.length, "area": self.length ** 2, "rad": 1.0, "force": force,
-                 "time": self.length / self.speed, "power": force * self.speed}
+                 "time": self.length / self.speed, "power": force * self.speed,
+                 "energy": force * self.length}
         result = 1.0
         for sign, word in re.findall(r"([*/]?)(\w+)", unit):
             result = result / (words.get(word) or np.inf) if sign == "/" else result * words.get(word, 0.0)
