@@ -2,6 +2,7 @@
 
 import numpy as np
 from matplotlib.collections import TriMesh
+from matplotlib.colors import ListedColormap
 from matplotlib.image import AxesImage
 from matplotlib.patches import Rectangle
 
@@ -35,6 +36,13 @@ def _triangles(axes, grid, values):
     drawn.set_array(np.where(grid.used(), values, 0).ravel())
     axes.add_collection(drawn, autolim=False)   # the box is known; finding it takes longer than the drawing
     return drawn
+
+
+def plain(axes, grid, colour):
+    """The cells between used points in one colour."""
+    drawn = _triangles(axes, grid, np.zeros(grid.x1.shape))
+    if drawn is not None:
+        drawn.set_cmap(ListedColormap([colour]))
 
 
 def shade(axes, grid, values, colours, limits):

@@ -6,7 +6,7 @@ from functools import partial
 
 import numpy as np
 from matplotlib import pyplot
-from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.collections import LineCollection
 
 from fsi_launch.plot.look import shading, style, units
 from fsi_launch.plot.reading import data, mesh
@@ -159,8 +159,7 @@ def _colour(axes, outputs, quantity, colours, limits, look):
 def fill(axes, grids):
     """The region of a solid in one plain colour."""
     for grid in grids:
-        axes.add_collection(PolyCollection(mesh.quadrilaterals(grid), facecolors=style.SOLID_FILL,
-                                           edgecolors=style.SOLID_FILL, linewidths=0.5))
+        shading.plain(axes, grid, style.SOLID_FILL)
 
 
 def outline(axes, grids):

@@ -34,12 +34,6 @@ def triangles(grid, shown=None):
     return Triangulation(grid.x1.ravel(), grid.x2.ravel(), np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]]))
 
 
-def quadrilaterals(grid):
-    """Corner positions of the cells between used points: (count, 4, 2)."""
-    points = np.column_stack([grid.x1.ravel(), grid.x2.ravel()])
-    return points[corners(grid.x1.shape)[cells(grid.used())]]
-
-
 def _loops(grid):
     """The rim as closed lines: two for a ring."""
     if grid.closed:
