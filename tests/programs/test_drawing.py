@@ -18,6 +18,7 @@ sys.path.insert(0, str(ROOT / "launch"))
 from fsi_launch.plot.look import drawing, style, units  # noqa: E402
 from fsi_launch.plot.one_run import curves, movie  # noqa: E402
 from fsi_launch.plot.reading import data, scales  # noqa: E402
+from fsi_launch.plot.several_runs import study  # noqa: E402
 
 
 def picture(k):
@@ -138,6 +139,18 @@ class Units(unittest.TestCase):
         self.assertGreater(len(headings), 10)
         units.use("SI")
         self.assertEqual([heading for heading in sorted(headings) if units.heading(heading) == heading and "[rad]" not in heading], [])
+
+
+class Studies(unittest.TestCase):
+    def test_runs_that_failed_are_marked_where_they_were_and_round_off_is_no_error(self):
+        rows = [{"values": {"parameters.ratio": value}, "status": status, "quantities": {"errors.v": error, "errors.w": 1e-16}}
+                for value, status, error in (("0.1", "failed", None), ("1", "completed", 2e-5), ("10", "completed", 1e-5))]
+        result = {"case": "piston", "vary": {"parameters.ratio": ["0.1", "1", "10"]}, "quantities": ["errors.v", "errors.w"], "rows": rows}
+        [(_, figure)] = study.pictures(result)
+        failed, found = figure.axes[0].lines
+        self.assertEqual((list(failed.get_xdata()), list(found.get_xdata())), ([0.1], [1, 10]))
+        self.assertLessEqual(figure.axes[0].get_xlim()[0], 0.1)
+        self.assertEqual(figure.axes[1].get_ylim(), (-1, 1))
 
 
 class Proposals(unittest.TestCase):

@@ -5,10 +5,14 @@ import itertools
 import numpy as np
 from matplotlib import pyplot
 
+from fsi_launch.plot.look import caption
+
 MARKERS = "os^vD<>ph*"
 DASHES = ("-", "--", ":", "-.")     # so that lines over each other are both seen
 DECADES = 1.3       # values of one sign that span more of them are drawn over a logarithmic axis
 COLUMNS = 3
+ROUND_OFF = 1e-13   # errors up to this one are none
+FAILED = {"color": "#b5281e", "marker": "x", "linestyle": "", "clip_on": False, "label": "failed"}
 
 
 def _is_number(text):
@@ -40,16 +44,28 @@ def _lines(result, key):
     return {label: sorted(rows, key=lambda row: float(row["values"][key])) for label, rows in lines.items()}
 
 
+def _failures(axes, result, key):
+    """Marks at the upper edge, over the values with which a run failed."""
+    at = [float(row["values"][key]) for row in result["rows"] if row["status"] == "failed"]
+    if at:
+        axes.plot(at, np.full(len(at), 0.97), transform=axes.get_xaxis_transform(), **FAILED)
+
+
 def _panel(axes, result, key, quantity):
     found = [row["quantities"][quantity] for row in result["rows"]]
+    _failures(axes, result, key)
     lines = _lines(result, key)
     for (label, rows), marker, dash in zip(lines.items(), itertools.cycle(MARKERS), itertools.cycle(DASHES)):
         points = [(float(row["values"][key]), row["quantities"][quantity]) for row in rows if row["quantities"][quantity] is not None]
         axes.plot(*zip(*points) if points else ((), ()), dash, marker=marker, markersize=4.5, markerfacecolor="none", label=label or None)
     axes.set_xscale(_scale([float(value) for value in result["vary"][key]]))
-    axes.set_yscale(_scale(found))
+    if quantity.startswith("errors.") and max(abs(value) for value in found if value is not None) <= ROUND_OFF:
+        axes.set_ylim(-1, 1)
+        axes.set_yticks([0])
+    else:
+        axes.set_yscale(_scale(found))
     axes.set_title(quantity, loc="left")
-    axes.set_xlabel(key)
+    axes.set_xlabel(key.removeprefix("parameters."))
     axes.grid(color="#e4e4e4", linewidth=0.6)
 
 
@@ -66,7 +82,7 @@ def pictures(result):
         _panel(axes, result, key, quantity)
     for axes in list(panels.flat)[len(shown):]:
         axes.set_visible(False)
-    if len(result["vary"]) > 1:
+    if len(result["vary"]) > 1 or any(row["status"] == "failed" for row in result["rows"]):
         panels.flat[0].legend()
-    figure.suptitle(result["case"], fontsize=10)
+    caption.head(figure, result["case"])
     yield "study", figure
