@@ -156,6 +156,16 @@ class Page(WebTest):
         self.becomes("currentFrame().step > 30")
         self.assertEqual(self.page.problems, [])
 
+    def test_the_picture_of_a_run_that_pauses_is_that_of_where_it_stands(self):
+        self.begin()
+        self.page.show(self.url + "#token=" + self.token)
+        self.becomes("live.frames.some((frame) => frame.pictures.size === 3)", words="the programs never draw the same step")
+        self.click("pause")
+        self.shows("status", "paused")
+        self.becomes("currentFrame().step > memory.state.step", words="the picture is of an earlier step")
+        self.becomes(self.SHOWN, "fluid pressure,solid speed")
+        self.assertEqual(self.page.problems, [])
+
     def test_proposals_of_time_steps_are_shown_beside_the_traffic(self):
         self.begin()
         self.page.show(self.url)

@@ -51,11 +51,14 @@ function thinOut() {
   live.bytes = live.frames.reduce((sum, frame) => sum + [...frame.pictures.values()].reduce((bytes, picture) => bytes + picture.bytes, 0), 0);
 }
 
-// The moment that is shown: the one chosen, else the newest of those of which most is there.
+// The moment that is shown: the one chosen, else the newest of those of which most is there. Where a run pauses, the interfaces
+// are not sent: the rims of the solids stand for them.
 function currentFrame() {
   if (live.at) return live.at;
-  const latest = live.frames.slice(-MOST_BACK), most = Math.max(0, ...latest.map((frame) => frame.pictures.size));
-  return latest.filter((frame) => frame.pictures.size === most).pop() || null;
+  const goesOn = memory.state && memory.state.status === "running";
+  const count = (frame) => frame.pictures.size - (!goesOn && frame.pictures.has("coupler") ? 1 : 0);
+  const latest = live.frames.slice(-MOST_BACK), most = Math.max(0, ...latest.map(count));
+  return latest.filter((frame) => count(frame) === most).pop() || null;
 }
 
 // The pictures of a moment. A program that had no time to draw one, or whose picture was lost, is shown as it was shortly before.
