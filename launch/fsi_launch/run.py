@@ -117,7 +117,7 @@ def _programs(case, directory, entry, checkpoint, reports, request):
     programs = []
     for name, program in case.programs.items():
         command, number = [paths.program(program), *common, "--name", name, *own.get(name, [])], asked.get(name, 1)
-        environment = {"AMP_FSI_KEY": entry.key} | (ranks.environment() if number > 1 else {})
+        environment = {"AMP_FSI_KEY": entry.key, "AMP_FSI_BIN": str(paths.BIN.resolve())} | (ranks.environment() if number > 1 else {})
         if networks:
             environment["AMP_FSI_NETWORK"] = networks[far[name].address if name in far else ""]
         programs.append(Program(

@@ -103,6 +103,10 @@ class Includes(Copy):
         self.assert_bites("includes", "common/interface/riemann.hpp", '#include "solid_solver/kernels/impedance.hpp"')
         self.assert_bites("includes", "examples/spring_piston/main.cpp", '#include "coupler/coupler.hpp"')
 
+    def test_the_example_in_c_has_the_wire_alone(self):
+        self.assert_bites("includes", "examples/spring_piston_c/main.c", '#include "common/wire/messages.hpp"')
+        self.assert_allows("includes", "examples/spring_piston_c/bus.h", "#include <dds/ddsrt/time.h>")
+
     def test_only_reference_solutions_borrow_the_laws(self):
         self.assert_allows("includes", "common/exact/solution.cpp", '#include "solid_solver/laws/law.hpp"')
         self.assert_bites("includes", "common/case/read/build.cpp", '#include "solid_solver/laws/law.hpp"')

@@ -119,7 +119,8 @@ std::string summary_as_json(const Case& problem) {
   for (const MemoryNeed& need : memory_of(problem)) memory[need.program] = std::round(need.bytes);
   ordered_json solids = ordered_json::array();
   for (const SolidSpec& solid : problem.solids) {
-    solids.push_back({{"name", solid.name}, {"law", solid.law}, {"points", points_of(solid)}});
+    solids.push_back(
+        {{"name", solid.name}, {"law", solid.law}, {"points", points_of(solid)}, {"data", solid.data}});
   }
   const ordered_json summary = {
       {"name", problem.name},
