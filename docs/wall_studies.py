@@ -30,6 +30,16 @@ def _bars(tools):
     return note + tools.rates("bar-between-gases", "piston_between_gases", LEVELS, variants, ("rho", "v1"))
 
 
+def _clamped_bars(tools):
+    variants = [(f"density {density} of the bar", [f"parameters.density={density}"], []) for density in DENSITIES]
+    continuum = [(f"density {density} of a continuum, its sides held", ["parameters.part=1/3", f"parameters.density={density}"], ["bar=linear_elastic"])
+                 for density in DENSITIES]
+    note = ("The bar lies along the duct and its far end does not move: v = f(t - x/c) + g(t + x/c) with f + g = 0 there and "
+            "f(t) = 2 P(t) / (z_s + z) - r f(t - 2 l/c), r = (z_s - z) / (z_s + z), at the gas. The speed of its waves is that of the gas times 1.3, so the impedances are as 1.86 "
+            "to 1 where the density is 2.\n\n")
+    return note + tools.rates("clamped-bar", "clamped_bar", LEVELS, continuum + variants, ("rho", "v1"))
+
+
 def _plates(tools):
     variants = [(f"m = {mass}", [f"parameters.mass={mass}"], []) for mass in MASSES]
     return tools.rates("taylor-plate", "taylor_plate", LEVELS, variants, ("rho", "v1"))
@@ -66,6 +76,7 @@ def studies(tools):
     """(title, function) of each study; `tools`: the functions of record_results."""
     yield "Elastic piston between two gases, small pulse", lambda: _pistons(tools)
     yield "Bar between two gases, small pulse", lambda: _bars(tools)
+    yield "Bar clamped at its far end, small pulse", lambda: _clamped_bars(tools)
     yield "Taylor's plate between two gases, any mass", lambda: _plates(tools)
     yield "Taylor's plate between two gases, its ends free", lambda: _free_plates(tools)
     yield "Taylor's plate between two gases: what is left when the pulse is gone", lambda: _growth(tools)

@@ -69,21 +69,36 @@ std::unique_ptr<Solution> make_riemann_tube(Numbers numbers) {
   return std::make_unique<RiemannTube>(Riemann(left, right, gamma), left, right, x_0);
 }
 
+/// What walls between two gases and clamped ones have in common.
+void take_wall(Numbers& numbers, WallBetweenGasesData& data) {
+  data.p = numbers.take("p", data.p);
+  data.thickness = numbers.take("thickness", data.thickness);
+  data.rho_bar = numbers.take("rho_bar", data.rho_bar);
+  data.c_p = numbers.take("c_p", data.c_p);
+  data.size = numbers.take("size", data.size);
+  data.distance = numbers.take("distance", data.distance);
+  data.length = numbers.take("length", data.length);
+}
+
 std::unique_ptr<Solution> make_wall_between_gases(Numbers numbers) {
   WallBetweenGasesData data;
   data.gamma_left = numbers.take("gamma_left", data.gamma_left);
   data.gamma_right = numbers.take("gamma_right", data.gamma_right);
   data.rho_left = numbers.take("rho_left", data.rho_left);
   data.rho_right = numbers.take("rho_right", data.rho_right);
-  data.p = numbers.take("p", data.p);
-  data.thickness = numbers.take("thickness", data.thickness);
   constexpr double none = -1;
   if (const double mass = numbers.take("mass", none); mass != none) data.mass = mass;
-  data.rho_bar = numbers.take("rho_bar", data.rho_bar);
-  data.c_p = numbers.take("c_p", data.c_p);
-  data.size = numbers.take("size", data.size);
-  data.distance = numbers.take("distance", data.distance);
-  data.length = numbers.take("length", data.length);
+  take_wall(numbers, data);
+  numbers.expect_none_left();
+  return std::make_unique<WallBetweenGases>(data);
+}
+
+std::unique_ptr<Solution> make_clamped_wall(Numbers numbers) {
+  WallBetweenGasesData data;
+  data.clamped = true;
+  data.gamma_left = numbers.take("gamma", data.gamma_left);
+  data.rho_left = numbers.take("rho", data.rho_left);
+  take_wall(numbers, data);
   numbers.expect_none_left();
   return std::make_unique<WallBetweenGases>(data);
 }
@@ -95,16 +110,17 @@ std::unique_ptr<Solution> make_solution(const std::string& kind, const std::map<
   try {
     if (kind == "elastic_piston") return make_elastic_piston({kind, numbers});
     if (kind == "wall_between_gases") return make_wall_between_gases({kind, numbers});
+    if (kind == "clamped_wall") return make_clamped_wall({kind, numbers});
     if (kind == "riemann") return make_riemann_tube({kind, numbers});
     if (kind == "piston_1d") return std::make_unique<PistonTable>(run_dir + "/reference.h5");
     if (kind == "rotating_disk") return std::make_unique<DiskTable>(run_dir + "/reference.h5");
   } catch (const std::invalid_argument& error) {
     throw UserMistake(fmt::format("reference: {}: {}", kind, error.what()));
   }
-  throw UserMistake(
-      fmt::format("reference: no solution is named '{}'; write elastic_piston, wall_between_gases, riemann, "
-                  "piston_1d or rotating_disk",
-                  kind));
+  throw UserMistake(fmt::format(
+      "reference: no solution is named '{}'; write elastic_piston, wall_between_gases, clamped_wall, "
+      "riemann, piston_1d or rotating_disk",
+      kind));
 }
 
 }  // namespace fsi::exact

@@ -65,6 +65,7 @@ WallBetweenGases::WallBetweenGases(const WallBetweenGasesData& data)
       throw std::invalid_argument("densities, speeds, pressure and lengths must be positive");
   }
   if (data.mass && !(*data.mass >= 0)) throw std::invalid_argument("the mass must not be negative");
+  if (data.mass && data.clamped) throw std::invalid_argument("a wall that does not deform cannot be clamped");
   if (!(data.distance >= 0)) throw std::invalid_argument("the pulse must begin in front of the wall");
 }
 
@@ -73,6 +74,17 @@ double WallBetweenGases::z_left() const {
 }
 double WallBetweenGases::z_right() const {
   return data_.rho_right * a_right_;
+}
+
+/// r_1 and r_2
+double WallBetweenGases::reflected_left() const {
+  const double z_s = data_.rho_bar * data_.c_p;
+  return (z_s - z_left()) / (z_s + z_left());
+}
+double WallBetweenGases::reflected_right() const {
+  if (data_.clamped) return -1;
+  const double z_s = data_.rho_bar * data_.c_p;
+  return (z_s - z_right()) / (z_s + z_right());
 }
 
 /// s of the pulse that is at the left face.
@@ -92,7 +104,7 @@ double WallBetweenGases::impulse(double t) const {
 /// f
 double WallBetweenGases::forward(double t) const {
   const double z_s = data_.rho_bar * data_.c_p, returns = 2 * data_.thickness / data_.c_p;
-  const double kept = (z_s - z_left()) / (z_s + z_left()) * (z_s - z_right()) / (z_s + z_right());
+  const double kept = reflected_left() * reflected_right();
   double sum = 0, part = 2 / (z_s + z_left());
   for (; t > 0; t -= returns, part *= kept) sum += part * data_.p * pulse(t);
   return sum;
@@ -101,7 +113,7 @@ double WallBetweenGases::forward(double t) const {
 /// Time integral of f.
 double WallBetweenGases::forward_way(double t) const {
   const double z_s = data_.rho_bar * data_.c_p, returns = 2 * data_.thickness / data_.c_p;
-  const double kept = (z_s - z_left()) / (z_s + z_left()) * (z_s - z_right()) / (z_s + z_right());
+  const double kept = reflected_left() * reflected_right();
   double sum = 0, part = 2 / (z_s + z_left());
   for (; t > 0; t -= returns, part *= kept) sum += part * impulse(t);
   return sum;
@@ -129,7 +141,7 @@ double WallBetweenGases::right_face(double t) const {
 }
 
 GasState WallBetweenGases::gas(double x, double /*y*/, double t) const {
-  if (x > 0.5 * data_.thickness) {
+  if (x > 0.5 * data_.thickness && !data_.clamped) {
     const double v = right_face(t - (x - data_.thickness) / a_right_), p = z_right() * v;
     return {.rho = data_.rho_right + p / (a_right_ * a_right_), .v1 = v, .v2 = 0, .p = data_.p + p};
   }
@@ -146,7 +158,7 @@ SolidState WallBetweenGases::solid(double x_bar, double /*y_bar*/, double t) con
   if (data_.mass) return {.u = Vec2(stiff_way(t), 0), .v = Vec2(stiff_velocity(t), 0), .P = Mat2::Zero()};
   const double c = data_.c_p, z_s = data_.rho_bar * c;
   const double there = t - x_bar / c, back = t - (2 * data_.thickness - x_bar) / c;
-  const double returned = (z_s - z_right()) / (z_s + z_right());
+  const double returned = reflected_right();
   const double f = forward(there), g = returned * forward(back), stress = z_s * (g - f);
   Mat2 P = Mat2::Zero();
   P(0, 0) = stress;

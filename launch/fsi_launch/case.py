@@ -11,7 +11,7 @@ REFERENCE_PROGRAMS = {  # reference kinds computed by a program of their own
     "piston_1d": "reference_piston",
     "rotating_disk": "reference_disk",
 }
-EXACT_KINDS = ("elastic_piston", "riemann", "wall_between_gases")   # whose solution reference_exact writes beside a run
+EXACT_KINDS = ("elastic_piston", "riemann", "wall_between_gases", "clamped_wall")   # whose solution reference_exact writes beside a run
 
 
 @dataclass

@@ -153,7 +153,8 @@ void check_grid_sides(const Case& problem, const SolidSpec& solid, const Node& r
   const std::string path = fmt::format("solids.{}.boundary", solid.name);
   const Node& place = node_at(root, {"solids", solid.name, "boundary"});
   const bool displaced = solid.initial_from_reference && problem.reference.kind != "elastic_piston" &&
-                         problem.reference.kind != "wall_between_gases";
+                         problem.reference.kind != "wall_between_gases" &&
+                         problem.reference.kind != "clamped_wall";
   std::vector<Side> sides;
   for (const Side side : all_sides) {
     const BoundarySpec& spec = solid.boundary[static_cast<std::size_t>(side)];

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Walls between two gases, hit by a small smooth pulse of sound: an elastic piston, Taylor's plate of any mass, a bar, a rigid block."""
+"""Walls between two gases, hit by a small smooth pulse of sound: an elastic piston, Taylor's plate of any mass, a bar, a rigid block;
+and a bar whose far end is clamped."""
 
 import csv
 import json
@@ -60,6 +61,17 @@ class TwoGases(unittest.TestCase):
             with self.subTest(density=density):
                 table = self.converge("piston_between_gases", f"parameters.density={density}", BAR, solids=["piston=beam"])
                 self.assert_second_order(table, {"rho": 2.5e-3, "v1": 2e-3})
+
+    def test_bar_clamped_at_its_far_end_is_second_order_for_any_density(self):
+        """The wave comes back from the clamped end with the opposite sign, again and again."""
+        for density, bound in (("0.02", 4e-4), ("2", 2e-3), ("200", 4e-4)):
+            with self.subTest(density=density):
+                table = self.converge("clamped_bar", f"parameters.density={density}", "time.end=2.4", "output.times=[0.8, 2.4]")
+                self.assert_second_order(table, {"rho": bound, "v1": bound})
+
+    def test_clamped_continuum_is_second_order_too(self):
+        table = self.converge("clamped_bar", "parameters.part=1/3", solids=["bar=linear_elastic"])
+        self.assert_second_order(table, {"rho": 5e-4, "v1": 5e-4, "v_bar": 3e-4, "P_bar": 4e-4})
 
     def test_stiff_piston_takes_substeps_between_its_two_gases(self):
         table = self.converge("piston_between_gases", "time.multirate=true", "parameters.c_p=8", "parameters.density=0.5")

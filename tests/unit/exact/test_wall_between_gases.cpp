@@ -35,6 +35,12 @@ WallBetweenGasesData of_mass(double mass) {
   return data;
 }
 
+WallBetweenGasesData clamped() {
+  WallBetweenGasesData data = data_with();
+  data.clamped = true;
+  return data;
+}
+
 template <class Function>
 double slope_at(Function f, double at, double h = 1e-3) {
   return (8 * (f(at + h) - f(at - h)) - (f(at + 2 * h) - f(at - 2 * h))) / (12 * h);
@@ -81,8 +87,7 @@ TEST(WallBetweenGases, GasAndElasticWallMoveTogetherAndPressAlikeAtBothFaces) {
   }
 }
 
-TEST(WallBetweenGases, TheElasticWallObeysHookesLawAndItsMomentumIsBalanced) {
-  const WallBetweenGases wall(data_with());
+void expect_elastic(const WallBetweenGases& wall) {
   const double modulus = 2 * 1.3 * 1.3;
   for (const double x : {0.11, 0.25, 0.4}) {
     for (const double t : times) {
@@ -96,6 +101,35 @@ TEST(WallBetweenGases, TheElasticWallObeysHookesLawAndItsMomentumIsBalanced) {
       EXPECT_NEAR(modulus / 3 * slope_at(u_of_x, x), solid.P(1, 1), of_differences);
       EXPECT_NEAR(2 * slope_at(v_of_t, t), slope_at(P_of_x, x), of_differences);
     }
+  }
+}
+
+TEST(WallBetweenGases, TheElasticWallObeysHookesLawAndItsMomentumIsBalanced) {
+  expect_elastic(WallBetweenGases(data_with()));
+}
+
+TEST(WallBetweenGases, AClampedWallHasOneGasAndDoesNotMoveAtItsFarFace) {
+  const WallBetweenGases wall(clamped());
+  expect_elastic(wall);
+  for (const double t : times) {
+    const GasState gas = wall.gas(-1e-13, 0, t);
+    const SolidState face = wall.solid(0, 0, t), far = wall.solid(0.5, 0, t);
+    EXPECT_NEAR(gas.v1, face.v[0], 1e-10);
+    EXPECT_NEAR(1 - gas.p, face.P(0, 0), 1e-10);
+    EXPECT_NEAR(far.u[0], 0, 1e-12);
+    EXPECT_NEAR(far.v[0], 0, 1e-12);
+    EXPECT_NEAR(wall.right_face(t), 0, 1e-12);
+  }
+  EXPECT_LT(wall.solid(0.5, 0, 1.1).P(0, 0), -0.1);  // it presses against what holds it
+}
+
+TEST(WallBetweenGases, AClampedWallIsTheLimitOfAHeavyGasBehindIt) {
+  WallBetweenGasesData heavy = data_with();
+  heavy.rho_right = 1e14;
+  const WallBetweenGases limit(heavy), wall(clamped());
+  for (const double t : times) {
+    for (const double x : {0.0, 0.2, 0.5})
+      EXPECT_NEAR(wall.solid(x, 0, t).v[0], limit.solid(x, 0, t).v[0], 1e-6);
   }
 }
 
@@ -136,6 +170,9 @@ TEST(WallBetweenGases, DataWithoutASolutionAreRefused) {
   EXPECT_THROW(WallBetweenGases{of_mass(-1)}, std::invalid_argument);
   data = data_with();
   data.distance = -0.1;
+  EXPECT_THROW(WallBetweenGases{data}, std::invalid_argument);
+  data = of_mass(1);
+  data.clamped = true;
   EXPECT_THROW(WallBetweenGases{data}, std::invalid_argument);
 }
 
