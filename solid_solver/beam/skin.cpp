@@ -130,9 +130,9 @@ std::vector<std::uint8_t> Skin::freedom() const {
   return marks;
 }
 
-/// The gas ends at a wall on which a free end stands, or along which the face of one slides; at rest the outline
-/// meets that wall at right angles. A section that turns or slides there would take the corner of the gas with it;
-/// its other side would then push gas that the mode vectors know nothing of, and a plate much lighter than that
+/// The gas ends at a wall on which a free or a pinned end stands, or along which the face of one slides; at rest the
+/// outline meets that wall at right angles. A section that turns or slides there would take the corner of the gas with
+/// it; its other side would then push gas that the mode vectors know nothing of, and a plate much lighter than that
 /// gas blows up.
 void Skin::find_walls(const Line& line, const std::array<End, 2>& ends, const std::array<bool, 2>& on_wall) {
   constexpr double close = 1e-9;
@@ -141,7 +141,7 @@ void Skin::find_walls(const Line& line, const std::array<End, 2>& ends, const st
   for (const auto& [end, k] : {std::pair{std::size_t{0}, std::size_t{0}}, std::pair{std::size_t{1}, n - 1}}) {
     if (!on_wall[end]) continue;
     for (const auto& [kind, at] : {std::pair{ends[0], 0.0}, std::pair{ends[1], last}}) {
-      if (kind == End::free && std::abs(places_[k].s - at) <= close * last)
+      if ((kind == End::free || kind == End::pinned) && std::abs(places_[k].s - at) <= close * last)
         walls_[end] = {-n_at_rest_[n + k], n_at_rest_[k]};
     }
   }

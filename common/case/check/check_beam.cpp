@@ -4,8 +4,11 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "common/case/grids/grid_points.hpp"
@@ -93,6 +96,56 @@ void check_foot(const SolidSpec& solid, const Node& beam, std::size_t end) {
            x.x(), x.y(), last ? "last" : "first", name_of(kind), kind == BeamEnd::free ? "move" : "turn"));
 }
 
+bool is_wall(const BoundarySpec& boundary) {
+  return boundary.kind == BoundaryKind::slip_wall || boundary.kind == BoundaryKind::symmetry;
+}
+
+/// The two sides at the ends of a side, in the order of its points.
+std::array<Side, 2> sides_beside(Side side) {
+  if (direction_of(side) == 1) return {Side::left, Side::right};
+  return {Side::bottom, Side::top};
+}
+
+/// The wall of a gas on which the interface with the solid ends at x, in words; empty: it is none.
+std::string wall_at(const FluidSpec& fluid, const SolidSpec& solid, const Vec2& x) {
+  for (const BodyFittedSpec& grid : fluid.body_fitted) {
+    if (grid.solid == solid.name && !grid.curve.closed()) return fmt::format("a wall of {}", fluid.path);
+  }
+  for (const Side side : all_sides) {
+    const BoundarySpec& spec = fluid.boundary[static_cast<std::size_t>(side)];
+    if (spec.kind != BoundaryKind::interface || spec.solid != solid.name) continue;
+    const Vec2 first = side_point(fluid.grid, side, 0);
+    const Vec2 last = side_point(fluid.grid, side, points_along(fluid.grid, side) - 1);
+    const Side end = sides_beside(side)[(x - first).norm() < (x - last).norm() ? 0 : 1];
+    if (is_wall(fluid.boundary[static_cast<std::size_t>(end)]))
+      return fmt::format("the {} side of {}.grid, a wall", name_of(end), fluid.path);
+  }
+  return "";
+}
+
+/// Where a side of the grid meets the gas, and this ends at a wall: that end stays on the wall by itself, or slides
+/// along it.
+void check_corner(const SolidSpec& solid, const FluidSpec& fluid, Side side, std::size_t end,
+                  const Node& node) {
+  const Side beside = sides_beside(side)[end];
+  if (is_wall(solid.boundary[static_cast<std::size_t>(beside)])) return;
+  const Vec2 x = side_point(solid.grid, side, end == 0 ? 0 : points_along(solid.grid, side) - 1);
+  const std::vector<Vec2>& line = solid.beam->line;
+  const bool last = (line.back() - x).norm() < (line.front() - x).norm();
+  const BeamEnd kind = solid.beam->ends[last ? 1 : 0];
+  if (kind == BeamEnd::clamped || kind == BeamEnd::guided) return;
+  const std::string wall = wall_at(fluid, solid, x);
+  if (wall.empty()) return;
+  fail(node.find("boundary")->find(name_of(beside))->place,
+       fmt::format("solids.{}.boundary.{}", solid.name, name_of(beside)),
+       fmt::format(
+           "the {} end of the beam is {} and stands at ({:.4g}, {:.4g}) on {}: its section would {} and "
+           "leave the wall, and the grid of the gas with it; write `{}: slip_wall` (it slides along the "
+           "wall), or let that end be clamped or guided",
+           last ? "last" : "first", name_of(kind), x.x(), x.y(), wall,
+           kind == BeamEnd::free ? "move" : "turn", name_of(beside)));
+}
+
 }  // namespace
 
 void check_beams(const Case& problem, const Node& root) {
@@ -103,6 +156,12 @@ void check_beams(const Case& problem, const Node& root) {
     if (problem.fluids.empty() && !problem.time.dt) {
       fail(root.find("time")->place, "time",
            "a beam without a gas has no largest step of its own; write `dt` [time]");
+    }
+    for (const FluidSpec& fluid : problem.fluids) {
+      const std::optional<Side> side = solid.beam->closed ? std::nullopt : side_to(solid, fluid.name);
+      if (!side) continue;
+      for (const std::size_t end : {0U, 1U})
+        check_corner(solid, fluid, *side, end, *root.find("solids")->find(solid.name));
     }
     if (solid.body_fitted.empty() || solid.body_fitted.front().curve.closed() || solid.beam->closed) continue;
     for (const std::size_t end : {0U, 1U}) check_foot(solid, beam, end);

@@ -104,6 +104,17 @@ class TwoGases(unittest.TestCase):
             self.assertGreater(before, 0.5 * SIZE)
             self.assertLess(late, 1e-3 * before)
 
+    def test_hinged_plate_keeps_the_corners_of_both_gases_on_their_walls(self):
+        """Pressed unevenly, its ends turn; the time step collapsed where they took the corners with them."""
+        push = "(x > -0.5 ? 0.02 * y : 0)"
+        folder = self.fsi("run", "taylor_plate", "--no-progress", "--set=grid.factor=4", "--set=time.end=6", "--set=output.times=[6]",
+                          "--set=reference={kind: none}", "--set=expect={}", "--set=parameters.mass=0.05", "--set=parameters.stiffness=1",
+                          "--set=solids.plate.beam.ends=[pinned, pinned]", "--set=fluids.left.boundary.left=outflow",
+                          "--set=fluids.right.boundary.right=outflow",
+                          f"--set=fluids.left.initial={{rho: '1.4 * (1 + {push})', v: [0, 0], p: '1 + {push}'}}",
+                          "--set=fluids.right.initial={rho: 0.4, v: [0, 0], p: 1}")
+        self.assertEqual(json.loads((folder / "summary.json").read_text(encoding="utf-8"))["t"], 6)
+
     def test_small_step_of_pressure_moves_the_plate_as_taylor_says(self):
         """v = 2 p_0 / (z_1 + z_2) (1 - exp(-(z_1 + z_2) t / m)): a step that sets in within a few cells, at the plate at t = 0.1."""
         p_0, mass, z = 1e-6, 0.5, 1.4 + math.sqrt(5 / 3 * 0.4)

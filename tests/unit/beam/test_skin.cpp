@@ -76,6 +76,23 @@ TEST(BeamSkin, FreeEndsKeepToTheWallsAndSoDoTheirModes) {
                 1e-14);
 }
 
+/// The section of a hinge turns: what lies off the line there would leave the wall.
+TEST(BeamSkin, TheFootOfAHingeStaysWhereItIs) {
+  constexpr std::array hinged{End::pinned, End::free};
+  constexpr std::size_t points = 21;
+  bodies::Outline side{.x = std::vector<double>(2 * points, 0.05), .ends = grid::Curve::open};
+  for (std::size_t k = 0; k < points; ++k) side.x[k] = static_cast<double>(k) / (points - 1);
+  const BeamMotion motion = bent(hinged);
+  EXPECT_GT(std::abs(motion.u()[2]), 0.05);
+  const Skin skin(motion.model().line(), side, hinged, {true, true});
+  const SkinState state = skin.state(motion);
+  EXPECT_NEAR(state.x[0], 0, 1e-15);
+  EXPECT_NEAR(state.v[0], 0, 1e-15);
+  const std::vector<double> n = skin.normals(state.x);
+  const Eigen::VectorXd v_n = skin.mode_vectors(state, n).transpose() * motion.q_dot();
+  EXPECT_NEAR(v_n[0], n[0] * state.v[0] + n[points] * state.v[points], 1e-14);
+}
+
 /// The face of a bar in a duct: its corners slide along the walls, which is where the bar goes.
 TEST(BeamSkin, TheFaceOfABarGoesWithIt) {
   constexpr std::size_t points = 9;

@@ -31,7 +31,9 @@ TEST(Beams, MistakesSayWhereAndWhatToWrite) {
     std::string text, setting, says;
   };
   const std::string panel = text_of_file(FSI_ROOT "/configs/shocked_panel.yaml"),
-                    plate = text_of_file(FSI_ROOT "/configs/taylor_plate.yaml");
+                    plate = text_of_file(FSI_ROOT "/configs/taylor_plate.yaml"),
+                    panel_in_stream = text_of_file(FSI_ROOT "/configs/panel_flutter.yaml"),
+                    bar = text_of_file(FSI_ROOT "/configs/clamped_bar.yaml");
   EXPECT_EQ(mistake_in(alone), "");
   for (const auto& [text, setting, says] : std::vector<Mistake>{
            {panel, "solids.panel.beam.ends=[free, free]",
@@ -48,6 +50,25 @@ TEST(Beams, MistakesSayWhereAndWhatToWrite) {
             "(100, 0) is not in the body, which lies in (-0.5"},
            {plate, "solids.plate.beam.line=[[1, 0], [1, 0.1]]",
             "is not in the body, which lies in (0, 0) .. (0.05, 0.1)"},
+           {plate, "solids.plate.boundary.top=free", ""},  // guided: it stays on the wall
+           {plate, "solids.plate.beam.ends=[free, free]", ""},
+           {plate, "solids.plate.beam.ends=[pinned, free]", ""},
+           {plate, "solids.plate.boundary.top=free,solids.plate.beam.ends=[guided, free]",
+            "solids.plate.boundary.top: the last end of the beam is free and stands at (0, 0.1) on the top "
+            "side of "
+            "fluids.left.grid, a wall: its section would move and leave the wall, and the grid of the gas "
+            "with it; "
+            "write `top: slip_wall` (it slides along the wall), or let that end be clamped or guided"},
+           {plate, "solids.plate.boundary.top=clamped,solids.plate.beam.ends=[guided, pinned]",
+            "the last end of the beam is pinned and stands at (0, 0.1) on the top side of fluids.left.grid, "
+            "a wall: "
+            "its section would turn and leave the wall"},
+           {panel_in_stream, "", ""},  // its ends are at an inflow and an outflow
+           {panel_in_stream, "fluid.boundary.left=symmetry,solids.panel.beam.ends=[pinned, pinned]",
+            "the first end of the beam is pinned and stands at (0, 0) on the left side of fluid.grid, a "
+            "wall"},
+           {bar, "solids.bar.boundary.top=free,solids.bar.beam.ends=[free, clamped]",
+            "the first end of the beam is free and stands at (0, 0.1) on the top side of fluid.grid, a wall"},
            {plate, "parameters.mass=0", ""},
            {plate, "parameters.mass=0,solids.plate.beam.ends=[free, free]",
             "hold one of its ends, or give it a mass"},
