@@ -50,12 +50,17 @@ def _free_plates(tools):
     return tools.rates("taylor-plate-free", "taylor_plate", LEVELS, variants, ("rho", "v1"))
 
 
-def _largest(directory, begin, end):
-    """Largest speed of the plate between two times."""
+def _columns(directory, *names):
+    """Columns of the plate's table whose titles begin so."""
     with open(directory / "forces_plate.csv", encoding="utf-8", newline="") as file:
         heading, *rows = csv.reader(file)
-    t, v = (next(k for k, title in enumerate(heading) if title.startswith(name)) for name in ("t ", "velocity1"))
-    return max((abs(float(row[v])) for row in rows if begin <= float(row[t]) < end), default=math.nan)
+    places = [next(k for k, title in enumerate(heading) if title.startswith(name)) for name in names]
+    return [[float(row[k]) for row in rows] for k in places]
+
+
+def _largest(directory, begin, end):
+    """Largest speed of the plate between two times."""
+    return max((abs(v) for t, v in zip(*_columns(directory, "t ", "velocity1")) if begin <= t < end), default=math.nan)
 
 
 def _growth(tools):
@@ -72,6 +77,30 @@ def _growth(tools):
     return f"last row: `{typed}`\n\n{note}\n\n" + _table(["m", "largest v over the size of the pulse", "t in 3 .. 6", "6 .. 9", "9 .. 12"], rows)
 
 
+STEP_AT, STEP_SEEN = 0.1, 0.2   # when the step is at the plate, and when its smeared front has passed
+
+
+def _steps(tools):
+    """A step of pressure p_0 that sets in within a few cells: v = 2 p_0 / z (1 - exp(-z (t - 0.1) / m)), z = z_1 + z_2."""
+    z, wave, rows, typed = 1.4 + math.sqrt(5 / 3 * 0.4), f"{PULSE / 2:g} * ((x < -{STEP_AT} - h / 2 ? 1 : 0) + (x < -{STEP_AT} + h / 2 ? 1 : 0))", [], ""
+    for mass in ("0", "0.05", "0.5", "5"):
+        errors = []
+        for factor in (8, 16, 32):
+            settings = ["time.end=1", "output.times=[1]", f"grid.factor={factor}", f"parameters.mass={mass}", "reference={kind: none}", "expect={}",
+                        f"fluids.left.initial={{rho: '1.4 * (1 + {wave} / 1.4)', v: ['{wave} / 1.4', 0], p: '1 + {wave}'}}",
+                        "fluids.right.initial={rho: 0.4, v: [0, 0], p: 1}", "fluids.left.boundary.left=outflow",
+                        "fluids.right.boundary.right=outflow", "fluids.left.scheme={limiter: minmod}"]
+            directory, _, typed = tools.run_once(f"taylor-step-{mass}-{factor}", "taylor_plate", settings)
+            last, m = 2 * PULSE / z, float(mass)
+            errors.append(max(abs(v / last - 1 + (math.exp(-z * (t - STEP_AT) / m) if m else 0))
+                              for t, v in zip(*_columns(directory, "t ", "velocity1")) if t >= STEP_SEEN))
+        rows.append([mass, *(f"{error:.1e}" for error in errors), f"{math.log2(errors[1] / errors[2]):.2f}"])
+    note = (f"A step of 1e-6 of the pressure is at the plate at t = {STEP_AT}; largest error of the velocity from t = {STEP_SEEN} to 1, over 2 p_0 / (z_1 + z_2). "
+            "The point of the gas in which the step lies has half of it: else the step would come half a cell late. The front of a step is smeared over a width that falls about with h^(2/3), "
+            "and what passes through it is wrong by about the square of that.")
+    return f"last run: `{typed}`\n\n{note}\n\n" + _table(["m", "h = 1/80", "h = 1/160", "h = 1/320", "rate"], rows)
+
+
 def studies(tools):
     """(title, function) of each study; `tools`: the functions of record_results."""
     yield "Elastic piston between two gases, small pulse", lambda: _pistons(tools)
@@ -79,4 +108,5 @@ def studies(tools):
     yield "Bar clamped at its far end, small pulse", lambda: _clamped_bars(tools)
     yield "Taylor's plate between two gases, any mass", lambda: _plates(tools)
     yield "Taylor's plate between two gases, its ends free", lambda: _free_plates(tools)
+    yield "Taylor's plate between two gases, a small step of pressure", lambda: _steps(tools)
     yield "Taylor's plate between two gases: what is left when the pulse is gone", lambda: _growth(tools)
