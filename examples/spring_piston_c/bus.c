@@ -245,8 +245,11 @@ static void look_around(void) {
   hear_welcome();
   hear_waiting();
   if (!is_welcome) return;
-  if (coupler_pid && kill(coupler_pid, 0) != 0 && errno == ESRCH)
+  if (coupler_pid && kill(coupler_pid, 0) != 0 && errno == ESRCH) {
+    dds_sleepfor(DDS_MSECS(300)); /* why it ended may have come since we looked */
+    hear_abort();
     bus_end(PEER_LOST, "the coupler (pid %d) has died", coupler_pid);
+  }
   dds_get_liveliness_changed_status(welcome_reader, &coupler);
   if (coupler.alive_count > 0) coupler_spoke = dds_time();
   if ((double)(dds_time() - coupler_spoke) > seat.peer_timeout * DDS_NSECS_IN_SEC)
