@@ -235,6 +235,7 @@ class PicturesForBrowsers {
 
 void follow_web(Source& source, RunState& state, const WebOptions& options) {
   WebServer server(options);
+  source.listen(state, 0);  // a page asks for what was when it is opened, and never again
   server.publish(state, source.now());
   fmt::print("{}\n", server.url());
   std::fflush(stdout);
