@@ -212,13 +212,21 @@ def compare_fields(path, other, units):
     return [f"{name}: {how_much(a, b, units.power(powers))}" for name, a, b, powers in pairs if not same_bits(a, b, units.power(powers))]
 
 
+# Columns that hold no numbers.
+NO_NUMBERS = ("limited_by",)
+
+
 def compare_tables(path, other, units):
     one, two = (list(csv.reader(file.read_text(encoding="utf-8").splitlines())) for file in (path, other))
     if one[0] != two[0] or len(one) != len(two):
         return [f"{len(one)} lines of {one[0]}, {len(two)} of {two[0]}"]
     found = []
     for k, header in enumerate(one[0]):
-        a, b = ([float(line[k]) for line in table[1:]] for table in (one, two))
+        a, b = ([line[k] for line in table[1:]] for table in (one, two))
+        if header in NO_NUMBERS:
+            found += [f"{header}: {a}, {b}"] if a != b else []
+            continue
+        a, b = ([float(text) for text in column] for column in (a, b))
         power = units.power(column_powers(header.strip()))
         if not same_bits(a, b, power):
             found.append(f"{header}: {how_much(a, b, power)}")
