@@ -282,13 +282,7 @@ void Component::forget_edges_of_others() {
 
 std::vector<int> Component::keep_positive(const SweepTask& task, const SweepOutput& output) {
   std::array<Beyond, 4> beyond{};
-  for (const Side side : all_sides) {
-    const bool mirror = std::holds_alternative<Symmetry>(boundary(side)),
-               period = std::holds_alternative<Periodic>(boundary(side));
-    beyond[static_cast<std::size_t>(side)] = mirror   ? Beyond::mirror
-                                             : period ? Beyond::period
-                                                      : Beyond::other;
-  }
+  for (const Side side : all_sides) beyond[static_cast<std::size_t>(side)] = facts(side).beyond;
   Positivity done = fluid::keep_positive(task, scheme_, {output, beyond, *rows_.ranks});
   counters_.positive_fluxes += static_cast<double>(done.thin.size());
   counters_.floors += static_cast<double>(done.floors);

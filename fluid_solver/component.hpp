@@ -15,6 +15,8 @@
 #include "common/grid/moving_grid.hpp"
 #include "common/ranks/rows/cut.hpp"
 #include "common/ranks/rows/rank_rows.hpp"
+#include "fluid_solver/boundary/every_boundary.hpp"
+#include "fluid_solver/boundary/interface.hpp"
 #include "fluid_solver/boundary/wall_motion.hpp"
 #include "fluid_solver/forcing.hpp"
 #include "fluid_solver/gas_options.hpp"
@@ -22,18 +24,6 @@
 #include "fluid_solver/measures/shocks.hpp"
 
 namespace fsi::fluid {
-
-/// Projected values of one interface side, n points; vectors component-major (component c of point k at [c *
-/// n + k]).
-struct InterfaceValues {
-  Side side = Side::left;
-  std::span<const double> n;    ///< unit normal from the solid into the gas, 2 n
-  std::span<const double> v_n;  ///< v_n^I, n
-  std::span<const double> w_n;  ///< w_n^I = p_e - p^I, n
-  std::span<const double> v;    ///< velocity of the wall points, 2 n
-  std::span<const double> a;    ///< acceleration of the wall points, 2 n
-  int grid = 0;                 ///< component grid it belongs to
-};
 
 /// Largest of a rate over the grid, and where.
 struct FastestPoint {
@@ -96,6 +86,8 @@ class Component {
   /// The state before, where the next one will be written.
   FieldView spare_state() { return next_.view(); }
   const Boundary& boundary(Side side) const { return boundaries_[static_cast<std::size_t>(side)]; }
+  /// What that tells others.
+  const GasBoundaryFacts& facts(Side side) const { return facts_of(boundary(side)); }
   const WallMotion& wall(Side side) const { return walls_[static_cast<std::size_t>(side)]; }
   const Counters& counters() const { return counters_; }
   /// Of points that are not advanced by the sweep but interpolated.

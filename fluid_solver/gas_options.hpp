@@ -1,8 +1,7 @@
 #pragma once
-/// What a user chooses about the gas: its law, its scheme, and what holds on each side of its grid.
+/// What a user chooses about the gas: its law and its scheme. What holds on the sides of its grids: boundary/kinds.
 
 #include <functional>
-#include <variant>
 
 #include "common/core/choices.hpp"
 
@@ -43,33 +42,5 @@ struct GasOptions {
   Refinement refine = {};
   double cfl = 0.9;  ///< safety factor C_CFL of the time step [-]
 };
-
-/// Meets a solid: normal velocity and pressure are the projected ones.
-struct Interface {};
-/// Impermeable wall that moves with the grid's side, or stands where the grid stands.
-struct SlipWall {};
-/// Straight mirror line.
-struct Symmetry {};
-/// All four values given on the boundary; what lies behind is extrapolated.
-struct Inflow {
-  StateField state;
-};
-/// Nothing given: what leaves is extrapolated, what would enter is taken as undisturbed.
-struct Outflow {};
-/// A given state beyond the boundary: what comes in along characteristics is its, what goes out leaves.
-struct FarField {
-  StateField state;
-};
-/// All four values given on the boundary and behind it.
-struct Dirichlet {
-  StateField state;
-};
-/// The last point of a line is the first point of the next period.
-struct Periodic {};
-/// Nothing is done: no advanced point lies there (its points interpolate or are not used).
-struct Idle {};
-
-using Boundary =
-    std::variant<Interface, SlipWall, Symmetry, Inflow, Outflow, FarField, Dirichlet, Periodic, Idle>;
 
 }  // namespace fsi::fluid

@@ -34,8 +34,8 @@ void check_options(const GasOptions& options) {
 void check_periods(const grid::MovingGrid& grid, const std::array<Boundary, 4>& boundaries) {
   for (const int direction : {0, 1}) {
     const auto first = static_cast<std::size_t>(2 * direction);
-    const bool lower = std::holds_alternative<Periodic>(boundaries[first]);
-    const bool upper = std::holds_alternative<Periodic>(boundaries[first + 1]);
+    const bool lower = facts_of(boundaries[first]).beyond == Beyond::period;
+    const bool upper = facts_of(boundaries[first + 1]).beyond == Beyond::period;
     require(
         lower == upper && lower == grid.periodic(direction),
         fmt::format(

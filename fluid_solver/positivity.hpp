@@ -14,14 +14,12 @@
 #include <span>
 #include <vector>
 
+#include "common/case/schema/boundary_facts.hpp"
 #include "common/grid/overlap/interpolation.hpp"
 #include "common/ranks/rows/rank_rows.hpp"
 #include "fluid_solver/kernels/sweep.hpp"
 
 namespace fsi::fluid {
-
-/// What lies beyond a side of a grid, as far as the fluxes there must agree with others inside.
-enum class Beyond { other, mirror, period };
 
 /// What became of the thin points of a step.
 struct Positivity {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 
+#include "common/case/schema/boundary_facts.hpp"
 #include "common/core/failure.hpp"
 #include "common/exact/solution.hpp"
 #include "reference/chain.hpp"
@@ -71,7 +72,7 @@ std::function<double(double)> drive_of(const SolidSpec& solid,
   const BoundarySpec& left = solid.boundary[0];
   const double x = solid.grid.x_a;
   if (left.from_reference && exact) return [=](double t) { return exact->solid(x, 0, t).u[0]; };
-  if (left.kind != BoundaryKind::displacement && left.kind != BoundaryKind::dirichlet) {
+  if (schema::solid_boundary(left.kind).holds != Hold::motion) {
     throw UserMistake(fmt::format(
         "the one-dimensional reference needs `displacement` on the left side of solid '{}'", solid.name));
   }
@@ -117,8 +118,8 @@ PistonProblem piston_from_case(const Case& problem) {
   piston.x_end = fluid.grid.x_b;
   piston.gamma = fluid.gamma;
   piston.p_e = fluid.p_e;
-  const BoundaryKind right = fluid.boundary[1].kind;
-  piston.wall = right == BoundaryKind::slip_wall || right == BoundaryKind::symmetry;
+  const GasBoundaryFacts& right = schema::gas_boundary(fluid.boundary[1].kind);
+  piston.wall = right.is_wall || right.beyond == Beyond::mirror;
   piston.drive = drive_of(solid, exact);
   piston.u_0 = along_x(solid.initial_u);
   piston.v_0 = along_x(solid.initial_v);

@@ -18,6 +18,7 @@
 #include "common/case/read/build_shape.hpp"
 #include "common/case/read/restart.hpp"
 #include "common/case/report/memory.hpp"
+#include "common/case/schema/boundary_facts.hpp"
 #include "common/case/schema/schema.hpp"
 #include "common/core/input/config.hpp"
 #include "common/core/input/suggest.hpp"
@@ -157,6 +158,17 @@ const FluidSpec* fluid_named(const Case& problem, const std::string& name) {
 
 std::string fields_name(const FluidSpec& fluid) {
   return fluid.path == "fluid" ? "fluid" : "fluid_" + fluid.name;
+}
+
+bool carries_load(const BoundarySpec& spec) {
+  if (spec.kind == BoundaryKind::none || schema::solid_boundary(spec.kind).holds != Hold::nothing)
+    return false;
+  if (spec.from_reference || !spec.vector) return true;
+  const auto acts = [](const Expression& load) {
+    const bool varies = load.uses("x") || load.uses("y") || load.uses("r") || load.uses("t");
+    return varies || load(0, 0, 0) != 0;
+  };
+  return acts(spec.vector->c1) || acts(spec.vector->c2);
 }
 
 std::optional<Side> side_to(const SolidSpec& solid, const std::string& fluid) {

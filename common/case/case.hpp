@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "common/core/boundary_kinds.hpp"
 #include "common/core/choices.hpp"
 #include "common/core/input/expression.hpp"
 #include "common/core/types.hpp"
@@ -61,31 +62,19 @@ struct CurveSpec {
   int points() const { return static_cast<int>(x.size() / 2); }
 };
 
-enum class BoundaryKind {
-  none,  ///< nothing is done: no discretised point lies there
-  interface,
-  slip_wall,
-  symmetry,
-  inflow,
-  imposed,
-  outflow,
-  far_field,
-  dirichlet,
-  periodic,
-  traction,
-  displacement
-};
-
+/// What holds on a side; which of it means something its kind says (common/case/schema/boundary_facts.hpp).
 struct BoundarySpec {
   BoundaryKind kind = BoundaryKind::symmetry;
-  std::string solid = {};  ///< interface of a gas: the solid on the other side
-  std::string fluid = {};  ///< interface of a solid: the gas on the other side
-  bool from_reference =
-      false;  ///< inflow, imposed, far_field, dirichlet, traction, displacement: data of `reference`
-  std::optional<GasExpressions> state = {};        ///< gas inflow, imposed, far_field, dirichlet
-  std::optional<VectorExpressions> vector = {};    ///< solid: traction per unit current area, or displacement
-  std::optional<VectorExpressions> velocity = {};  ///< solid displacement: its time derivative, where given
-  bool on_reference = false;                       ///< solid: the load belongs to the reference configuration
+  std::string solid = {};                          ///< interface of a gas: the solid on the other side
+  std::string fluid = {};                          ///< interface of a solid: the gas on the other side
+  bool from_reference = false;                     ///< data of `reference`
+  std::optional<GasExpressions> state = {};        ///< of a gas
+  std::optional<VectorExpressions> vector = {};    ///< `value`: traction per unit area, or displacement
+  std::optional<VectorExpressions> velocity = {};  ///< time derivative of a displacement
+  bool on_reference = false;  ///< of a solid: the load belongs to the reference configuration
+  std::map<std::string, double> numbers = {};             ///< other keys of its kind: numbers
+  std::map<std::string, Expression> fields = {};          ///< the same: fields
+  std::map<std::string, VectorExpressions> vectors = {};  ///< the same: vectors
 };
 
 /// A grid marched from a curve, before a rectangular background.
@@ -256,6 +245,9 @@ const FluidSpec* fluid_named(const Case& problem, const std::string& name);
 
 /// Name of the fields of a gas: "fluid", or "fluid_<name>" of one among several.
 std::string fields_name(const FluidSpec& fluid);
+
+/// Whether a side of a solid has a load of its own.
+bool carries_load(const BoundarySpec& spec);
 
 /// The side of a solid's grid that is the interface to this gas; none for a solid with an outline of its own.
 std::optional<Side> side_to(const SolidSpec& solid, const std::string& fluid);

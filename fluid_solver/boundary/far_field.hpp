@@ -6,7 +6,11 @@
 ///              \   \|/   /                 u            p/rho^gamma, v_t   inside while u > 0
 ///     ----------- side ---- n -->          u - a        u - 2a/(gamma-1)   inside while u - a > 0
 
+#include <cstddef>
+#include <vector>
+
 #include "common/core/types.hpp"
+#include "fluid_solver/boundary/gas_side.hpp"
 #include "fluid_solver/state_vector.hpp"
 
 namespace fsi::fluid {
@@ -21,5 +25,21 @@ struct OpenSide {
 /// The state on a side between that inside and a given one beyond it. Simple waves that leave, of any
 /// strength, meet no resistance; shocks leave up to the third power of their strength.
 StateVector between(const StateVector& inside, const StateVector& beyond, const OpenSide& side);
+
+/// The points of a side between the gas inside and a given state beyond.
+inline void let_waves_through(const GasSide& side, const StateField& given) {
+  const std::vector<double>& velocity = side.motion.velocity;
+  const auto n = static_cast<std::size_t>(side.points.n());
+  for (std::size_t k = 0; k < n; ++k) {
+    const int point = static_cast<int>(k);
+    if (!side.points.live(point)) continue;
+    const Vec2 place = position(side.x, side.points, point, 0),
+               outward = -inward_normal(side.x, side.points, point);
+    const StateVector beyond = to_vector(given(place[0], place[1], side.t));
+    const OpenSide open{
+        .n = outward, .speed = outward.dot(Vec2(velocity[k], velocity[n + k])), .gamma = side.options.gamma};
+    store(side.q, side.points.at(point, 0), between(load(side.q, side.points.at(point, 0)), beyond, open));
+  }
+}
 
 }  // namespace fsi::fluid

@@ -1,12 +1,10 @@
 #pragma once
-/// Ghost lines of the single kinds of sides. One more kind of boundary is one function here, one struct in
-/// gas_options.hpp and one case in boundary_conditions.cpp.
+/// Ways to fill ghost lines, of which the kinds of boundaries choose.
 
 #include <span>
 
 #include "common/core/types.hpp"
 #include "fluid_solver/boundary/side_points.hpp"
-#include "fluid_solver/component.hpp"
 #include "fluid_solver/gas_options.hpp"
 #include "fluid_solver/state_vector.hpp"
 

@@ -20,12 +20,7 @@ constexpr int nesting = 3;
 
 Ends ends_of(const Component& background) {
   Ends ends{};
-  for (const Side side : all_sides) {
-    const Boundary& boundary = background.boundary(side);
-    ends[static_cast<std::size_t>(side)] = std::holds_alternative<Symmetry>(boundary)   ? Beyond::mirror
-                                           : std::holds_alternative<Periodic>(boundary) ? Beyond::period
-                                                                                        : Beyond::other;
-  }
+  for (const Side side : all_sides) ends[static_cast<std::size_t>(side)] = background.facts(side).beyond;
   return ends;
 }
 

@@ -196,9 +196,7 @@ int GasSolver::edge_lines(int background) const {
 }
 
 bool GasSolver::lets_pass(Side side) const {
-  const Boundary& boundary = component(0).boundary(side);
-  return std::holds_alternative<Inflow>(boundary) || std::holds_alternative<Outflow>(boundary) ||
-         std::holds_alternative<FarField>(boundary) || std::holds_alternative<Dirichlet>(boundary);
+  return component(0).facts(side).is_open;
 }
 
 Health GasSolver::health() const {

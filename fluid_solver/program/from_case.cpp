@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "common/case/grids/composite_from_case.hpp"
+#include "common/case/schema/boundary_facts.hpp"
 #include "common/core/failure.hpp"
 #include "common/program/grid_from_case.hpp"
 
@@ -34,34 +36,16 @@ StateField data_of(bool from_reference, const std::optional<GasExpressions>& for
 
 Boundary boundary_of(const BoundarySpec& spec, Side side,
                      const std::shared_ptr<const exact::Solution>& reference) {
-  const auto data = [&] {
-    return data_of(spec.from_reference, spec.state, reference, fmt::format("boundary {}", name_of(side)));
-  };
-  switch (spec.kind) {
-    case BoundaryKind::interface:
-      return Interface{};
-    case BoundaryKind::slip_wall:
-      return SlipWall{};
-    case BoundaryKind::symmetry:
-      return Symmetry{};
-    case BoundaryKind::imposed:
-      return Inflow{data()};
-    case BoundaryKind::outflow:
-      return Outflow{};
-    case BoundaryKind::inflow:
-    case BoundaryKind::far_field:
-      return FarField{data()};
-    case BoundaryKind::dirichlet:
-      return Dirichlet{data()};
-    case BoundaryKind::periodic:
-      return Periodic{};
-    case BoundaryKind::none:
-      return Idle{};
-    case BoundaryKind::traction:
-    case BoundaryKind::displacement:
-      break;
-  }
-  throw UserMistake(fmt::format("fluid: boundary {} has a condition for solids", name_of(side)));
+  BoundaryData data{.numbers = spec.numbers};
+  if (std::ranges::any_of(schema::gas_boundary(spec.kind).keys, schema::takes_reference))
+    data.state =
+        data_of(spec.from_reference, spec.state, reference, fmt::format("boundary {}", name_of(side)));
+  for (const auto& [key, field] : spec.fields)
+    data.fields[key] = [field](double x, double y, double t) { return field(x, y, t); };
+  std::optional<Boundary> boundary = boundary_from(spec.kind, data);
+  if (!boundary)
+    throw UserMistake(fmt::format("fluid: boundary {} has a condition for solids", name_of(side)));
+  return *std::move(boundary);
 }
 
 GasOptions options_of(const Case& problem, const FluidSpec& spec) {
@@ -89,8 +73,12 @@ std::array<Boundary, 4> boundaries_of(const std::array<BoundarySpec, 4>& specs,
   return boundaries;
 }
 
+const GasBoundaryFacts& facts_of(const BoundarySpec& spec) {
+  return schema::gas_boundary(spec.kind);
+}
+
 bool meets_a_solid(const std::array<BoundarySpec, 4>& specs) {
-  return std::ranges::find(specs, BoundaryKind::interface, &BoundarySpec::kind) != specs.end();
+  return std::ranges::any_of(specs, [](const BoundarySpec& spec) { return facts_of(spec).meets_solid; });
 }
 
 GasSolver solver_of(const Case& problem, const FluidSpec& spec,
@@ -133,7 +121,7 @@ bool has_budget(const Case& problem, const FluidSpec& spec,
         return fitted.curve.closed() && !fitted.solid.empty();
       });
   const bool known = std::ranges::none_of(spec.boundary, [](const BoundarySpec& side) {
-    return side.kind == BoundaryKind::interface || side.kind == BoundaryKind::periodic;
+    return facts_of(side).meets_solid || facts_of(side).beyond == Beyond::period;
   });
   return bodies && known && !is_chosen(problem, reference);
 }

@@ -153,8 +153,7 @@ void GasSolver::look() {
     };
     Candidates{fastest.row_rate, with_state(fastest.inner), with_state(fastest.rest)}.write(mine);
     for (const Side side : all_sides) {
-      if (std::holds_alternative<Interface>(component(k).boundary(side)))
-        add_side_strips(state(k).layout, side, strips, k);
+      if (component(k).facts(side).meets_solid) add_side_strips(state(k).layout, side, strips, k);
     }
   }
   share_.to_first(strips, gather_fields());

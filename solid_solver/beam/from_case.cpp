@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/case/schema/boundary_facts.hpp"
 #include "common/core/failure.hpp"
 #include "common/grid/moving_grid.hpp"
 #include "common/grid/shapes/spline.hpp"
@@ -73,7 +74,7 @@ struct Surface {
 std::array<bool, 2> ends_on_walls(const SolidSpec& spec, Side side) {
   const auto slides = [&](Side beside) {
     const BoundaryKind kind = spec.boundary[static_cast<std::size_t>(beside)].kind;
-    return kind == BoundaryKind::slip_wall || kind == BoundaryKind::symmetry;
+    return schema::solid_boundary(kind).holds == Hold::normal;
   };
   if (direction_of(side) == 0) return {slides(Side::bottom), slides(Side::top)};
   return {slides(Side::left), slides(Side::right)};

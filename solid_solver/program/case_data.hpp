@@ -18,6 +18,8 @@
 #include "common/program/grid_from_case.hpp"
 #include "common/program/program.hpp"
 #include "common/program/reference_from_case.hpp"
+#include "solid_solver/boundary/every_boundary.hpp"
+#include "solid_solver/boundary/side_data.hpp"
 #include "solid_solver/measures/manufactured.hpp"
 #include "solid_solver/options.hpp"
 #include "solid_solver/solid_component.hpp"
@@ -31,14 +33,6 @@ inline VectorFunction function_of(const VectorExpressions& vector) {
 inline TensorFunction function_of(const TensorExpressions& P) {
   return [P](double x, double y, double t) -> Tensor2 {
     return {P.c11(x, y, t), P.c12(x, y, t), P.c21(x, y, t), P.c22(x, y, t)};
-  };
-}
-
-/// Rate of change of a formula in t, by fourth-order differences. @param time_scale time in which it changes by
-/// much [time]
-inline VectorFunction rate_of(VectorFunction f, double time_scale) {
-  return [f = std::move(f), h = 1e-3 * time_scale](double x, double y, double t) -> Vec2 {
-    return (8 * (f(x, y, t + h) - f(x, y, t - h)) - (f(x, y, t + 2 * h) - f(x, y, t - 2 * h))) / (12 * h);
   };
 }
 
@@ -150,54 +144,22 @@ class CaseData {
   }
 
   Boundary boundary(const BoundarySpec& spec, Side side, const grid::MovingGrid& grid) const {
-    Boundary result;
-    result.load = spec.on_reference ? LoadConfiguration::reference : LoadConfiguration::current;
-    switch (spec.kind) {
-      case BoundaryKind::interface:
-        result.kind = Boundary::Kind::interface;
-        return result;
-      case BoundaryKind::slip_wall:
-        result.kind = Boundary::Kind::slip;
-        return result;
-      case BoundaryKind::symmetry:
-        result.kind = Boundary::Kind::symmetry;
-        return result;
-      case BoundaryKind::periodic:
-        result.kind = Boundary::Kind::periodic;
-        return result;
-      case BoundaryKind::traction:
-        result.kind = Boundary::Kind::traction;
-        if (spec.from_reference) result.vector = reference_traction(spec, side, grid);
-        if (spec.vector) result.vector = function_of(*spec.vector);
-        return result;
-      case BoundaryKind::displacement:
-        result.kind = Boundary::Kind::displacement;
-        if (spec.vector) {
-          result.vector = function_of(*spec.vector);
-          result.velocity =
-              spec.velocity ? function_of(*spec.velocity) : rate_of(result.vector, crossing_time_);
-        }
-        if (spec.from_reference) {
-          const StateFunction exact = required_reference(side);
-          result.vector = [exact](double x, double y, double t) { return exact(x, y, t).u; };
-          result.velocity = [exact](double x, double y, double t) { return exact(x, y, t).v; };
-        }
-        return result;
-      case BoundaryKind::dirichlet:
-        result.kind = Boundary::Kind::dirichlet;
-        result.state = required_reference(side);
-        return result;
-      case BoundaryKind::none:
-        result.kind = Boundary::Kind::none;
-        return result;
-      case BoundaryKind::inflow:
-      case BoundaryKind::imposed:
-      case BoundaryKind::outflow:
-      case BoundaryKind::far_field:
-        break;
-    }
-    throw UserMistake(
-        fmt::format("solid \"{}\": boundary {} has a condition for gases", spec_.name, name_of(side)));
+    SideData data{.from_reference = spec.from_reference,
+                  .time_scale = crossing_time_,
+                  .numbers = spec.numbers,
+                  .exact = [&] { return required_reference(side); },
+                  .exact_traction = [&] { return reference_traction(spec, side, grid); }};
+    if (spec.vector) data.value = function_of(*spec.vector);
+    if (spec.velocity) data.velocity = function_of(*spec.velocity);
+    for (const auto& [key, vector] : spec.vectors) data.vectors[key] = function_of(vector);
+    for (const auto& [key, field] : spec.fields)
+      data.fields[key] = [field](double x, double y, double t) { return field(x, y, t); };
+    std::optional<Boundary> result = boundary_from(spec.kind, data);
+    if (!result)
+      throw UserMistake(
+          fmt::format("solid \"{}\": boundary {} has a condition for gases", spec_.name, name_of(side)));
+    result->load = spec.on_reference ? LoadConfiguration::reference : LoadConfiguration::current;
+    return *std::move(result);
   }
 
   StateFunction required_reference(Side side) const {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "common/case/schema/boundary_facts.hpp"
 #include "common/core/failure.hpp"
 #include "common/grid/moving_grid.hpp"
 #include "common/program/grid_from_case.hpp"
@@ -34,22 +35,20 @@ class Freedom {
   explicit Freedom(const SolidSpec& spec) : spec_(spec) {}
 
   void add(const BoundarySpec& boundary, Side side, const Vec2& along) {
-    switch (boundary.kind) {
-      case BoundaryKind::slip_wall:
-      case BoundaryKind::symmetry:
+    switch (schema::solid_boundary(boundary.kind).holds) {
+      case Hold::normal:
         slide(side, along);
         return;
-      case BoundaryKind::traction:
-        if (boundary.from_reference || loaded(*boundary.vector))
+      case Hold::nothing:
+        if (carries_load(boundary))
           refuse(spec_,
                  fmt::format("side {} cannot carry a load of its own; write free, and the load as body_force",
                              name_of(side)));
         return;
-      case BoundaryKind::displacement:
-      case BoundaryKind::dirichlet:
+      case Hold::motion:
         refuse(spec_,
                fmt::format("the motion of side {} cannot be given; let the side be free", name_of(side)));
-      default:
+      case Hold::others:
         return;
     }
   }
@@ -63,14 +62,6 @@ class Freedom {
  private:
   const SolidSpec& spec_;
   std::optional<Vec2> direction_;
-
-  static bool loaded(const VectorExpressions& load) {
-    constexpr const char* variables[] = {"x", "y", "r", "t"};
-    for (const char* variable : variables) {
-      if (load.c1.uses(variable) || load.c2.uses(variable)) return true;
-    }
-    return load.c1(0, 0, 0) != 0 || load.c2(0, 0, 0) != 0;
-  }
 
   void slide(Side side, const Vec2& along) {
     constexpr double parallel = 1e-8;

@@ -111,6 +111,13 @@ class Includes(Copy):
         self.assert_allows("includes", "common/exact/solution.cpp", '#include "solid_solver/laws/law.hpp"')
         self.assert_bites("includes", "common/case/read/build.cpp", '#include "solid_solver/laws/law.hpp"')
 
+    def test_only_the_schema_asks_the_kinds_of_boundaries(self):
+        for program in ("fluid_solver", "solid_solver"):
+            every = f'#include "{program}/boundary/every_boundary.hpp"'
+            self.assert_allows("includes", "common/case/schema/schema.cpp", every)
+            self.assert_bites("includes", "common/case/read/build_domain.cpp", every)
+            self.assert_bites("includes", "common/case/schema/schema.cpp", f'#include "{program}/boundary/ghost_lines.hpp"')
+
     def test_grids_know_no_bus_and_no_case(self):
         self.assert_bites("includes", "common/grid/moving_grid.hpp", '#include "common/wire/messages.hpp"')
         self.assert_bites("includes", "common/grid/marching/hyperbolic.cpp", '#include "common/case/case.hpp"')

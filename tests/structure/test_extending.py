@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""One more law, Riemann solver or case is one file and at most one line: in a copy of the tree each is added as its README
-says, the files it took are counted, and what knows it by itself is compiled (by a compiler that writes nothing)."""
+"""One more law, Riemann solver, boundary, shape or case is one file and at most one line: in a copy of the tree each is added as its
+README says, the files it took are counted, and what knows it by itself is compiled (by a compiler that writes nothing)."""
 
 import json
 import os
@@ -60,12 +60,95 @@ struct RiemannPlain {
 }  // namespace fsi::fluid
 """
 
+GAS_BOUNDARY = """#pragma once
+/// A pressure that is given at an outlet, for a test.
+#include <array>
+#include "fluid_solver/boundary/gas_side.hpp"
+namespace fsi::fluid {
+struct BackPressure {
+  double p = 0;  ///< [pressure]
+  static constexpr std::array keys{
+      schema::Key{.name = "p_back", .meaning = "pressure behind it", .unit = "pressure", .required = true, .range = schema::positive}};
+  static constexpr GasBoundaryFacts facts{.meaning = "the pressure is given", .keys = keys, .is_open = true};
+  static BackPressure from(const BoundaryData& data) { return {data.numbers.at("p_back")}; }
+  void set_points(const GasSide& side) const {
+    for (int k = 0; k < side.points.n(); ++k) {
+      if (!side.points.live(k)) continue;
+      StateVector state = load(side.q, side.points.at(k, 0));
+      state[3] = p;
+      store(side.q, side.points.at(k, 0), state);
+    }
+  }
+  static void set_ghosts(const GasSide& side) { extrapolated_ghosts(side.q, side.points, side.limited()); }
+};
+}  // namespace fsi::fluid
+"""
+
+SOLID_BOUNDARY = """#pragma once
+/// A side that is shaken to and fro, for a test.
+#include <array>
+#include <cmath>
+#include "solid_solver/boundary/side_data.hpp"
+namespace fsi::solid {
+struct Shaken {
+  static constexpr std::array keys{schema::Key{.name = "amplitude", .meaning = "how far", .unit = "length", .fallback = "1"}};
+  static constexpr SolidBoundaryFacts facts{.meaning = "it is shaken", .keys = keys, .holds = Hold::motion};
+  static Boundary from(const SideData& data) {
+    const auto found = data.numbers.find("amplitude");
+    const double far = found == data.numbers.end() ? 1 : found->second;
+    Boundary result{.kind = Boundary::Kind::displacement};
+    result.vector = [far](double, double, double t) -> Vec2 { return {far * std::sin(t), 0}; };
+    result.velocity = rate_of(result.vector, data.time_scale);
+    return result;
+  }
+};
+}  // namespace fsi::solid
+"""
+
+SHAPE = """#pragma once
+/// A drop, for a test.
+#include <array>
+#include <cmath>
+#include <numbers>
+#include "common/case/shapes/shape.hpp"
+namespace fsi::shapes {
+struct Drop {
+  static constexpr std::array keys{
+      schema::Key{.name = "length", .meaning = "from end to end", .unit = "length", .required = true, .range = schema::positive}};
+  static constexpr ShapeFacts facts{.meaning = "a drop", .keys = keys, .may_be_open = false};
+  static grid::PlaneCurve curve(const ShapeSection& section) {
+    const double a = section.number("length", 1) / 2, turn = 2 * std::numbers::pi;
+    grid::PlaneCurve drop;
+    drop.position = [=](double s) { return Vec2(a * std::cos(turn * s), 0.5 * a * std::sin(turn * s)); };
+    drop.slope = [=](double s) { return Vec2(-turn * a * std::sin(turn * s), 0.5 * turn * a * std::cos(turn * s)); };
+    return drop;
+  }
+};
+}  // namespace fsi::shapes
+"""
+
 # What holds only where everybody has learnt of the new ones by itself.
 KNOWN = """
+#include "common/case/schema/boundary_words.hpp"
 #include "common/case/schema/law_numbers.hpp"
+#include "common/case/shapes/every_shape.hpp"
 #include "common/core/choices.hpp"
+#include "fluid_solver/boundary/every_boundary.hpp"
 #include "fluid_solver/kernels/riemann/every_riemann.hpp"
+#include "solid_solver/boundary/every_boundary.hpp"
 using namespace fsi;
+template <class Every>
+constexpr std::size_t count = std::variant_size_v<Every>;
+template <class Every, std::size_t before_last = 0>
+using Last = std::variant_alternative_t<count<Every> - 1 - before_last, Every>;
+static_assert(named<BoundaryKind>("back_pressure") && named<BoundaryKind>("shaken"), "no case can ask for the boundaries");
+static_assert(fluid::boundary_kinds.back() == BoundaryKind::back_pressure && solid::boundary_kinds.back() == BoundaryKind::shaken);
+static_assert(std::is_same_v<Last<fluid::Boundary, 1>, fluid::BackPressure>, "the gas does not have the boundary");
+static_assert(std::is_same_v<Last<solid::EveryBoundary>, solid::Shaken>, "the solid does not have the boundary");
+static_assert(Last<fluid::Boundary, 1>::facts.keys.front().name == "p_back" && Last<fluid::Boundary, 1>::facts.is_open);
+static_assert(!schema::is_said_by_a_word(fluid::BackPressure::facts.keys), "it is nothing without its pressure");
+static_assert(schema::is_said_by_a_word(solid::Shaken::facts.keys), "its key has a default");
+static_assert(shapes::shape_names.back() == "drop" && shapes::shape_facts.back().keys.front().name == "length");
 static_assert(named<RiemannSolver>("plain"), "no case can ask for the Riemann solver");
 static_assert(std::is_same_v<std::variant_alternative_t<std::variant_size_v<fluid::AnyRiemann> - 1, fluid::AnyRiemann>,
                              fluid::RiemannPlain>, "the gas does not have it");
@@ -138,11 +221,17 @@ class Extending(unittest.TestCase):
         answer = subprocess.run(words, cwd=entry["directory"], capture_output=True, text=True, check=False)
         self.assertEqual(answer.returncode, 0, answer.stderr[-3000:])
 
-    def test_law_with_three_numbers_and_riemann_solver_are_a_file_and_a_line_each(self):
-        self.add("solid_solver/laws/spongy.hpp", LAW,
-                 ("solid_solver/CMakeLists.txt", "fsi_solid_solver(", "fsi_solid_solver(spongy Spongy)"))
-        self.add("fluid_solver/kernels/riemann/riemann_plain.hpp", RIEMANN,
-                 ("fluid_solver/CMakeLists.txt", "fsi_riemann_solver(", "fsi_riemann_solver(plain RiemannPlain)"))
+    def add_kind(self, folder, family, name, kind, where, text):
+        self.add(where, text, (f"{folder}/kinds.cmake", f"fsi_kind({family} ", f"fsi_kind({family} {name} {kind})"))
+
+    def test_law_riemann_solver_boundaries_and_shape_with_keys_of_their_own_are_a_file_and_a_line_each(self):
+        self.add_kind("solid_solver", "law", "spongy", "Spongy", "solid_solver/laws/spongy.hpp", LAW)
+        self.add_kind("solid_solver", "solid_boundary", "shaken", "Shaken", "solid_solver/boundary/kinds/shaken.hpp", SOLID_BOUNDARY)
+        self.add_kind("fluid_solver", "riemann_solver", "plain", "RiemannPlain", "fluid_solver/kernels/riemann/riemann_plain.hpp",
+                      RIEMANN)
+        self.add_kind("fluid_solver", "gas_boundary", "back_pressure", "BackPressure",
+                      "fluid_solver/boundary/kinds/back_pressure.hpp", GAS_BOUNDARY)
+        self.add_kind("common/case", "shape", "drop", "Drop", "common/case/shapes/drop.hpp", SHAPE)
         commands = self.configured()
         self.assertTrue(any(file.endswith("/spongy_solver.cpp") for file in commands), "no program of the law is built")
         known = self.root / "build" / "known.cpp"
@@ -150,7 +239,11 @@ class Extending(unittest.TestCase):
         component = commands[str(self.root / "fluid_solver/component.cpp")]
         self.understood(component)
         self.understood(component, known)
-        self.understood(commands[str(self.root / "common/case/read/build_material.cpp")])
+        for file in ("fluid_solver/boundary/boundary_conditions.cpp", "fluid_solver/program/from_case.cpp",
+                     "common/case/schema/schema_fluid.cpp", "common/case/schema/schema_solid.cpp",
+                     "common/case/schema/schema_shape.cpp", "common/case/read/build_shape.cpp",
+                     "common/case/read/build_material.cpp"):
+            self.understood(commands[str(self.root / file)])
         self.understood(commands[str(self.root / "reference/chain.cpp")])
         laws = (self.root / "build/generated/common/case/schema/laws.hpp").read_text(encoding="utf-8")
         self.assertIn('"spongy"', laws, "no case can ask for the law")

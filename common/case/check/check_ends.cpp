@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 
+#include "common/case/schema/boundary_facts.hpp"
 #include "common/case/schema/laws.hpp"
 
 namespace fsi {
@@ -32,8 +33,7 @@ const BoundarySpec& condition_at(const SolidSpec& solid, const FluidSpec& fluid,
 
 void check_end(const SolidSpec& solid, const FluidSpec& fluid, const BodyFittedSpec& grid, std::size_t end,
                const Node& root) {
-  const BoundaryKind kind = condition_at(solid, fluid, end).kind;
-  if (kind != BoundaryKind::traction && kind != BoundaryKind::none) return;
+  if (schema::solid_boundary(condition_at(solid, fluid, end).kind).holds != Hold::nothing) return;
   const auto n = static_cast<std::size_t>(grid.curve.points());
   const std::size_t k = end == 0 ? 0 : n - 1;
   const char* side = name_of(sides_at_ends(solid, fluid)[end]);

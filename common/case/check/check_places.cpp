@@ -6,6 +6,7 @@
 
 #include "common/case/grids/composite_from_case.hpp"
 #include "common/case/grids/grid_points.hpp"
+#include "common/case/schema/boundary_facts.hpp"
 #include "common/case/schema/laws.hpp"
 #include "common/grid/geometry/outline.hpp"
 #include "common/grid/overlap/hole_cutting.hpp"
@@ -90,25 +91,14 @@ void check_probe_in_solid(const SolidSpec& solid, const Vec2& x, const Node& nod
            solid.body_fitted.empty() ? "" : ", within its `shape` as the points of the outline draw it"));
 }
 
-/// Is there a load on a side?
-bool loaded(const BoundarySpec& spec) {
-  if (spec.from_reference || !spec.vector) return spec.from_reference;
-  const auto acts = [](const Expression& load) {
-    const bool varies = load.uses("x") || load.uses("y") || load.uses("r") || load.uses("t");
-    return varies || load(0, 0, 0) != 0;
-  };
-  return acts(spec.vector->c1) || acts(spec.vector->c2);
-}
-
 void check_rigid_side(const BoundarySpec& spec, const Node& node, const std::string& path) {
-  const bool held = spec.kind == BoundaryKind::displacement || spec.kind == BoundaryKind::dirichlet;
-  if (held) {
+  if (schema::solid_boundary(spec.kind).holds == Hold::motion) {
     fail(node.place, path,
          "a rigid solid cannot have its motion given (or be clamped): it moves as a whole; write free, or "
          "take "
          "a law that deforms");
   }
-  if (spec.kind == BoundaryKind::traction && loaded(spec)) {
+  if (carries_load(spec)) {
     fail(node.place, path,
          "a rigid solid cannot carry a load on a side of its own; write free, and the load as body_force");
   }

@@ -56,7 +56,7 @@ std::string functions() {
 }
 
 std::string words(const Key& key) {
-  return fmt::format("`{}`", fmt::join(key.words, "`, `"));
+  return fmt::format("`{}`", fmt::join(words_of_key(key), "`, `"));
 }
 
 std::string type_text(const Key& key) {
@@ -112,7 +112,7 @@ bool has_unit(Type type) {
 
 void write_row(const Key& key, std::string& out) {
   std::string type = type_text(key);
-  if (key.type != Type::word && !key.words.empty()) type += fmt::format(" or {}", words(key));
+  if (key.type != Type::word && !words_of_key(key).empty()) type += fmt::format(" or {}", words(key));
   out += fmt::format("| `{}` | {} | {} | {} | {} | {} |\n", key.name, type,
                      has_unit(key.type) ? key.unit : "", has_unit(key.type) ? range_text(key.range) : "",
                      key.required ? "**required**" : key.fallback, key.meaning);

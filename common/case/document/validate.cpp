@@ -6,7 +6,9 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <span>
 #include <stdexcept>
+#include <string_view>
 #include <vector>
 
 #include "common/core/input/expression.hpp"
@@ -30,6 +32,11 @@ std::string joined(std::span<const std::string_view> words) {
 
 std::vector<std::string> strings(std::span<const std::string_view> words) {
   return {words.begin(), words.end()};
+}
+
+bool is_a_word_of(const Node& node, const Key& key) {
+  const std::span<const std::string_view> words = words_of_key(key);
+  return node.is_scalar() && std::ranges::find(words, node.text) != words.end();
 }
 
 std::string bounds(const schema::Range& range) {
@@ -124,9 +131,7 @@ class Validator {
   }
 
   void value(Node& node, const Key& key, const std::string& path) const {
-    if (node.is_scalar() && key.type != Type::word &&
-        std::find(key.words.begin(), key.words.end(), node.text) != key.words.end())
-      return;
+    if (key.type != Type::word && is_a_word_of(node, key)) return;
     switch (key.type) {
       case Type::number:
         number(node, key, path);
@@ -210,12 +215,11 @@ class Validator {
   }
 
   static void word(Node& node, const Key& key, const std::string& path) {
-    if (node.is_scalar() && std::find(key.words.begin(), key.words.end(), node.text) != key.words.end())
-      return;
-    const std::string hint = node.is_scalar() ? did_you_mean(node.text, strings(key.words)) : "";
-    fail(
-        node.place, path,
-        fmt::format("{} does not exist here{} (one of {})", config::describe(node), hint, joined(key.words)));
+    if (is_a_word_of(node, key)) return;
+    const std::string hint = node.is_scalar() ? did_you_mean(node.text, strings(words_of_key(key))) : "";
+    fail(node.place, path,
+         fmt::format("{} does not exist here{} (one of {})", config::describe(node), hint,
+                     joined(words_of_key(key))));
   }
 
   static void text(Node& node, const std::string& path) {
@@ -285,12 +289,11 @@ class Validator {
   }
 
   void nested(Node& node, const Key& key, const std::string& path) const {
-    const bool mistyped = node.is_scalar() && !key.words.empty();
+    const bool mistyped = node.is_scalar() && !words_of_key(key).empty();
     if (mistyped) {
-      std::vector<std::string_view> words(key.words.begin(), key.words.end());
       fail(node.place, path,
            fmt::format("unknown word {}{} (a section of keys, or one of {})", in_ticks(node.text),
-                       did_you_mean(node.text, strings(words)), joined(words)));
+                       did_you_mean(node.text, strings(words_of_key(key))), joined(words_of_key(key))));
     }
     section(node, *key.section, path);
   }

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "common/case/grids/node_tools.hpp"
+#include "common/case/schema/boundary_facts.hpp"
 
 namespace fsi {
 
@@ -88,7 +89,7 @@ bool add_wall_strips(Node& body_fitted, const FluidSpec& fluid, const std::vecto
   std::vector<Node> strips;
   for (const Side side : {Side::bottom, Side::top, Side::left, Side::right}) {
     const auto across = static_cast<std::size_t>(direction_of(side));
-    const bool is_wall = fluid.boundary[static_cast<std::size_t>(side)].kind == BoundaryKind::slip_wall;
+    const bool is_wall = schema::gas_boundary(fluid.boundary[static_cast<std::size_t>(side)].kind).is_wall;
     if (!is_wall || has_strips[1 - across] || has_name(fmt::format("along_{}", name_of(side)))) continue;
     if (std::ranges::any_of(fluid.body_fitted,
                             [side](const BodyFittedSpec& ring) { return has_an_end_on(ring.curve, side); }))

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <numbers>
+#include <span>
+
+#include "common/case/schema/boundary_facts.hpp"
 
 namespace fsi {
 
@@ -14,16 +16,12 @@ namespace {
 
 using config::fail;
 using config::Node;
+using schema::Key;
+using schema::Type;
 
-BoundaryKind kind_of(const std::string& word) {
-  static const std::map<std::string, BoundaryKind> kinds{
-      {"interface", BoundaryKind::interface},      {"slip_wall", BoundaryKind::slip_wall},
-      {"symmetry", BoundaryKind::symmetry},        {"inflow", BoundaryKind::inflow},
-      {"imposed", BoundaryKind::imposed},          {"outflow", BoundaryKind::outflow},
-      {"far_field", BoundaryKind::far_field},      {"dirichlet", BoundaryKind::dirichlet},
-      {"periodic", BoundaryKind::periodic},        {"traction", BoundaryKind::traction},
-      {"displacement", BoundaryKind::displacement}};
-  return kinds.at(word);
+/// What the kind of a side has for keys.
+std::span<const Key> keys_of(const Owner& owner, BoundaryKind kind) {
+  return owner.is_gas ? schema::gas_boundary(kind).keys : schema::solid_boundary(kind).keys;
 }
 
 void read_rectangle(const Node& node, const std::string& path, GridSpec& grid) {
@@ -66,15 +64,14 @@ void read_points(const Node& node, const std::string& path, GridSpec& grid) {
 BoundarySpec boundary_from_word(const Reader& reader, const Owner& owner, const Node& node,
                                 const std::string& path) {
   BoundarySpec result;
-  if (node.text == "free" || node.text == "clamped") {
-    result.kind = node.text == "free" ? BoundaryKind::traction : BoundaryKind::displacement;
+  if (const BoundaryKind zero = schema::kind_for_zero(node.text);
+      !owner.is_gas && zero != BoundaryKind::none) {
+    result.kind = zero;
     result.vector = VectorExpressions{Expression(0.0), Expression(0.0)};
     return result;
   }
-  result.kind = kind_of(node.text);
-  constexpr std::array with_data{BoundaryKind::dirichlet, BoundaryKind::inflow,   BoundaryKind::imposed,
-                                 BoundaryKind::far_field, BoundaryKind::traction, BoundaryKind::displacement};
-  if (std::ranges::find(with_data, result.kind) != with_data.end())
+  result.kind = named<BoundaryKind>(node.text).value();
+  if (std::ranges::any_of(keys_of(owner, result.kind), schema::takes_reference))
     result.from_reference = reader.from_reference(node, path);
   if (result.kind == BoundaryKind::interface && owner.is_gas) {
     if (owner.partner.empty())
@@ -84,27 +81,56 @@ BoundarySpec boundary_from_word(const Reader& reader, const Owner& owner, const 
   return result;
 }
 
+/// The value of a key of the kind, by its type; words and names have places of their own.
+void read_value(const Reader& reader, const Key& key, const Node& value, const std::string& path,
+                BoundarySpec& result) {
+  const std::string name(key.name);
+  switch (key.type) {
+    case Type::number:
+    case Type::integer:
+      result.numbers[name] = *value.number;
+      return;
+    case Type::field:
+      result.fields.insert_or_assign(name, reader.expression(value));
+      return;
+    case Type::vector:
+      if (name == "value") {
+        result.vector = reader.vector(value);
+      } else if (name == "velocity") {
+        result.velocity = reader.vector(value);
+      } else {
+        result.vectors.insert_or_assign(name, reader.vector(value));
+      }
+      return;
+    case Type::section:
+      result.state = reader.gas_state(value, fmt::format("{}.{}", path, name));
+      return;
+    default:
+      return;
+  }
+}
+
 }  // namespace
 
 BoundarySpec build_boundary(const Reader& reader, const Owner& owner, const Node& node,
                             const std::string& path) {
   if (node.is_scalar()) return boundary_from_word(reader, owner, node, path);
   BoundarySpec result;
-  result.kind = kind_of(node.find("kind")->text);
+  result.kind = named<BoundaryKind>(node.find("kind")->text).value();
   Reader::assign(node, "solid", result.solid);
   Reader::assign(node, "fluid", result.fluid);
-  if (const Node* state = node.find("state")) {
-    result.from_reference = reader.from_reference(*state, path);
-    if (!result.from_reference) result.state = reader.gas_state(*state, path + ".state");
-  }
-  if (const Node* value = node.find("value")) {
-    result.from_reference = reader.from_reference(*value, path);
-    if (!result.from_reference) result.vector = reader.vector(*value);
-  }
   std::string load = "current";
   Reader::assign(node, "load", load);
   result.on_reference = load == "reference";
-  if (const Node* velocity = node.find("velocity")) result.velocity = reader.vector(*velocity);
+  for (const Key& key : keys_of(owner, result.kind)) {
+    const Node* value = node.find(key.name);
+    if (value == nullptr) continue;
+    if (schema::takes_reference(key) && reader.from_reference(*value, path)) {
+      result.from_reference = true;
+    } else {
+      read_value(reader, key, *value, path, result);
+    }
+  }
   return result;
 }
 

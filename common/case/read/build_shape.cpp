@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <filesystem>
 #include <limits>
-#include <numbers>
 #include <optional>
 #include <utility>
 
@@ -15,14 +15,11 @@
 #include "common/case/grids/curve_side.hpp"
 #include "common/case/grids/grid_points.hpp"
 #include "common/case/read/build_walls.hpp"
+#include "common/case/shapes/every_shape.hpp"
 #include "common/core/input/suggest.hpp"
 #include "common/core/input/text_file.hpp"
 #include "common/grid/shapes/blunted.hpp"
-#include "common/grid/shapes/circle.hpp"
-#include "common/grid/shapes/ellipse.hpp"
 #include "common/grid/shapes/plane_curve.hpp"
-#include "common/grid/shapes/rounded_polygon.hpp"
-#include "common/grid/shapes/smoothed_polygon.hpp"
 #include "common/grid/shapes/spline.hpp"
 
 namespace fsi {
@@ -32,48 +29,13 @@ namespace {
 using config::fail;
 using config::Node;
 
-Vec2 pair_of(const Node& node) {
-  return {*node.items[0].number, *node.items[1].number};
-}
-
-std::vector<Vec2> points_of(const Node& list) {
-  std::vector<Vec2> points;
-  for (const Node& item : list.items) points.push_back(pair_of(item));
-  return points;
-}
-
 grid::PlaneCurve curve_of(const Node& shape, bool closed, const std::string& path) {
-  const std::string kind = shape.find("kind")->text;
-  const grid::Curve ends = closed ? grid::Curve::closed : grid::Curve::open;
-  const Node* middle = shape.find("centre");
-  const Vec2 centre = middle == nullptr ? Vec2(Vec2::Zero()) : pair_of(*middle);
-  if (!closed && (kind == "circle" || kind == "ellipse")) {
+  const std::string& kind = shape.find("kind")->text;
+  const auto number = std::ranges::find(shapes::shape_names, kind) - shapes::shape_names.begin();
+  if (!closed && !shapes::shape_facts[static_cast<std::size_t>(number)].may_be_open)
     fail(shape.find("walls")->place, path + ".walls", fmt::format("a {} has no ends; leave them out", kind));
-  }
-  if (kind == "circle") return grid::circle(centre, *shape.find("radius")->number);
-  if (kind == "ellipse") {
-    const Vec2 semi_axes = pair_of(*shape.find("semi_axes"));
-    double degrees = 0;
-    Reader::assign(shape, "angle", degrees);
-    return grid::ellipse(
-        {.centre = centre, .a = semi_axes[0], .b = semi_axes[1], .angle = degrees * std::numbers::pi / 180});
-  }
-  if (kind == "polygon") {
-    if (const Node* radius = shape.find("radius")) {
-      if (const Node* sharpness = shape.find("sharpness"))
-        fail(sharpness->place, path, "give `radius` or `sharpness`, one of them");
-      return grid::rounded_polygon(
-          {.corners = points_of(*shape.find("corners")), .ends = ends, .radius = *radius->number});
-    }
-    grid::SmoothedPolygon polygon{.corners = points_of(*shape.find("corners")), .ends = ends};
-    Reader::assign(shape, "sharpness", polygon.sharpness);
-    return grid::smoothed_polygon(polygon);
-  }
-  const Node* through = shape.find("through");
-  if (through == nullptr) fail(shape.place, path, "give `through: [[x, y], ..]` or `file: NAME.csv`");
-  double corner_angle = 180;
-  Reader::assign(shape, "corner_angle", corner_angle);
-  return grid::spline(points_of(*through), ends, corner_angle / 180 * std::numbers::pi);
+  const grid::Curve ends = closed ? grid::Curve::closed : grid::Curve::open;
+  return shapes::curve_of(kind, {.node = shape, .path = path, .ends = ends});
 }
 
 /// The curve, its sharpest ends cut off.

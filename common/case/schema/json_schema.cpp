@@ -6,7 +6,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <stdexcept>
+#include <string_view>
 
 #include "common/case/schema/schema.hpp"
 #include "common/case/schema/units.hpp"
@@ -76,8 +78,8 @@ class Writer {
 
   Json key_schema(const Key& key) {
     Json schema = value_schema(key);
-    if (key.type != Type::word && !key.words.empty())
-      schema = {{"anyOf", Json::array({schema, {{"enum", key.words}}})}};
+    if (key.type != Type::word && !words_of_key(key).empty())
+      schema = {{"anyOf", Json::array({schema, {{"enum", words_of_key(key)}}})}};
     std::string text(key.meaning);
     if (key.unit != "-") text += fmt::format(" [{}]", key.unit);
     if (!key.fallback.empty()) text += fmt::format("; default: {}", key.fallback);
@@ -89,7 +91,8 @@ class Writer {
 
   /// Null where the default is no value of its own but words.
   static Json default_of(const Key& key) {
-    const bool word = std::ranges::find(key.words, key.fallback) != key.words.end();
+    const std::span<const std::string_view> words = words_of_key(key);
+    const bool word = std::ranges::find(words, key.fallback) != words.end();
     if (word) return key.fallback;
     const Json value = Json::parse(key.fallback, nullptr, false);
     return value.is_number() || value.is_boolean() ? value : Json();
@@ -144,7 +147,7 @@ class Writer {
       case Type::boolean:
         return {{"type", "boolean"}};
       case Type::word:
-        return {{"enum", key.words}};
+        return {{"enum", words_of_key(key)}};
       case Type::text:
       case Type::name:
         return {{"type", "string"}};

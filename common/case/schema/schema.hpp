@@ -45,13 +45,6 @@ inline constexpr Range not_negative{.low = 0};
 
 struct Section;
 
-/// Kinds of boundaries that a bare word may stand for.
-inline constexpr std::array<std::string_view, 8> gas_boundary_words{
-    "slip_wall", "symmetry", "inflow", "imposed", "outflow", "far_field", "dirichlet", "periodic"};
-inline constexpr std::array<std::string_view, 9> solid_boundary_words{
-    "interface", "slip_wall", "symmetry", "traction", "displacement",
-    "dirichlet", "periodic",  "free",     "clamped"};
-
 /// A word that may stand in the place of values: those of the reference solution.
 inline constexpr std::array<std::string_view, 1> or_reference{"reference"};
 
@@ -64,7 +57,7 @@ struct Key {
   bool required = false;
   Range range = {};
   std::span<const std::string_view> words =
-      {};                     ///< of a word; for other types: words that may stand in its place
+      {};  ///< of a word; for other types: words that may stand in its place, see words_of_key
   std::size_t most = 20'000;  ///< entries of a list, or names
   const Section* section = nullptr;
   const Key* element = nullptr;
@@ -80,9 +73,15 @@ struct Variant {
 struct Section {
   std::string_view title;  ///< heading of the documentation
   std::span<const Key> keys;
-  std::span<const Variant> variants = {};  ///< chosen by the key `kind`
-  std::string_view default_kind = {};      ///< "": `kind` must be written
+  std::span<const Variant> variants = {};        ///< chosen by the key `kind`
+  std::string_view default_kind = {};            ///< "": `kind` must be written
+  std::span<const std::string_view> words = {};  ///< that may stand in its place
 };
+
+/// Words that may stand in the place of a key's value, or that it is one of.
+constexpr std::span<const std::string_view> words_of_key(const Key& key) {
+  return key.words.empty() && key.section != nullptr ? key.section->words : key.words;
+}
 
 extern const Section grid_section;            ///< of gas and solids
 extern const Section shape_section;           ///< a curve

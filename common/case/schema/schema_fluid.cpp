@@ -1,7 +1,13 @@
+#include <algorithm>
 #include <array>
+#include <cstddef>
+#include <type_traits>
+#include <variant>
 
 #include "common/case/case.hpp"
+#include "common/case/schema/boundary_words.hpp"
 #include "common/case/schema/schema.hpp"
+#include "fluid_solver/boundary/every_boundary.hpp"
 
 namespace fsi::schema {
 
@@ -132,33 +138,19 @@ constexpr array gas_state_keys{
         .range = positive},
 };
 
-constexpr array gas_boundary_state{
-    Key{.name = "state",
-        .type = Type::section,
-        .meaning = "the state there, of x, y, r, t; `reference` takes it from the reference solution",
-        .required = true,
-        .words = or_reference,
-        .section = &gas_state_section},
-};
-constexpr array gas_interface_keys{
-    Key{.name = "solid", .type = Type::name, .meaning = "the solid on the other side", .required = true},
-};
-constexpr array gas_boundary_variants{
-    Variant{"interface", "a solid is on the other side", gas_interface_keys},
-    Variant{"slip_wall", "wall without friction", {}},
-    Variant{"symmetry", "mirror images across a straight side", {}},
-    Variant{
-        "inflow",
-        "gas of this state comes in: all of it where it is faster than sound, else along characteristics, so "
-        "that waves from inside leave",
-        gas_boundary_state},
-    Variant{"imposed", "all four values are imposed; waves from inside are reflected", gas_boundary_state},
-    Variant{"outflow", "extrapolation", {}},
-    Variant{"far_field", "what comes in along characteristics is that of the state, what goes out leaves",
-            gas_boundary_state},
-    Variant{"dirichlet", "all values are imposed, ghost points too", gas_boundary_state},
-    Variant{"periodic", "continues at the opposite side", {}},
-};
+/// What every kind tells, in the order of the case file's documentation.
+constexpr array gas_boundary_facts = []<class... Kind>(std::type_identity<std::variant<Kind...>>) {
+  return array{Kind::facts...};
+}(std::type_identity<fluid::Boundary>{});
+
+constexpr auto gas_boundary_variants = [] {
+  array<Variant, fluid::boundary_kinds.size()> variants{};
+  for (std::size_t k = 0; k < variants.size(); ++k)
+    variants[k] = {name_of(fluid::boundary_kinds[k]), gas_boundary_facts[k].meaning,
+                   gas_boundary_facts[k].keys};
+  return variants;
+}();
+constexpr auto gas_boundary_words = words_said<gas_boundary_variants>();
 
 constexpr string_view gas_side =
     "a side of the gas; a bare word is its kind, with data from the reference solution";
@@ -167,25 +159,21 @@ constexpr array gas_sides{
         .type = Type::section,
         .meaning = gas_side,
         .required = true,
-        .words = gas_boundary_words,
         .section = &gas_boundary_section},
     Key{.name = "right",
         .type = Type::section,
         .meaning = gas_side,
         .required = true,
-        .words = gas_boundary_words,
         .section = &gas_boundary_section},
     Key{.name = "bottom",
         .type = Type::section,
         .meaning = gas_side,
         .required = true,
-        .words = gas_boundary_words,
         .section = &gas_boundary_section},
     Key{.name = "top",
         .type = Type::section,
         .meaning = gas_side,
         .required = true,
-        .words = gas_boundary_words,
         .section = &gas_boundary_section},
 };
 constexpr Section gas_boundaries{.title = "Boundaries of the gas", .keys = gas_sides};
@@ -265,7 +253,13 @@ constinit const Section grid_section{
     .title = "A component grid", .keys = shake_keys, .variants = grid_variants, .default_kind = "rectangle"};
 
 constinit const Section gas_boundary_section{
-    .title = "A side of the gas", .keys = {}, .variants = gas_boundary_variants, .default_kind = ""};
+    .title = "A side of the gas", .keys = {}, .variants = gas_boundary_variants, .words = gas_boundary_words};
+
+const GasBoundaryFacts& gas_boundary(BoundaryKind kind) {
+  const auto found = std::ranges::find(fluid::boundary_kinds, kind);
+  return gas_boundary_facts[static_cast<std::size_t>(found -
+                                                     fluid::boundary_kinds.begin())];  // else that of Idle
+}
 
 constinit const Section gas_state_section{.title = "A state of the gas", .keys = gas_state_keys};
 

@@ -1,8 +1,10 @@
 /// Curves, and the grids that are fitted to them.
 
 #include <array>
+#include <cstddef>
 
 #include "common/case/schema/schema.hpp"
+#include "common/case/shapes/every_shape.hpp"
 
 namespace fsi::schema {
 
@@ -25,7 +27,6 @@ constexpr array weight_keys{
 constexpr Section weight_section{.title = "A place where points cluster", .keys = weight_keys};
 constexpr Key weight_element{
     .name = "weight", .type = Type::section, .meaning = "a place", .section = &weight_section};
-constexpr Key point_element{.name = "point", .type = Type::pair, .meaning = "[x, y]", .unit = "length"};
 constexpr array<string_view, 4> side_words{"left", "right", "bottom", "top"};
 constexpr Key side_element{.name = "side", .type = Type::word, .meaning = "a side", .words = side_words};
 
@@ -57,79 +58,12 @@ constexpr array shape_keys{
         .fallback = "closed curve",
         .element = &wall_element},
 };
-constexpr Key centre_key{
-    .name = "centre", .type = Type::pair, .meaning = "its middle", .unit = "length", .fallback = "[0, 0]"};
-constexpr array circle_keys{
-    centre_key,
-    Key{.name = "radius", .meaning = "radius", .unit = "length", .required = true, .range = positive},
-};
-constexpr array ellipse_keys{
-    centre_key,
-    Key{.name = "semi_axes",
-        .type = Type::pair,
-        .meaning = "half lengths of its axes",
-        .unit = "length",
-        .required = true,
-        .range = positive},
-    Key{.name = "angle",
-        .meaning = "of the first axis against the x axis, counter-clockwise",
-        .unit = "degree",
-        .fallback = "0"},
-};
-constexpr Key blunt_key{
-    .name = "blunt",
-    .meaning = "corners that turn by more than 110 degrees are cut off where the sides are so far apart",
-    .unit = "length",
-    .fallback = "0.5 * h",
-    .range = positive};
-constexpr array polygon_keys{
-    Key{.name = "corners",
-        .type = Type::list,
-        .meaning = "corners in their order",
-        .unit = "length",
-        .required = true,
-        .most = 200,
-        .element = &point_element},
-    Key{.name = "radius",
-        .meaning =
-            "corners become arcs of this radius between edges that stay where they are; 0: sharp corners",
-        .unit = "length",
-        .fallback = "from `sharpness`",
-        .range = {.low = 0}},
-    Key{.name = "sharpness",
-        .meaning =
-            "in place of `radius`: one over the radius of the rounded corners, in parts of the length; "
-            "the outline is drawn in from its corners",
-        .fallback = "50",
-        .range = positive},
-    blunt_key,
-};
-constexpr array spline_keys{
-    Key{.name = "through",
-        .type = Type::list,
-        .meaning = "points on the curve in their order",
-        .unit = "length",
-        .fallback = "from `file`",
-        .element = &point_element},
-    Key{.name = "file",
-        .type = Type::text,
-        .meaning = "CSV file with the points, x, y on each line; relative to the case file",
-        .fallback = "from `through`"},
-    Key{.name = "corner_angle",
-        .meaning =
-            "the outline has a sharp corner at every point where the lines from point to point turn by more "
-            "than this: a trailing edge",
-        .unit = "degree",
-        .fallback = "180: smooth everywhere",
-        .range = {.low = 1, .high = 180}},
-    blunt_key,
-};
-constexpr array shape_variants{
-    Variant{"circle", "a circle", circle_keys},
-    Variant{"ellipse", "an ellipse", ellipse_keys},
-    Variant{"polygon", "a polygon with rounded corners", polygon_keys},
-    Variant{"spline", "a smooth curve through points", spline_keys},
-};
+constexpr auto shape_variants = [] {
+  array<Variant, shapes::shape_names.size()> variants{};
+  for (std::size_t k = 0; k < variants.size(); ++k)
+    variants[k] = {shapes::shape_names[k], shapes::shape_facts[k].meaning, shapes::shape_facts[k].keys};
+  return variants;
+}();
 
 constexpr Key lines_key{.name = "lines",
                         .type = Type::integer,
@@ -189,7 +123,6 @@ constexpr array gas_fitted_keys{
         .type = Type::section,
         .meaning = "what holds on `shape`; a bare word is its kind",
         .fallback = "slip_wall",
-        .words = gas_boundary_words,
         .section = &gas_boundary_section},
     Key{.name = "inside", .type = Type::boolean, .meaning = "the gas is inside `shape`", .fallback = "false"},
     lines_key,
@@ -203,7 +136,6 @@ constexpr array solid_fitted_keys{
         .type = Type::section,
         .meaning = "what holds on the outline; a bare word is its kind",
         .fallback = "interface",
-        .words = solid_boundary_words,
         .section = &solid_boundary_section},
     lines_key,
     line_spacing_key,

@@ -1,9 +1,16 @@
+#include <algorithm>
 #include <array>
+#include <cstddef>
+#include <string_view>
+#include <type_traits>
+#include <variant>
 
 #include "common/case/case.hpp"
+#include "common/case/schema/boundary_words.hpp"
 #include "common/case/schema/law_numbers.hpp"
 #include "common/case/schema/laws.hpp"
 #include "common/case/schema/schema.hpp"
+#include "solid_solver/boundary/every_boundary.hpp"
 
 namespace fsi::schema {
 
@@ -12,59 +19,35 @@ namespace {
 using std::array;
 using std::string_view;
 
-constexpr array<string_view, 2> load_words{"current", "reference"};
-constexpr Key load_key{
-    .name = "load",
-    .type = Type::word,
-    .meaning =
-        "configuration whose area (13) and normal the load belongs to; `reference` is small-strain theory",
-    .fallback = "current",
-    .words = load_words};
-constexpr array solid_interface_keys{
-    load_key,
-    Key{.name = "fluid",
-        .type = Type::name,
-        .meaning = "where the case has `fluids`: the gas on the other side",
-        .fallback = "the one gas that names this solid"},
-};
-constexpr array traction_keys{
-    Key{.name = "value",
-        .type = Type::vector,
-        .meaning = "traction per unit area",
-        .unit = "pressure",
-        .required = true,
-        .words = or_reference},
-    load_key,
-};
-constexpr array displacement_keys{
-    Key{.name = "value",
-        .type = Type::vector,
-        .meaning = "displacement",
-        .unit = "length",
-        .required = true,
-        .words = or_reference},
-    Key{.name = "velocity",
-        .type = Type::vector,
-        .meaning = "its time derivative",
-        .unit = "velocity",
-        .fallback = "by differences of `value`"},
-};
-constexpr array solid_dirichlet_keys{
-    Key{.name = "state",
-        .type = Type::word,
-        .meaning = "where u, v and P come from",
-        .required = true,
-        .words = or_reference},
-};
-constexpr array solid_boundary_variants{
-    Variant{"interface", "the gas is on the other side", solid_interface_keys},
-    Variant{"slip_wall", "no displacement along the normal, no shear", {}},
-    Variant{"symmetry", "mirror images across a straight side", {}},
-    Variant{"traction", "the traction is imposed", traction_keys},
-    Variant{"displacement", "the displacement is imposed", displacement_keys},
-    Variant{"dirichlet", "u, v and P are imposed, ghost points too", solid_dirichlet_keys},
-    Variant{"periodic", "continues at the opposite side", {}},
-};
+/// What every kind tells, in the order of the case file's documentation.
+constexpr array solid_boundary_facts = []<class... Kind>(std::type_identity<std::variant<Kind...>>) {
+  return array{Kind::facts...};
+}(std::type_identity<solid::EveryBoundary>{});
+
+constexpr auto solid_boundary_variants = [] {
+  array<Variant, solid::boundary_kinds.size()> variants{};
+  for (std::size_t k = 0; k < variants.size(); ++k) {
+    const SolidBoundaryFacts& facts = solid_boundary_facts[k];
+    variants[k] = {name_of(solid::boundary_kinds[k]), facts.meaning, facts.keys};
+  }
+  return variants;
+}();
+
+constexpr bool has_word_for_zero(const SolidBoundaryFacts& facts) {
+  return !facts.word_for_zero.empty();
+}
+
+/// The kinds, and the words for zeros.
+constexpr auto solid_boundary_words = [] {
+  constexpr auto kinds = words_said<solid_boundary_variants>();
+  array<string_view, kinds.size() + static_cast<std::size_t>(
+                                        std::ranges::count_if(solid_boundary_facts, has_word_for_zero))>
+      words{};
+  auto next = std::ranges::copy(kinds, words.begin()).out;
+  for (const SolidBoundaryFacts& facts : solid_boundary_facts)
+    if (has_word_for_zero(facts)) *next++ = facts.word_for_zero;
+  return words;
+}();
 
 constexpr string_view solid_side =
     "a side of the solid; a bare word is its kind, with data from the reference solution; `free` is no "
@@ -74,25 +57,21 @@ constexpr array solid_sides{
         .type = Type::section,
         .meaning = solid_side,
         .required = true,
-        .words = solid_boundary_words,
         .section = &solid_boundary_section},
     Key{.name = "right",
         .type = Type::section,
         .meaning = solid_side,
         .required = true,
-        .words = solid_boundary_words,
         .section = &solid_boundary_section},
     Key{.name = "bottom",
         .type = Type::section,
         .meaning = solid_side,
         .required = true,
-        .words = solid_boundary_words,
         .section = &solid_boundary_section},
     Key{.name = "top",
         .type = Type::section,
         .meaning = solid_side,
         .required = true,
-        .words = solid_boundary_words,
         .section = &solid_boundary_section},
 };
 constexpr Section solid_boundaries{.title = "Boundaries of a solid", .keys = solid_sides};
@@ -313,8 +292,23 @@ constexpr array solid_keys{
 
 }  // namespace
 
-constinit const Section solid_boundary_section{
-    .title = "A side of a solid", .keys = {}, .variants = solid_boundary_variants, .default_kind = ""};
+constinit const Section solid_boundary_section{.title = "A side of a solid",
+                                               .keys = {},
+                                               .variants = solid_boundary_variants,
+                                               .words = solid_boundary_words};
+
+const SolidBoundaryFacts& solid_boundary(BoundaryKind kind) {
+  static constexpr SolidBoundaryFacts of_none{.meaning = "nothing is done"};
+  const auto found = std::ranges::find(solid::boundary_kinds, kind);
+  if (found == solid::boundary_kinds.end()) return of_none;
+  return solid_boundary_facts[static_cast<std::size_t>(found - solid::boundary_kinds.begin())];
+}
+
+BoundaryKind kind_for_zero(std::string_view word) {
+  const auto found = std::ranges::find(solid_boundary_facts, word, &SolidBoundaryFacts::word_for_zero);
+  if (found == solid_boundary_facts.end() || word.empty()) return BoundaryKind::none;
+  return solid::boundary_kinds[static_cast<std::size_t>(found - solid_boundary_facts.begin())];
+}
 
 constexpr auto solid_and_law_keys = with_law_numbers<solid_keys>();
 constinit const Section solid_section{.title = "A solid", .keys = solid_and_law_keys};

@@ -70,7 +70,7 @@ TEST(Budget, OfLevelsIsClosedToRoundOff) {
 
 /// A side that imposes all values, those of a gas at rest here, throws the pulse back.
 TEST(Budget, OfASideThatImposesValuesIsClosedToRoundOff) {
-  const Inflow rest{[](double, double, double) { return State{1, 0, 0, 1 / 1.4}; }};
+  const Imposed rest{[](double, double, double) { return State{1, 0, 0, 1 / 1.4}; }};
   EXPECT_LT(largest_defect(with_a_pulse(41, {Outflow{}, rest, Outflow{}, Outflow{}})), round_off);
 }
 

@@ -78,7 +78,7 @@ TEST(FarField, LetsAWaveOutWithoutAnEcho) {
 }
 
 TEST(FarField, ShowsTheWaveOnTheSideThatAnInflowHides) {
-  Tube tube(FarField{stream}), hidden(Inflow{stream});
+  Tube tube(FarField{stream}), hidden(Imposed{stream});
   const double crest = 0.4 / (std::sqrt(gamma) - 0.4);  // the time it takes to the side
   test::run(tube.gas, crest);
   test::run(hidden.gas, crest);

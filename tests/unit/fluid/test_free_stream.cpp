@@ -25,11 +25,11 @@ struct Setting {
 };
 
 std::vector<Setting> settings() {
-  const Boundary given = Dirichlet{field(stream)}, inflow = Inflow{field(stream)};
+  const Boundary given = Dirichlet{field(stream)}, inflow = Imposed{field(stream)};
   return {{"outflow", stream, {Outflow{}, Outflow{}, Outflow{}, Outflow{}}},
           {"dirichlet", stream, {given, given, given, given}},
           {"inflow_outflow", stream, {inflow, Outflow{}, Outflow{}, inflow}},
-          {"walls", along_walls, {Inflow{field(along_walls)}, Outflow{}, SlipWall{}, Symmetry{}}},
+          {"walls", along_walls, {Imposed{field(along_walls)}, Outflow{}, SlipWall{}, Symmetry{}}},
           {"periodic", stream, {Periodic{}, Periodic{}, Periodic{}, Periodic{}}, true}};
 }
 

@@ -131,7 +131,7 @@ TEST(Eq31SlipWall, ReflectsAShockAsTheJumpConditionsSay) {
   };
   for (const Boundary& wall : {Boundary(SlipWall{}), Boundary(Symmetry{})}) {
     GasSolver gas = test::solver(test::rectangle(101, 5, {0, 0}, {1, 0.1}), {},
-                                 {Inflow{shock}, wall, Symmetry{}, SlipWall{}}, shock);
+                                 {Imposed{shock}, wall, Symmetry{}, SlipWall{}}, shock);
     test::run(gas, 0.7 / (M * std::sqrt(gamma)));
     EXPECT_NEAR(gas.state()(3, 100, 2), p2, 0.01 * p2);  // the wall's own start-up error has left by now
     EXPECT_EQ(gas.state()(1, 100, 2), 0);

@@ -1,0 +1,29 @@
+#pragma once
+/// All four values given on the boundary; what lies behind is extrapolated.
+
+#include "fluid_solver/boundary/gas_side.hpp"
+
+namespace fsi::fluid {
+
+struct Imposed {
+  StateField state;
+
+  static constexpr GasBoundaryFacts facts{
+      .meaning = "all four values are imposed; waves from inside are reflected",
+      .keys = schema::gas_boundary_state,
+      .is_open = true,
+      .precedence = 3};
+
+  static Imposed from(const BoundaryData& data) { return {data.state}; }
+
+  void set_points(const GasSide& side) const {
+    for (int k = 0; k < side.points.n(); ++k) {
+      if (!side.points.live(k)) continue;
+      const Vec2 place = position(side.x, side.points, k, 0);
+      store(side.q, side.points.at(k, 0), to_vector(state(place[0], place[1], side.t)));
+    }
+  }
+  static void set_ghosts(const GasSide& side) { extrapolated_ghosts(side.q, side.points, side.limited()); }
+};
+
+}  // namespace fsi::fluid

@@ -1,0 +1,85 @@
+#pragma once
+/// Meets a solid: normal velocity and pressure are the projected ones.
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <stdexcept>
+
+#include "common/core/failure.hpp"
+#include "fluid_solver/boundary/gas_side.hpp"
+
+namespace fsi::fluid {
+
+struct Interface {
+  static constexpr std::array keys{
+      schema::Key{.name = "solid",
+                  .type = schema::Type::name,
+                  .meaning = "the solid on the other side",
+                  .required = true},
+  };
+  static constexpr GasBoundaryFacts facts{
+      .meaning = "a solid is on the other side", .keys = keys, .meets_solid = true, .precedence = 0};
+
+  static Interface from(const BoundaryData& /*data*/) { return {}; }
+
+  /// n.v := v_n^I, p := p_e - w_n^I, and the density that goes with the change of pressure.
+  static void set_points(const GasSide& side) {
+    const InterfaceValues& values = values_of(side);
+    const auto n = static_cast<std::size_t>(side.points.n());
+    check(side, values);
+    for (std::size_t k = 0; k < n; ++k) {
+      const auto at = side.points.at(static_cast<int>(k), 0);
+      if (side.points.elsewhere(static_cast<int>(k))) continue;
+      const Vec2 normal(values.n[k], values.n[n + k]);
+      const double p_I = side.options.p_e - values.w_n[k];
+      StateVector state = load(side.q, at);
+      const Vec2 v = state.segment<2>(1);
+      state.segment<2>(1) = v + (values.v_n[k] - normal.dot(v)) * normal;
+      state[0] *= density_ratio(side.options, p_I / state[3]);
+      state[3] = p_I;
+      store(side.q, at, state);
+    }
+  }
+
+  static void set_ghosts(const GasSide& side) {
+    const InterfaceValues& values = values_of(side);
+    set_wall_ghosts(side, side.wall(values.n, values.v, values.a));
+  }
+
+ private:
+  static const InterfaceValues& values_of(const GasSide& side) {
+    if (side.projected != nullptr) return *side.projected;
+    throw std::logic_error(fmt::format("no interface values for side \"{}\"", name_of(side.points.side())));
+  }
+
+  /// All ranks look at all points, so that all of them find the same one.
+  static void check(const GasSide& side, const InterfaceValues& values) {
+    for (std::size_t k = 0; k < static_cast<std::size_t>(side.points.n()); ++k) {
+      const auto at = side.points.at(static_cast<int>(k), 0);
+      const double p_I = side.options.p_e - values.w_n[k];
+      if (!(p_I > 0 && std::isfinite(p_I) && std::isfinite(values.v_n[k]))) {
+        throw NumbersBroke(
+            fmt::format(
+                "p^I = {:.3g}, v_n^I = {:.3g}{}", p_I, values.v_n[k],
+                side.options.wave_curve ? "" : "; write interface.riemann: exact, for jumps of this size"),
+            {.t = side.t,
+             .grid = side.grid,
+             .point = {at.i, at.j},
+             .position = {side.x(0, at.i, at.j), side.x(1, at.i, at.j)}});
+      }
+    }
+  }
+
+  /// Of the gas through the wave that changes its pressure so many times: behind a shock by Rankine and
+  /// Hugoniot, else at constant entropy.
+  static double density_ratio(const GasOptions& options, double pressure_ratio) {
+    const double gamma = options.gamma, k = (gamma - 1) / (gamma + 1);
+    if (pressure_ratio > 1 && options.wave_curve) return (pressure_ratio + k) / (k * pressure_ratio + 1);
+    return std::pow(pressure_ratio, 1 / gamma);
+  }
+};
+
+}  // namespace fsi::fluid

@@ -1,0 +1,71 @@
+#pragma once
+/// Impermeable wall that moves with the grid's side, or stands where the grid stands.
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "fluid_solver/boundary/gas_side.hpp"
+
+namespace fsi::fluid {
+
+struct SlipWall {
+  static constexpr GasBoundaryFacts facts{
+      .meaning = "wall without friction", .is_wall = true, .precedence = 1};
+
+  static SlipWall from(const BoundaryData& /*data*/) { return {}; }
+
+  /// n.v := that of the wall; pressure and density follow along
+  /// the simple wave that makes this change of velocity.
+  static void set_points(const GasSide& side) {
+    const WallMotion& wall = side.motion;
+    const auto n = static_cast<std::size_t>(side.points.n());
+    const double gamma = side.options.gamma;
+    for (std::size_t k = 0; k < n; ++k) {
+      if (!side.points.live(static_cast<int>(k))) continue;
+      const auto at = side.points.at(static_cast<int>(k), 0);
+      const Vec2 normal(wall.normal[k], wall.normal[n + k]);
+      StateVector state = load(side.q, at);
+      const double change =
+          normal.dot(velocity_beside(side, static_cast<int>(k)) - Vec2(state.segment<2>(1)));
+      const double a = std::sqrt(gamma * state[3] / state[0]);
+      const double a_ratio = std::max(1 + 0.5 * (gamma - 1) * change / a, 0.1);
+      state.segment<2>(1) += change * normal;
+      state[0] *= std::pow(a_ratio, 2 / (gamma - 1));
+      state[3] *= std::pow(a_ratio, 2 * gamma / (gamma - 1));
+      if (side.forcing != nullptr) bring_in(state, side, static_cast<int>(k));
+      store(side.q, at, state);
+    }
+  }
+
+  static void set_ghosts(const GasSide& side) {
+    set_wall_ghosts(side, side.wall(side.motion.normal, side.motion.velocity, side.motion.acceleration));
+  }
+
+ private:
+  static Vec2 velocity_of(const WallMotion& wall, int k) {
+    const auto n = wall.velocity.size() / 2, point = static_cast<std::size_t>(k);
+    return {wall.velocity[point], wall.velocity[n + point]};
+  }
+
+  /// Velocity of the gas on the wall: that of the wall, or the exact one.
+  static Vec2 velocity_beside(const GasSide& side, int k) {
+    if (side.forcing != nullptr) return side.exact(k).segment<2>(1);
+    return velocity_of(side.motion, k);
+  }
+
+  /// Gas with a chosen solution may come in through a wall, and brings entropy and shear with it: three waves
+  /// come in there, and a condition for one of them leaves the others to extrapolation, from which errors at
+  /// corners grow.
+  static void bring_in(StateVector& state, const GasSide& side, int k) {
+    const WallMotion& wall = side.motion;
+    const auto n = wall.velocity.size() / 2, point = static_cast<std::size_t>(k);
+    const StateVector chosen = side.exact(k);
+    const Vec2 normal(wall.normal[point], wall.normal[n + point]), own = velocity_of(wall, k);
+    if (normal.dot(Vec2(chosen.segment<2>(1)) - own) <= 0) return;
+    state[0] = chosen[0] * std::pow(state[3] / chosen[3], 1 / side.options.gamma);
+    state.segment<2>(1) = chosen.segment<2>(1);
+  }
+};
+
+}  // namespace fsi::fluid

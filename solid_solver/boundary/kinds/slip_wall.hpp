@@ -1,0 +1,15 @@
+#pragma once
+/// A wall along which the solid slides.
+
+#include "solid_solver/boundary/side_data.hpp"
+
+namespace fsi::solid {
+
+struct SlipWall {
+  static constexpr SolidBoundaryFacts facts{.meaning = "no displacement along the normal, no shear",
+                                            .holds = Hold::normal};
+
+  static Boundary from(const SideData& /*data*/) { return {.kind = Boundary::Kind::slip}; }
+};
+
+}  // namespace fsi::solid

@@ -1,0 +1,15 @@
+#pragma once
+/// Straight mirror line.
+
+#include "solid_solver/boundary/side_data.hpp"
+
+namespace fsi::solid {
+
+struct Symmetry {
+  static constexpr SolidBoundaryFacts facts{.meaning = "mirror images across a straight side",
+                                            .holds = Hold::normal};
+
+  static Boundary from(const SideData& /*data*/) { return {.kind = Boundary::Kind::symmetry}; }
+};
+
+}  // namespace fsi::solid

@@ -1,0 +1,46 @@
+#pragma once
+/// What a case says of one side of a solid, for the kind of boundary that makes a `Boundary` of it. A kind is a file in `kinds/`
+/// with
+///
+///     facts              what it tells others: SolidBoundaryFacts
+///     from(SideData)     the condition that the scheme is to keep (Boundary::Kind), and its values as functions
+///
+/// The scheme knows the conditions alone: a load, a motion, a wall, mirror images, a state, a period.
+
+#include <functional>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "common/case/schema/boundary_facts.hpp"
+#include "common/core/types.hpp"
+#include "solid_solver/options.hpp"
+
+namespace fsi::solid {
+
+using ScalarFunction = std::function<double(double x, double y, double t)>;
+
+/// Values of the keys of a side's kind, and the reference solution. Functions of the reference position and time.
+struct SideData {
+  bool from_reference = false;                         ///< in the place of `value` and `state`
+  double time_scale = 1;                               ///< in which waves cross the body [time]
+  VectorFunction value = {};                           ///< key `value`; empty: it is not there
+  VectorFunction velocity = {};                        ///< key `velocity`; empty: it is not there
+  std::map<std::string, double> numbers = {};          ///< other keys, by name
+  std::map<std::string, ScalarFunction> fields = {};   ///< the same
+  std::map<std::string, VectorFunction> vectors = {};  ///< the same
+  /// u, v and P of the reference solution. @throws UserMistake where there is none
+  std::function<StateFunction()> exact = {};
+  /// Its traction on this side, per unit area of the configuration the load belongs to. @throws UserMistake
+  std::function<VectorFunction()> exact_traction = {};
+};
+
+/// Rate of change of a formula in t, by fourth-order differences. @param time_scale time in which it changes by
+/// much [time]
+inline VectorFunction rate_of(VectorFunction f, double time_scale) {
+  return [f = std::move(f), h = 1e-3 * time_scale](double x, double y, double t) -> Vec2 {
+    return (8 * (f(x, y, t + h) - f(x, y, t - h)) - (f(x, y, t + 2 * h) - f(x, y, t - 2 * h))) / (12 * h);
+  };
+}
+
+}  // namespace fsi::solid
