@@ -9,7 +9,6 @@
 
 #include "common/core/failure.hpp"
 #include "fluid_solver/boundary/ghost_lines.hpp"
-#include "fluid_solver/kernels/rates.hpp"
 #include "fluid_solver/measures/shocks.hpp"
 #include "fluid_solver/positivity.hpp"
 
@@ -85,6 +84,7 @@ Component::Component(grid::MovingGrid grid, const GasOptions& options, std::arra
 }
 
 void Component::use_points(const grid::RowSets& discretised, const grid::RowSets& valid) {
+  if (discretised == discretised_ && valid == valid_) return;
   discretised_ = discretised;
   valid_ = valid;
   gather_runs();
@@ -159,17 +159,8 @@ void Component::start(double t) {
 }
 
 void Component::measure_rows() {
+  if (rates_need_neighbours()) return;  // they are looked for when somebody asks
   for (int j = 1; j < grid_.layout().n2 - 1; ++j) measure_row(j);
-}
-
-/// Largest wave rate of a row's inner points.
-void Component::measure_row(int j) {
-  double& most = row_rates_[static_cast<std::size_t>(j)];
-  most = 0;
-  for (const Range& run : runs_.advanced(j)) {
-    const Range inner{std::max(run.first, 1), std::min(run.last, grid_.layout().n1 - 1)};
-    if (inner.first < inner.last) most = std::max(most, largest(step_rates(j, inner), inner));
-  }
 }
 
 /// A grid that follows commands tells nothing about its future and starts as if at rest.
@@ -230,31 +221,47 @@ ShockField Component::shock_field() const {
   return {.q = state_.view(), .valid = valid_, .periodic = {grid_.periodic(0), grid_.periodic(1)}};
 }
 
-void Component::advance(double t, double dt) {
-  if (forcing_) {
+SweepTask Component::sweep_task(const StepGrid& grid, double dt) {
+  return {.q = state_.view(),
+          .q_new = next_.view(),
+          .grid = grid,
+          .runs = runs_,
+          .dt = dt,
+          .guarded = {},
+          .imposed = &imposed_};
+}
+
+SweepOutput Component::sweep_output() {
+  return {workspace_, row_rates_, fallbacks_, {edges_[0], edges_[1], edges_[2], edges_[3]},
+          &noted_,    edge_lines_};
+}
+
+SweptPoints Component::sweep(double t, double dt) {
+  if (forcing_ && !swept_) {
     if (!has_source_) forcing_->evaluate(grid_.x_old(), t - dt, source_.view(), rows_);
     forcing_->add(source_.view(), 0.5 * dt, state_.view(), rows_);
   }
+  swept_ = true;
   for (std::vector<double>& edge : edges_) std::ranges::fill(edge, 0.0);
-  const SweepTask task{.q = state_.view(),
-                       .q_new = next_.view(),
-                       .grid = step_grid(),
-                       .runs = runs_,
-                       .dt = dt,
-                       .guarded = {},
-                       .imposed = &imposed_};
-  const SweepOutput output{workspace_, row_rates_, fallbacks_, {edges_[0], edges_[1], edges_[2], edges_[3]},
-                           &noted_,    edge_lines_};
-  const bool thin_here = sweep(task, scheme_, output) > 0;
+  fallbacks_.clear();
+  const StepGrid grid = step_grid();
+  if (fluid::sweep(sweep_task(grid, dt), scheme_, sweep_output()) > 0) return SweptPoints::thin;
+  const ShockField field = shock_field();
+  const bool far = std::ranges::any_of(
+      fallbacks_, [&](const PointIndex& point) { return !sees_all(field, rows_, point.j); });
+  return far ? SweptPoints::to_be_judged : SweptPoints::sound;
+}
+
+void Component::end_step(SweptPoints worst, double t, double dt) {
   count_fallbacks();
-  // Somewhere there are fallbacks that others must judge, or thin points.
-  const double somewhere = rows_.ranks->largest(thin_here ? 2 : far_fallbacks_.empty() ? 0 : 1);
-  const bool thin = somewhere > 1;
-  if (somewhere > 0) count_far_fallbacks();
+  const bool thin = worst == SweptPoints::thin;
+  if (worst != SweptPoints::sound) count_far_fallbacks();
   std::vector<int> changed_rows;
-  if (thin) changed_rows = keep_positive(task, output);
+  const StepGrid grid = step_grid();
+  if (thin) changed_rows = keep_positive(sweep_task(grid, dt), sweep_output());
   if (sparse_) forget_edges_of_others();
   std::swap(state_, next_);
+  swept_ = false;
   advanced_ = true;
   counters_.steps += 1;
   if (thin) check_numbers(t);
@@ -273,9 +280,18 @@ void Component::forget_edges_of_others() {
   for (const Side side : all_sides) {
     std::vector<double>& edge = edges_[static_cast<std::size_t>(side)];
     const SidePoints points(grid_.layout(), side);
-    for (std::size_t k = 0; k < edge.size(); ++k) {
-      const auto [i, j] = points.at(static_cast<int>(k) % points.n(), edge_lines_ + 1);
-      if (!discretised_.contains(i, j)) edge[k] = 0;
+    const auto n = static_cast<std::size_t>(points.n());
+    const auto crossed = [n](std::span<const double> values, std::size_t point) {
+      for (std::size_t k = point; k < values.size(); k += n) {
+        if (values[k] != 0) return true;
+      }
+      return false;
+    };
+    for (std::size_t point = 0; point < n; ++point) {
+      if (!crossed(edge, point)) continue;
+      const auto [i, j] = points.at(static_cast<int>(point), edge_lines_ + 1);
+      if (discretised_.contains(i, j)) continue;
+      for (std::size_t k = point; k < edge.size(); k += n) edge[k] = 0;
     }
   }
 }
@@ -306,46 +322,6 @@ void Component::check_numbers(double t) const {
   throw NumbersBroke(
       fmt::format("rho = {:.3g}, p = {:.3g}; try {}", of_all[2], of_all[3], remedy_of(scheme_)),
       {.t = t, .grid = grid_.name(), .point = {i, j}, .position = {x(0, i, j), x(1, i, j)}});
-}
-
-double* Component::step_rates(int j, Range range) const {
-  double* rate = workspace_.row(0);
-  step_rate_row(state_.view(), step_grid(), last_dt_, scheme_, j, rate, range);
-  return rate;
-}
-
-FastestPoints Component::fastest_points() const {
-  const int n1 = grid_.layout().n1, n2 = grid_.layout().n2;
-  FastestPoints found;
-  const auto compare = [&](FastestPoint& fastest, int look, int j, Range part) {
-    for (const Range& run : runs_.advanced(j)) {
-      const Range range{std::max(run.first, part.first), std::min(run.last, part.last)};
-      if (range.first >= range.last) continue;
-      const double* rate = step_rates(j, range);
-      const double most = largest(rate, range);
-      if (most <= fastest.rate) continue;
-      const double* point = std::max_element(rate + range.first, rate + range.last);
-      fastest = {.rate = *point, .i = static_cast<int>(point - rate), .j = j, .look = look};
-    }
-  };
-  if (scheme_.viscosity.any()) {  // it needs the neighbours' new states: the sweep cannot know it
-    for (int j = 0; j < n2; ++j) compare(found.rest, 0, j, {0, n1});
-    return found;
-  }
-  const auto own = row_rates_.begin() + std::max(rows_.all ? 0 : rows_.own.first, 1),
-             end = row_rates_.begin() + std::min(rows_.all ? n2 : rows_.own.end, n2 - 1);
-  if (own < end) {
-    const auto inner = std::max_element(own, end);
-    found.row_rate = *inner;
-    compare(found.inner, 0, static_cast<int>(inner - row_rates_.begin()), {1, n1 - 1});
-  }
-  compare(found.rest, 1, 0, {0, n1});
-  compare(found.rest, 2, n2 - 1, {0, n1});
-  for (int j = 1; j < n2 - 1; ++j) {
-    compare(found.rest, 3, j, {0, 1});
-    compare(found.rest, 3, j, {n1 - 1, n1});
-  }
-  return found;
 }
 
 }  // namespace fsi::fluid

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -41,6 +42,22 @@ struct FastestPoints {
   const FastestPoint& point() const { return rest.rate > inner.rate ? rest : inner; }
 };
 
+/// Of all points with a value.
+struct Smallest {
+  double rho = std::numeric_limits<double>::infinity();  ///< [mass/volume]
+  double p = std::numeric_limits<double>::infinity();    ///< [pressure]
+};
+
+/// What a look at all points of a grid finds.
+struct Extremes {
+  FastestPoints fastest;
+  Smallest smallest;
+};
+
+/// What a sweep left to be done, in the order of its weight: nothing; points that fell back to first order, which other
+/// ranks must judge as well; thin points.
+enum class SweptPoints { sound, to_be_judged, thin };
+
 /// Counted since the start.
 struct Counters {
   double first_order = 0;                 ///< points advanced with first-order states [-]
@@ -64,7 +81,10 @@ class Component {
   void use_points(const grid::RowSets& discretised, const grid::RowSets& valid);
   /// From now on conditions on the sides are kept up, and states kept, near valid points only. The background of
   /// body-fitted grids alone does without, as it always did.
-  void become_sparse() { sparse_ = true; }
+  void become_sparse() {
+    sparse_ = true;
+    find_live_points();
+  }
   /// Forgets the states far from valid points, and gives their memory back.
   void forget_unused_points();
   /// Adds the runs of points of a sparse grid that are kept.
@@ -116,12 +136,18 @@ class Component {
   /// From the next move on; see MovingGrid::leave_part.
   void leave_part(std::span<const double> part) { grid_.leave_part(part); }
   void move(double t_new, double dt, std::span<const grid::SideCommand> commands);
-  /// One step: state() becomes the predicted state at t, with ghosts out of date. @throws NumbersBroke
-  void advance(double t, double dt);
+  /// A step is a sweep, or several if fluxes are imposed that were not known before, and its end. What a sweep says, the
+  /// largest of all ranks, is to be handed to the end.
+  SweptPoints sweep(double t, double dt);
+  /// state() becomes the predicted state at t, with ghosts out of date. @throws NumbersBroke
+  void end_step(SweptPoints worst, double t, double dt);
   /// True where the wave rates of a row depend on the new state in the rows next to it.
   bool rates_need_neighbours() const { return scheme_.viscosity.any(); }
-  /// Largest |Lambda| of (44), real part weighted as in (45). In rows of one's own.
+  /// Largest |Lambda| of (44), real part weighted as in (45). In rows of one's own, as the next two.
   FastestPoints fastest_points() const;
+  Smallest smallest() const;
+  /// Both, with one look.
+  Extremes extremes() const;
   /// Boundary conditions hold: the step is complete.
   void complete() { moved_ = advanced_ = false; }
   /// Positions and state when the last step was complete, also after one that broke.
@@ -153,7 +179,7 @@ class Component {
   double last_dt_ = 0;             ///< of the last motion
   double dt_before_ = 0;           ///< of the motion before
   bool prescribed_ = false;        ///< the grid's motion is known beforehand
-  bool moved_ = false, advanced_ = false;  ///< in the step going on
+  bool moved_ = false, swept_ = false, advanced_ = false;  ///< in the step going on
   Counters counters_;
   std::array<std::vector<double>, 4> edges_;
   int edge_lines_ = 0;
@@ -172,7 +198,12 @@ class Component {
   void measure_initial_motion(double t, double delta);
   /// 1 / dt of (45) at the points of a row, in the workspace.
   double* step_rates(int j, Range range) const;
+  void compare(FastestPoint& fastest, int look, int j, Range part) const;
+  FastestPoints fastest_by_rows() const;
+  void lower(Smallest& smallest, int j) const;
   void add_source(double t, double dt);
+  SweepTask sweep_task(const StepGrid& grid, double dt);
+  SweepOutput sweep_output();
   ShockField shock_field() const;
   void forget_edges_of_others();
   void count_fallbacks();

@@ -137,6 +137,7 @@ void GasSolver::force(const StateField& exact) {
 }
 
 void GasSolver::assign_initial_conditions(const StateField& initial) {
+  looked_ = false;
   for (Component& component : components_) {
     component.fill(initial, t_);
     mirror_ghosts(component, t_);
@@ -146,7 +147,7 @@ void GasSolver::assign_initial_conditions(const StateField& initial) {
 }
 
 TimeStep GasSolver::compute_time_step() const {
-  const auto [fastest, at, q, health] = share_.alone() ? seen_here() : seen_;
+  const auto [fastest, at, q, health] = share_.alone() && !looked_ ? seen_here() : seen_;
   const grid::MovingGrid& slowest = grid(at);
   const int i = fastest.i, j = fastest.j;
   const double a = std::sqrt(options_.gamma * q.p / q.rho);
@@ -156,23 +157,28 @@ TimeStep GasSolver::compute_time_step() const {
               slowest.name(), i, j, slowest.x()(0, i, j), slowest.x()(1, i, j), std::hypot(q.v1, q.v2), a)};
 }
 
-/// The fastest point in rows of one's own; without health.
+/// In rows of one's own; without health.
 GasSolver::Seen GasSolver::seen_here() const {
   Seen seen;
-  for (int k = 0; k < grids(); ++k) {
-    const FastestPoint here = component(k).fastest_points().point();
-    if (k > 0 && here.rate <= seen.fastest.rate) continue;
-    seen.fastest = here;
-    seen.grid = k;
-  }
-  const ConstFieldView q = state(seen.grid);
-  const int i = seen.fastest.i, j = seen.fastest.j;
-  seen.state = {.rho = q(0, i, j), .v1 = q(1, i, j), .v2 = q(2, i, j), .p = q(3, i, j)};
+  for (int k = 0; k < grids(); ++k) raise(seen, k, component(k).fastest_points().point());
   return seen;
+}
+
+/// The fastest point of grid k joins those of the grids before.
+void GasSolver::raise(Seen& seen, int k, const FastestPoint& here) const {
+  if (k > 0 && here.rate <= seen.fastest.rate) return;
+  const ConstFieldView q = state(k);
+  seen.fastest = here;
+  seen.grid = k;
+  seen.state = {.rho = q(0, here.i, here.j),
+                .v1 = q(1, here.i, here.j),
+                .v2 = q(2, here.i, here.j),
+                .p = q(3, here.i, here.j)};
 }
 
 void GasSolver::move_grids(double t_new, double dt, std::span<const grid::SideCommand> commands) {
   bool moved = false;
+  looked_ = false;
   share_out_anew();
   if (near_) leave_room_between_curves(t_new, commands);
   for (std::size_t k = 0; k < components_.size(); ++k) {
@@ -210,13 +216,35 @@ void GasSolver::update_overlapping_grid(double t_new) {
   keep_interpolated_positive(exposed);
 }
 
+/// Ranks wait for each other once for all grids. Only where a grid has thin points, and other fluxes through its rim
+/// then, what comes after it is swept again.
 void GasSolver::advance_fluid(double t, double dt) {
-  for (std::size_t k = 0; k < components_.size(); ++k) {
-    // Finer levels first: what crosses their rims is theirs to say.
-    if (levels_ && k >= levels_->component(1)) levels_->match(level_scene(), levels_->level_of(k));
-    components_[k].advance(t, dt);
+  looked_ = false;
+  const std::size_t all = components_.size();
+  for (std::size_t first = 0; first < all;) {
+    const std::size_t end = share_.alone() ? first + 1 : all;
+    const std::vector<SweptPoints> worst = sweep_grids(first, end, t, dt);
+    for (bool thin = false; first < end && !thin; ++first) {
+      thin = worst[first] == SweptPoints::thin;
+      components_[first].end_step(worst[first], t, dt);
+    }
   }
   t_ = t;
+}
+
+/// @returns what is to be done for each grid, anywhere
+std::vector<SweptPoints> GasSolver::sweep_grids(std::size_t first, std::size_t end, double t, double dt) {
+  std::vector<double> worst(components_.size(), 0);
+  for (std::size_t k = first; k < end; ++k) {
+    // Finer levels first: what crosses their rims is theirs to say.
+    if (levels_ && k >= levels_->component(1)) levels_->match(level_scene(), levels_->level_of(k));
+    worst[k] = static_cast<double>(components_[k].sweep(t, dt));
+  }
+  share_.ranks().largest_of_each(worst);
+  std::vector<SweptPoints> of_all(worst.size());
+  std::ranges::transform(worst, of_all.begin(),
+                         [](double weight) { return static_cast<SweptPoints>(static_cast<int>(weight)); });
+  return of_all;
 }
 
 void GasSolver::keep_interpolated_positive(std::span<const grid::InterpolationList> lists) {
@@ -246,6 +274,7 @@ GasInterface GasSolver::interface_state(Side side, int grid) const {
 }
 
 void GasSolver::apply_fluid_bcs(double t, std::span<const InterfaceValues> interfaces) {
+  looked_ = false;
   const auto each = [&](const auto& action) {
     for (std::size_t k = 0; k < components_.size(); ++k) {
       interfaces_.clear();
@@ -286,6 +315,7 @@ void GasSolver::archive(Archive& archive) {
   if (composite_) archive.inside("overlap", [&] { composite_->archive(archive); });
   if (levels_) archive.inside("levels", [&] { levels_->archive(archive); });
   if (!archive.loading()) return;
+  looked_ = false;
   if (composite_) composite_->connect(fitted_positions(), t_);
   if (levels_) levels_->restore(level_scene());
   if (composite_) use_points();

@@ -162,7 +162,8 @@ class GasSolver {
   /// From now on the ranks share the work out. The solver has its initial state, which all ranks have in full.
   void share(std::shared_ptr<Ranks> ranks, const RecutOptions& options);
   const Share& shared() const { return share_; }
-  /// Time step, health and the state along interfaces.
+  /// Time step, health and the state along interfaces. A single rank that has looked, looks no more until the state
+  /// changes.
   void look();
   /// The state in some strips, and what the last step carried through the sides' faces.
   void fetch(std::span<const Strip> strips);
@@ -193,7 +194,7 @@ class GasSolver {
   Share share_;
   std::vector<CutGrid> cut_grids_;  ///< work memory
 
-  /// What rank 0 has been told by look.
+  /// What look has found; on several ranks, what rank 0 has been told.
   struct Seen {
     FastestPoint fastest;
     int grid = 0;
@@ -201,11 +202,16 @@ class GasSolver {
     Health health;
   };
   Seen seen_;
+  bool looked_ = false;  ///< since the state changed last; on several ranks who asks knows it
 
   Seen seen_here() const;
   void see(std::span<const double> of_all, double cell_quality);
+  void look_alone();
   void gather_edges();
-  Health health_here() const;
+  static Health nothing_seen();
+  static void add_health(const Component& component, const Smallest& smallest, Health& health);
+  void raise(Seen& seen, int k, const FastestPoint& here) const;
+  std::vector<SweptPoints> sweep_grids(std::size_t first, std::size_t end, double t, double dt);
   void take_rows();
   void share_out_anew();
   void bring_advanced();

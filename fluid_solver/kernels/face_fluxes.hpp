@@ -33,6 +33,12 @@ class FaceList {
   std::size_t size() const { return at_.size(); }
   /// Number of the first face of a row, of the next row's for row + 1.
   std::size_t first(int row) const { return first_[static_cast<std::size_t>(row)]; }
+  /// Of a row's faces, the number of the first one from face i on.
+  std::size_t first_from(int i, int row) const {
+    const auto begin = at_.begin() + static_cast<std::ptrdiff_t>(first(row)),
+               end = at_.begin() + static_cast<std::ptrdiff_t>(first(row + 1));
+    return static_cast<std::size_t>(std::lower_bound(begin, end, i) - at_.begin());
+  }
   int at(std::size_t face) const { return at_[face]; }
   int row_of(std::size_t face) const {
     return static_cast<int>(std::upper_bound(first_.begin(), first_.end(), face) - first_.begin()) - 1;
@@ -56,9 +62,9 @@ struct FaceFluxes {
 /// Writes the fluxes of a row at the faces of a list within a range.
 inline void impose(const FaceList& faces, int row, Range range, FluxRow flux) {
   if (faces.empty()) return;
-  for (std::size_t k = faces.first(row); k < faces.first(row + 1); ++k) {
+  const std::size_t end = faces.first(row + 1);
+  for (std::size_t k = faces.first_from(range.first, row); k < end && faces.at(k) < range.last; ++k) {
     const int i = faces.at(k);
-    if (i < range.first || i >= range.last) continue;
     flux.mass[i] = faces.flux(k)[0];
     flux.momentum1[i] = faces.flux(k)[1];
     flux.momentum2[i] = faces.flux(k)[2];
@@ -69,9 +75,9 @@ inline void impose(const FaceList& faces, int row, Range range, FluxRow flux) {
 /// Keeps the fluxes of a row at the faces of a list within a range.
 inline void note(FaceList& faces, int row, Range range, FluxRow flux) {
   if (faces.empty()) return;
-  for (std::size_t k = faces.first(row); k < faces.first(row + 1); ++k) {
+  const std::size_t end = faces.first(row + 1);
+  for (std::size_t k = faces.first_from(range.first, row); k < end && faces.at(k) < range.last; ++k) {
     const int i = faces.at(k);
-    if (i < range.first || i >= range.last) continue;
     faces.flux(k) = {flux.mass[i], flux.momentum1[i], flux.momentum2[i], flux.energy[i]};
   }
 }

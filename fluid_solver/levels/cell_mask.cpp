@@ -1,12 +1,14 @@
 #include "fluid_solver/levels/cell_mask.hpp"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstring>
 
 namespace fsi::fluid {
 
 namespace {
 
-/// Points of a line within `reach` of a member; `line` has n entries a distance `stride` apart.
+/// The entries of a line, n of them a distance `stride` apart.
 struct Line {
   std::uint8_t* first;
   std::ptrdiff_t stride;
@@ -15,24 +17,31 @@ struct Line {
   std::uint8_t& operator[](int k) const { return first[k * stride]; }
 };
 
-/// One way along a line; `turn` maps the order of the walk to the order of the points.
-template <class Turn>
-void spread(const Line& line, std::vector<std::uint8_t>& out, int reach, const Turn& turn) {
-  int since = reach + 1;
-  // A period before the first point, its end is what the first points can see.
-  for (int k = line.periodic ? std::max(line.n - 1 - reach, 0) : line.n; k < line.n - 1; ++k)
-    since = line[turn(k)] != 0 ? 0 : since + 1;
-  for (int k = 0; k < line.n; ++k) {
-    since = line[turn(k)] != 0 ? 0 : since + 1;
-    if (since <= reach) out[static_cast<std::size_t>(turn(k))] = 1;
-  }
+/// The first entry of a value, or the end.
+const std::uint8_t* next(const std::uint8_t* begin, const std::uint8_t* end, int value) {
+  const void* found =
+      begin == end ? nullptr : std::memchr(begin, value, static_cast<std::size_t>(end - begin));
+  return found == nullptr ? end : static_cast<const std::uint8_t*>(found);
 }
 
-void grow_line(const Line& line, std::vector<std::uint8_t>& out, int reach) {
-  out.assign(static_cast<std::size_t>(line.n), 0);
-  spread(line, out, reach, [](int k) { return k; });
-  spread(line, out, reach, [&](int k) { return line.n - 1 - k; });
-  for (int k = 0; k < line.n; ++k) line[k] = out[static_cast<std::size_t>(k)];
+/// Takes the members of one row into another, entry by entry.
+void join(std::uint8_t* row, const std::uint8_t* other, int n) {
+#pragma omp simd
+  for (int k = 0; k < n; ++k) row[k] |= other[k];
+}
+
+/// The members of a row, and `reach` points on both sides; `padded` is work memory.
+void grow_row(std::uint8_t* row, const LatticeShape& shape, int reach, std::vector<std::uint8_t>& padded) {
+  const int n = shape.n1;
+  padded.assign(static_cast<std::size_t>(n + 2 * reach), 0);
+  std::uint8_t* middle = padded.data() + reach;
+  std::copy(row, row + n, middle);
+  // A period before the first point, its end is what the first points can see; likewise behind the last one.
+  for (int k = 1; shape.periodic[0] && k <= std::min(reach, n - 1); ++k) {
+    middle[-k] = row[n - 1 - k];
+    middle[n - 1 + k] = row[k];
+  }
+  for (int shift = -reach; shift <= reach; ++shift) join(row, middle + shift, n);
 }
 
 }  // namespace
@@ -48,32 +57,28 @@ void CellMask::add(const grid::RowSets& rows) {
   }
 }
 
+/// Members are ones.
 void CellMask::remove(const CellMask& other) {
-  for (std::size_t k = 0; k < in_.size(); ++k)
-    in_[k] = static_cast<std::uint8_t>(in_[k] != 0 && other.in_[k] == 0 ? 1 : 0);
+  const std::uint8_t* without = other.in_.data();
+  std::uint8_t* in = in_.data();
+  const auto size = static_cast<std::ptrdiff_t>(in_.size());
+#pragma omp simd
+  for (std::ptrdiff_t k = 0; k < size; ++k) in[k] = in[k] & (without[k] ^ 1);
 }
 
 void CellMask::grow(int reach) {
   if (reach <= 0) return;
-  std::vector<std::uint8_t> out;
-  for (int j = 0; j < shape_.n2; ++j) grow_line({row(j), 1, shape_.n1, shape_.periodic[0]}, out, reach);
-  // Rows at once: the number of rows since the last member above, per column.
-  std::vector<int> since(static_cast<std::size_t>(shape_.n1), reach + 1);
+  std::vector<std::uint8_t> padded;
+  for (int j = 0; j < shape_.n2; ++j) grow_row(row(j), shape_, reach, padded);
+  const int n = shape_.n2, beyond = shape_.periodic[1] ? std::min(reach, n - 1) : 0;
   CellMask grown(shape_);
-  const auto pass = [&](int j) {
-    const std::uint8_t* here = row(j);
-    std::uint8_t* to = grown.row(j);
-    for (std::size_t i = 0; i < since.size(); ++i) {
-      since[i] = here[i] != 0 ? 0 : since[i] + 1;
-      to[i] = static_cast<std::uint8_t>(to[i] != 0 || since[i] <= reach ? 1 : 0);
+  for (int j = 0; j < n; ++j) {
+    for (int from = j - reach; from <= j + reach; ++from) {
+      const bool inside = from >= 0 && from < n;
+      if (!inside && (from < -beyond || from > n - 1 + beyond)) continue;
+      join(grown.row(j), row(inside ? from : from < 0 ? from + n - 1 : from - n + 1), shape_.n1);
     }
-  };
-  const int n = shape_.n2, before = shape_.periodic[1] ? std::min(reach, n - 1) : 0;
-  for (int j = n - 1 - before; j < n - 1; ++j) pass(j);
-  for (int j = 0; j < n; ++j) pass(j);
-  std::ranges::fill(since, reach + 1);
-  for (int j = before; j > 0; --j) pass(j);
-  for (int j = n - 1; j >= 0; --j) pass(j);
+  }
   in_ = std::move(grown.in_);
 }
 
@@ -95,10 +100,10 @@ grid::RowSets CellMask::rows() const {
   grid::RowSets sets;
   for (int j = 0; j < shape_.n2; ++j) {
     const std::uint8_t *here = row(j), *end = here + shape_.n1;
-    for (const std::uint8_t* run = std::find(here, end, 1); run != end;) {
-      const std::uint8_t* last = std::find(run, end, 0);
+    for (const std::uint8_t* run = next(here, end, 1); run != end;) {
+      const std::uint8_t* last = next(run, end, 0);
       sets.append({static_cast<int>(run - here), static_cast<int>(last - here)});
-      run = std::find(last, end, 1);
+      run = next(last, end, 1);
     }
     sets.end_row();
   }

@@ -131,6 +131,9 @@ class GasLevels {
   grid::RowSets averaged_here(const LevelScene& scene, int l, const grid::RowSets& points) const;
   grid::RowSets prolonged_here(const LevelScene& scene, int l, const grid::RowSets& points) const;
   Delivery averages_of(const LevelScene& scene, int l, const grid::RowSets& points) const;
+  void need_averages(const LevelScene& scene, int l, const grid::RowSets& points, Delivery& delivery) const;
+  bool averages_averages(int l) const;
+  void plan_averages(const LevelScene& scene);
   Delivery parents_of(const LevelScene& scene, int l, const grid::RowSets& points) const;
   FluxDelivery fluxes_of(const LevelScene& scene, int l) const;
   void bring_halos(const LevelScene& scene, int l, std::initializer_list<const grid::RowSets*> points);

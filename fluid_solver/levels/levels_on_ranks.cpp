@@ -56,6 +56,13 @@ grid::RowSets GasLevels::prolonged_here(const LevelScene& scene, int l, const gr
 /// The fine points of the averages at some points of level l, for the owners of their rows.
 Delivery GasLevels::averages_of(const LevelScene& scene, int l, const grid::RowSets& points) const {
   Delivery delivery = scene.share.nothing_yet();
+  need_averages(scene, l, points, delivery);
+  delivery.close();
+  return delivery;
+}
+
+void GasLevels::need_averages(const LevelScene& scene, int l, const grid::RowSets& points,
+                              Delivery& delivery) const {
   const int coarse = static_cast<int>(component(l)), fine = static_cast<int>(component(l - 1));
   const LatticeShape &here = shape(l), &finer = shape(l - 1);
   for (int j = 0; j < points.rows(); ++j) {
@@ -72,8 +79,31 @@ Delivery GasLevels::averages_of(const LevelScene& scene, int l, const grid::RowS
       }
     }
   }
-  delivery.close();
-  return delivery;
+}
+
+/// Whether averages of level l are made of points that are averages themselves. Nesting keeps them apart; over the ends
+/// of a period nobody looks.
+bool GasLevels::averages_averages(int l) const {
+  if (shape(l).periodic[0] || shape(l).periodic[1]) return true;
+  const grid::RowSets fine = refined(at(l).restricted, shape(l - 1).n1, shape(l - 1).n2);
+  std::vector<grid::Interval> both;
+  for (int j = 0; j < fine.rows() && both.empty(); ++j)
+    grid::intersect(fine.row(j), at(l - 1).restricted.row(j), both);
+  return !both.empty();
+}
+
+/// What the averages of a level need is brought with that of the level before where it is there then.
+void GasLevels::plan_averages(const LevelScene& scene) {
+  Delivery* delivery = nullptr;
+  for (int l = 1; l < levels(); ++l) {
+    at(l).to_restrict = scene.share.nothing_yet();
+    if (l == 1 || averages_averages(l)) {
+      if (delivery != nullptr) delivery->close();
+      delivery = &at(l).to_restrict;
+    }
+    need_averages(scene, l, at(l).restricted, *delivery);
+  }
+  if (delivery != nullptr) delivery->close();
 }
 
 /// The points of level l that polynomials at some of its points are made of, ghosts included, for all who have fine
@@ -122,10 +152,10 @@ void GasLevels::share_out(const LevelScene& scene) {
     level.restricted_here = averaged_here(scene, l, level.restricted);
     level.prolonged_here = prolonged_here(scene, l, level.prolonged);
     if (scene.share.alone()) continue;
-    level.to_restrict = averages_of(scene, l, level.restricted);
     level.to_prolong = parents_of(scene, l, level.prolonged);
     level.to_match = fluxes_of(scene, l);
   }
+  if (!scene.share.alone()) plan_averages(scene);
 }
 
 /// What others have of some points of level l, in the halos.

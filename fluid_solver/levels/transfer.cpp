@@ -35,9 +35,38 @@ StateVector primitive(const StateVector& c, double gamma) {
 
 namespace {
 
-template <class Action>
-void each_point(const grid::RowSets& points, const Action& action) {
+/// Asks early for the states of a run: short runs, one above the other, are far away in memory.
+template <bool written>
+void fetch(ConstFieldView q, int j, grid::Interval run) {
+  constexpr int line = 8;  // points
+  const int first = std::max(run.begin, -Layout::ghosts),
+            end = std::min(run.end, q.layout.n1 + Layout::ghosts);
+  if (j < -Layout::ghosts || j >= q.layout.n2 + Layout::ghosts) return;
+  for (int plane = 0; plane < 4; ++plane) {
+    const double* row = q.row(plane, j);
+    for (int i = first; i < end; i += line) __builtin_prefetch(row + i, written ? 1 : 0);
+    if (first < end) __builtin_prefetch(row + end - 1, written ? 1 : 0);
+  }
+}
+
+/// For a row of coarse points their states, `around` rows and columns of them, and those of the fine points in their
+/// control volumes.
+template <bool coarse_written>
+void fetch_row(const grid::RowSets& points, int j, int around, ConstFieldView coarse, ConstFieldView fine) {
+  if (j >= points.rows()) return;
+  for (const auto& [begin, end] : points.row(j)) {
+    for (int row = j - around; row <= j + around; ++row)
+      fetch<coarse_written>(coarse, row, {begin - around, end + around});
+    for (int row = refinement_ratio * j - 1; row <= refinement_ratio * j + 1; ++row)
+      fetch<!coarse_written>(fine, row, {refinement_ratio * begin - 1, refinement_ratio * end - 1});
+  }
+}
+
+/// `before`: to be done before each row.
+template <class Before, class Action>
+void each_point(const grid::RowSets& points, const Before& before, const Action& action) {
   for (int j = 0; j < points.rows(); ++j) {
+    before(j);
     for (const grid::Interval& run : points.row(j)) {
       for (int i = run.begin; i < run.end; ++i) action(i, j);
     }
@@ -136,13 +165,15 @@ void restrict_to(const grid::RowSets& points, FieldView coarse, ConstFieldView f
                  double gamma) {
   const Layout& shape = coarse.layout;
   for (int j = 1; j + 1 < shape.n2; ++j) {
+    fetch_row<true>(points, j + 1, 0, coarse, fine);
     for (const grid::Interval& run : points.row(j)) {
       const int end = std::min(run.end, shape.n1 - 1);
       for (int i = std::max(run.begin, 1); i < end; i += chunk)
         average_run(fine, coarse, j, {i, std::min(i + chunk, end)}, gamma);
     }
   }
-  each_point(points, [&](int i, int j) {
+  const auto nothing = [](int) {};
+  each_point(points, nothing, [&](int i, int j) {
     if (i > 0 && i + 1 < shape.n1 && j > 0 && j + 1 < shape.n2) return;
     const Members m1 = members_of(i, fine.layout.n1, {ends[0], ends[1]});
     const Members m2 = members_of(j, fine.layout.n2, {ends[2], ends[3]});
@@ -162,7 +193,8 @@ void restrict_to(const grid::RowSets& points, FieldView coarse, ConstFieldView f
 void prolong_from(const grid::RowSets& points, ConstFieldView coarse, FieldView fine, double gamma) {
   const Layout& shape = fine.layout;
   std::array<StateVector, 9> states;
-  each_point(points, [&](int i, int j) {
+  const auto ask = [&](int j) { fetch_row<false>(points, j + 1, 1, coarse, fine); };
+  each_point(points, ask, [&](int i, int j) {
     const Parabolas parts(coarse, i, j, gamma);
     const auto each = [&](const auto& action) {
       for (int b = -1; b <= 1; ++b) {

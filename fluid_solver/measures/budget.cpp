@@ -64,7 +64,10 @@ void Budget::add_crossed(const GasSolver& solver, const Along& along) {
   const double inwards = (at_upper_end(along.side) ? -1 : 1) * solver.cell_area(along.grid);
   for (std::size_t c = 0; c < crossed_.size(); ++c) {
     double sum = 0;
-    for (std::size_t k = 0; k < n; ++k) sum += end_weight(along, static_cast<int>(k)) * edge[c * n + k];
+    for (std::size_t k = 0; k < n; ++k) {
+      const double flux = edge[c * n + k];
+      if (flux != 0) sum += end_weight(along, static_cast<int>(k)) * flux;
+    }
     crossed_[c] += inwards * sum;
   }
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "common/core/raise_to.hpp"
 #include "common/grid/geometry/partition.hpp"
@@ -81,13 +80,6 @@ std::optional<Place> find_cell(ConstFieldView x, const Vec2& point) {
     }
   }
   return std::nullopt;
-}
-
-double smallest(const double* values, const grid::Interval& run) {
-  double least = std::numeric_limits<double>::infinity();
-#pragma omp simd reduction(min : least)
-  for (int i = run.begin; i < run.end; ++i) least = values[i] < least ? values[i] : least;
-  return least;
 }
 
 /// Adds what a point of a given area holds.
@@ -200,38 +192,28 @@ bool GasSolver::lets_pass(Side side) const {
 }
 
 Health GasSolver::health() const {
-  return share_.alone() ? health_here() : seen_.health;
+  if (!share_.alone() || looked_) return seen_.health;
+  Health health = nothing_seen();
+  for (const Component& component : components_) add_health(component, component.smallest(), health);
+  return health;
 }
 
-/// In rows of one's own.
-Health GasSolver::health_here() const {
-  constexpr double none = std::numeric_limits<double>::infinity();
-  Health health{.min_rho = none, .min_p = none};
-  double first_order = 0, outside_shocks = 0, positive_fluxes = 0, positive_values = 0, floors = 0;
-  for (const Component& component : components_) {
-    const ConstFieldView q = component.state();
-    for (int j = 0; j < q.layout.n2; ++j) {
-      if (!component.rows().owns(j)) continue;
-      const double *rho = q.row(0, j), *p = q.row(3, j);
-      for (const grid::Interval& run : component.valid().row(j)) {
-        health.min_rho = std::min(health.min_rho, smallest(rho, run));
-        health.min_p = std::min(health.min_p, smallest(p, run));
-      }
-    }
-    if (component.grid().moves())
-      health.min_cell_quality = std::min(health.min_cell_quality, grid::cell_quality(component.grid().x()));
-    first_order += component.counters().first_order;
-    outside_shocks += component.counters().first_order_outside_shocks;
-    positive_fluxes += component.counters().positive_fluxes;
-    positive_values += component.counters().positive_values;
-    floors += component.counters().floors;
-  }
-  health.first_order_fallbacks = static_cast<std::uint64_t>(first_order);
-  health.first_order_outside_shocks = static_cast<std::uint64_t>(outside_shocks);
-  health.positive_fluxes = static_cast<std::uint64_t>(positive_fluxes);
-  health.positive_values = static_cast<std::uint64_t>(positive_values);
-  health.floors = static_cast<std::uint64_t>(floors);
-  return health;
+Health GasSolver::nothing_seen() {
+  const Smallest none;
+  return {.min_rho = none.rho, .min_p = none.p};
+}
+
+void GasSolver::add_health(const Component& component, const Smallest& smallest, Health& health) {
+  health.min_rho = std::min(health.min_rho, smallest.rho);
+  health.min_p = std::min(health.min_p, smallest.p);
+  if (component.grid().moves())
+    health.min_cell_quality = std::min(health.min_cell_quality, grid::cell_quality(component.grid().x()));
+  const Counters& counters = component.counters();
+  health.first_order_fallbacks += static_cast<std::uint64_t>(counters.first_order);
+  health.first_order_outside_shocks += static_cast<std::uint64_t>(counters.first_order_outside_shocks);
+  health.positive_fluxes += static_cast<std::uint64_t>(counters.positive_fluxes);
+  health.positive_values += static_cast<std::uint64_t>(counters.positive_values);
+  health.floors += static_cast<std::uint64_t>(counters.floors);
 }
 
 GasErrors GasSolver::errors(const StateField& exact, double t) const {

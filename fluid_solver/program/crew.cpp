@@ -120,7 +120,7 @@ void Crew::advance(double t, double dt) {
 }
 
 void Crew::look() {
-  if (alone() || looked_) return;
+  if (looked_) return;
   foreman_.with_all(OrderWriter(Word::look).take(), [&] { solver_.look(); });
   looked_ = true;
 }

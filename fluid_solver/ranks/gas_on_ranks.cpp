@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
-#include <limits>
 #include <tuple>
 #include <utility>
 
@@ -137,35 +136,52 @@ void join(Health& health, const double* other) {
 
 }  // namespace
 
+/// Where all points must be looked at anyhow, their health is seen on the way.
+void GasSolver::look_alone() {
+  if (std::ranges::none_of(components_, &Component::rates_need_neighbours)) return;
+  seen_ = {};
+  seen_.health = nothing_seen();
+  for (int k = 0; k < grids(); ++k) {
+    const Extremes extremes = component(k).extremes();
+    raise(seen_, k, extremes.fastest.point());
+    add_health(component(k), extremes.smallest, seen_.health);
+  }
+  looked_ = true;
+}
+
 void GasSolver::look() {
-  if (share_.alone()) return;
+  if (share_.alone()) return look_alone();
   Ranks& ranks = share_.ranks();
   if (std::ranges::any_of(components_, &Component::rates_need_neighbours))
     share_.bring_neighbours(gather_fields());
-  const Health here = health_here();
-  std::vector<double> mine;
-  write(here, mine);
+  Health here = nothing_seen();
+  std::vector<double> rates;
   std::vector<Strip> strips;
   for (int k = 0; k < grids(); ++k) {
-    const FastestPoints fastest = component(k).fastest_points();
+    const Extremes extremes = component(k).extremes();
+    add_health(component(k), extremes.smallest, here);
+    const FastestPoints& fastest = extremes.fastest;
     const auto with_state = [q = state(k)](const FastestPoint& at) {
       return Candidate{at, {q(0, at.i, at.j), q(1, at.i, at.j), q(2, at.i, at.j), q(3, at.i, at.j)}};
     };
-    Candidates{fastest.row_rate, with_state(fastest.inner), with_state(fastest.rest)}.write(mine);
+    Candidates{fastest.row_rate, with_state(fastest.inner), with_state(fastest.rest)}.write(rates);
     for (const Side side : all_sides) {
       if (component(k).facts(side).meets_solid) add_side_strips(state(k).layout, side, strips, k);
     }
   }
   share_.to_first(strips, gather_fields());
+  std::vector<double> mine;
+  write(here, mine);
+  mine.insert(mine.end(), rates.begin(), rates.end());
   see(ranks.together(mine), here.min_cell_quality);
 }
 
 void GasSolver::see(std::span<const double> of_all, double cell_quality) {
   const std::size_t grid_count = components_.size(), numbers = health_numbers + grid_count * Candidates::size;
   std::vector<Candidates> candidates(grid_count);
-  constexpr double none = std::numeric_limits<double>::infinity();
   seen_ = {};
-  seen_.health = {.min_rho = none, .min_p = none, .min_cell_quality = cell_quality};
+  seen_.health = nothing_seen();
+  seen_.health.min_cell_quality = cell_quality;
   for (std::size_t at = 0; at < of_all.size(); at += numbers) {
     join(seen_.health, &of_all[at]);
     for (std::size_t k = 0; k < grid_count; ++k)

@@ -284,5 +284,43 @@ TEST(LevelMasks, GrowAcrossPeriodsAndRefineToWholeControlVolumes) {
   }
 }
 
+/// Every point by chance, and its image in the next period.
+CellMask scattered(const LatticeShape& shape) {
+  CellMask mask(shape);
+  std::uint32_t chance = 1;
+  for (int j = 0; j < shape.n2; ++j) {
+    for (int i = 0; i < shape.n1; ++i) {
+      chance = chance * 1664525U + 1013904223U;
+      mask.set(i, j, chance > 0xf4000000U);
+    }
+  }
+  for (int j = 0; shape.periodic[0] && j < shape.n2; ++j) mask.set(shape.n1 - 1, j, mask.contains(0, j));
+  for (int i = 0; shape.periodic[1] && i < shape.n1; ++i) mask.set(i, shape.n2 - 1, mask.contains(i, 0));
+  return mask;
+}
+
+TEST(LevelMasks, GrowByAllPointsWithinReach) {
+  for (const std::array<bool, 2> periodic :
+       {std::array{false, false}, {true, false}, {false, true}, {true, true}}) {
+    for (const int reach : {0, 1, 2, 5, 12}) {
+      const CellMask mask = scattered({37, 23, periodic});
+      CellMask grown = mask, rest = mask;
+      grown.grow(reach);
+      rest.remove(grown);
+      EXPECT_EQ(rest.rows().points(), 0U) << "what it was grown from is in it";
+      for (int j = 0; j < 23; ++j) {
+        for (int i = 0; i < 37; ++i) {
+          bool near = false;
+          for (int b = j - reach; b <= j + reach; ++b) {
+            for (int a = i - reach; a <= i + reach; ++a) near = near || mask.contains(a, b);
+          }
+          ASSERT_EQ(grown.contains(i, j), near) << i << ", " << j << ", reach " << reach;
+          ASSERT_EQ(grown.rows().contains(i, j), near);
+        }
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace fsi::fluid

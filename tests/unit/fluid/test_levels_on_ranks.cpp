@@ -5,6 +5,9 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include "tests/unit/fluid/gas_on_ranks.hpp"
 
@@ -113,6 +116,56 @@ TEST(LevelsOnRanks, PositiveFluxesAtRims) {
   for (const int level : {0, 1}) EXPECT_GT(gas.levels()->owned(level).points(), 100U) << level;
   test::expect_same_on_ranks(make, 60);
   EXPECT_GT(test::after_steps(make, 3, 60).at("grid0.positive_fluxes").front(), 0);
+}
+
+/// Counts how often a rank waits for others.
+class CountingRanks final : public Ranks {
+ public:
+  explicit CountingRanks(std::shared_ptr<Ranks> ranks) : ranks_(std::move(ranks)) {}
+  int reductions = 0, exchanges = 0;
+
+  int rank() const override { return ranks_->rank(); }
+  int size() const override { return ranks_->size(); }
+  void exchange(std::span<const Parcel> sent, std::span<const Parcel> received) override {
+    exchanges += sent.empty() && received.empty() ? 0 : 1;
+    ranks_->exchange(sent, received);
+  }
+  void broadcast(std::vector<double>& values) override { ranks_->broadcast(values); }
+  std::vector<double> together(std::span<const double> mine) override { return ranks_->together(mine); }
+  void largest_of_each(std::span<double> values) override {
+    ++reductions;
+    ranks_->largest_of_each(values);
+  }
+  void leave() override { ranks_->leave(); }
+
+ private:
+  std::shared_ptr<Ranks> ranks_;
+};
+
+/// Four grids: one word about all of them. Averages of two levels come together; then halos; then each rim.
+TEST(LevelsOnRanks, WaitOnceForAllGrids) {
+  fsi::test::on_ranks(2, [&](const std::shared_ptr<Ranks>& mine) {
+    GasOptions options = adaptive(3);
+    options.refine.every = 100;
+    GasSolver gas = test::around_moving_body(options, Dirichlet{shock}, {}, 109);
+    gas.assign_initial_conditions(shock);
+    const auto counting = std::make_shared<CountingRanks>(mine);
+    gas.share(counting, {});
+    gas.apply_fluid_bcs(0);
+    gas.look();
+    const double dt = gas.compute_time_step().dt;
+    const std::vector<double> x = test::body_outline(1e-3);
+    gas.move_grids(1e-3, 1e-3, std::vector<grid::SideCommand>{{Side::top, x, 1}});
+    counting->reductions = 0;
+    gas.advance_fluid(1e-3, 1e-3);
+    EXPECT_EQ(counting->reductions, 1);
+    counting->exchanges = 0;
+    gas.apply_fluid_bcs(1e-3);
+    EXPECT_LE(counting->exchanges, 4);
+    if (mine->first()) {
+      EXPECT_GT(dt, 1e-3);
+    }
+  });
 }
 
 TEST(LevelsOnRanks, EveryLevelIsSharedOut) {

@@ -82,6 +82,42 @@ TEST(Eq44GasEigenvalue, KnowsThatTheGridRunsWithTheGas) {
   EXPECT_NEAR(gas.compute_time_step().dt, 1.0 / 20, 1e-12);
 }
 
+/// A solver that looks at all points once for the time step and the health says of each state what one says that looks
+/// whenever it is asked.
+TEST(TimeStepAndHealth, AreTheSameWithOneLookAtAState) {
+  const StateField bump = [](double x, double y, double) {
+    const double height = std::exp(-20 * ((x - 0.4) * (x - 0.4) + (y - 0.5) * (y - 0.5)));
+    return State{.rho = 1 + height, .v1 = 1 - height, .v2 = 0.2 * height, .p = 1 + 3 * height};
+  };
+  const auto make = [&](double viscosity) {
+    return test::solver(
+        {.n1 = 21, .n2 = 17, .mapping = [](double r, double s, double) { return Vec2(r, s); }},
+        {.shock_viscosity = viscosity}, {Outflow{}, Outflow{}, Outflow{}, Outflow{}}, bump);
+  };
+  for (const double viscosity : {0.0, 0.5}) {
+    GasSolver once = make(viscosity), often = make(viscosity);
+    double t = 0;
+    const auto compare = [&](const char* state) {
+      once.look();
+      EXPECT_EQ(once.compute_time_step().dt, often.compute_time_step().dt) << state << t;
+      EXPECT_EQ(once.compute_time_step().reason, often.compute_time_step().reason) << state << t;
+      EXPECT_EQ(once.health().min_rho, often.health().min_rho) << state << t;
+      EXPECT_EQ(once.health().min_p, often.health().min_p) << state << t;
+    };
+    for (int step = 0; step < 4; ++step) {
+      for (GasSolver* gas : {&once, &often}) gas->apply_fluid_bcs(t);
+      compare("projected, t = ");
+      const double dt = often.compute_time_step().dt;
+      t += dt;
+      for (GasSolver* gas : {&once, &often}) {
+        gas->move_grids(t, dt);
+        gas->advance_fluid(t, dt);
+      }
+      compare("predicted, t = ");
+    }
+  }
+}
+
 TEST(TimeStepReason, NamesGridPointAndPosition) {
   const TimeStep step = box({}, {1, 0, 0, 1}, {1, 1}).compute_time_step();
   EXPECT_NE(step.reason.find("grid \"grid\", point ("), std::string::npos) << step.reason;
