@@ -1,5 +1,7 @@
 """The studies of record_results.py about outlines: does what `check` calls fine run, on finer grids too?"""
 
+import csv
+import math
 import shlex
 import subprocess
 
@@ -42,7 +44,42 @@ def whole(root):
             + answer.stdout)
 
 
+def _work(directory, solid):
+    """Integral of the power of the gas on a solid, from interface.csv."""
+    with open(directory / "interface.csv", encoding="utf-8", newline="") as file:
+        heading, *rows = csv.reader(file)
+    power = next(k for k, title in enumerate(heading) if title.startswith(f"{solid}.power"))
+    steps = [(float(row[1]), float(row[power])) for row in rows]
+    return sum(0.5 * (a[1] + b[1]) * (b[0] - a[0]) for a, b in zip(steps, steps[1:]))
+
+
+def _budgets(tools):
+    """What the gas did on the bar and the bar's energy, and the momentum of the free block that no load explains."""
+    lines = ["| h | bar: energy | work of the gas over it | gap | block: momentum | defect over it | gap |", "|" + "---|" * 7]
+    typed = []
+    for factor in (2, 4, 8):
+        folders = []
+        for case in ("bar_on_wall", "shock_on_block"):
+            directory, _, command = tools.run_once(f"{case}-{factor}", case, [f"grid.factor={factor}"])
+            folders.append((directory, tools.summary_of(directory)))
+            typed.append(command)
+        (bar, of_bar), (_, of_block) = folders
+        energy, block = tools.value_at(of_bar, "conservation.bar.energy") or math.nan, tools.value_at(of_block, "conservation.block") or {}
+        momentum = math.hypot(block.get("momentum1", math.nan), block.get("momentum2", math.nan))
+        defect = math.hypot(block.get("momentum1_defect", math.nan), block.get("momentum2_defect", math.nan))
+        lines.append(f"| 1/{10 * factor} | {energy:.3e} | {_work(bar, 'bar') / energy:.4f} | {tools.shown(tools.value_at(of_bar, 'interface.max_gap'))} | "
+                     f"{momentum:.3e} | {defect / momentum:.1e} | {tools.shown(tools.value_at(of_block, 'interface.max_gap'))} |")
+    return f"last row: `{typed[-2]}` and `{typed[-1]}`\n\n" + "\n".join(lines) + "\n"
+
+
+def corners(tools):
+    """Each grid against the next finer one, and budgets."""
+    return (tools.converge("bar-on-wall", "bar_on_wall", "2,4,8") + "\n" + tools.converge("shock-on-block", "shock_on_block", "2,4,8")
+            + "\n" + _budgets(tools))
+
+
 def studies(tools):
+    yield "Elastic bodies with four sharp corners, met by a shock", lambda: corners(tools)
     yield "Random outlines met by a shock", lambda: campaign(tools.ROOT)
     yield "Outlines alone, the resolution doubled twice", lambda: doubled(tools.ROOT)
     yield "Outlines alone, run to their ends, the resolution doubled twice", lambda: whole(tools.ROOT)

@@ -171,6 +171,19 @@ bool carries_load(const BoundarySpec& spec) {
   return acts(spec.vector->c1) || acts(spec.vector->c2);
 }
 
+bool is_block(const SolidSpec& solid) {
+  return solid.grid.kind == GridSpec::Kind::block;
+}
+
+const std::vector<BodyFittedSpec>& fitted_grids(const FluidSpec& fluid) {
+  return fluid.body_fitted;
+}
+
+const std::vector<BodyFittedSpec>& fitted_grids(const SolidSpec& solid) {
+  static const std::vector<BodyFittedSpec> none;
+  return is_block(solid) ? none : solid.body_fitted;
+}
+
 std::optional<Side> side_to(const SolidSpec& solid, const std::string& fluid) {
   if (!solid.body_fitted.empty()) return std::nullopt;
   for (const Side side : all_sides) {

@@ -34,13 +34,14 @@ struct TensorExpressions {
 
 /// One mapped component grid.
 struct GridSpec {
-  enum class Kind { rectangle, mapped };
+  enum class Kind { rectangle, mapped, block };
   Kind kind = Kind::rectangle;
   std::string name;
   int n1 = 0, n2 = 0;                         ///< points, both ends included
   double x_a = 0, x_b = 1, y_a = 0, y_b = 1;  ///< rectangle [length]
   double rotation = 0;                        ///< of the whole grid about the origin [rad]
   VectorExpressions map;                      ///< mapped: x(r, s, t), y(r, s, t) on the unit square
+  std::array<Vec2, 4> corners = {};           ///< block: at (r, s) = (0, 0), (1, 0), (1, 1), (0, 1)
   bool moving = false;                        ///< the mapping depends on t
   std::array<bool, 2> periodic{false, false};
   double shake = 0;  ///< random displacement of each inner point at each step, in cells [-]
@@ -57,6 +58,7 @@ struct CurveSpec {
   std::string on = {};             ///< the gas's grid along the wall on which both ends stand; empty: sides
   std::array<Vec2, 2> along = {};  ///< direction of that wall at the first and at the last point
   std::vector<int> corners = {};   ///< points at which it turns sharply
+  bool elastic_corners = false;    ///< they are those of an elastic body
 
   bool closed() const { return !walls.has_value(); }
   int points() const { return static_cast<int>(x.size() / 2); }
@@ -158,7 +160,8 @@ struct SolidSpec {
   bool fixed = false;                  ///< a rigid body that stays where it is
   GridSpec grid;
   std::array<BoundarySpec, 4> boundary;
-  std::vector<BodyFittedSpec> body_fitted;  ///< along the outline; none where the outline is that of `grid`
+  /// Along the outline; none where the outline is that of `grid`. Of a block its curve alone counts.
+  std::vector<BodyFittedSpec> body_fitted;
   SolidScheme scheme;
   std::optional<BeamSpec> beam;
   bool initial_from_reference = false;
@@ -248,6 +251,14 @@ std::string fields_name(const FluidSpec& fluid);
 
 /// Whether a side of a solid has a load of its own.
 bool carries_load(const BoundarySpec& spec);
+
+/// A solid whose one grid lies between the four straight sides of its outline.
+bool is_block(const SolidSpec& solid);
+
+/// @{ Component grids besides `grid`: of a block there are none.
+const std::vector<BodyFittedSpec>& fitted_grids(const FluidSpec& fluid);
+const std::vector<BodyFittedSpec>& fitted_grids(const SolidSpec& solid);
+/// @}
 
 /// The side of a solid's grid that is the interface to this gas; none for a solid with an outline of its own.
 std::optional<Side> side_to(const SolidSpec& solid, const std::string& fluid);

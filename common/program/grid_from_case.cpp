@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "common/case/grids/composite_from_case.hpp"
+#include "common/case/grids/grid_points.hpp"
 
 namespace fsi {
 
@@ -19,6 +20,8 @@ grid::Mapping mapping_of(const GridSpec& spec) {
       return turn(map.c1.at_parameters(r1, r2, t), map.c2.at_parameters(r1, r2, t));
     };
   }
+  if (spec.kind == GridSpec::Kind::block)
+    return [spec](double r1, double r2, double t) { return place(spec, r1, r2, t); };
   return [turn, spec](double r1, double r2, double) {
     return turn(spec.x_a + r1 * (spec.x_b - spec.x_a), spec.y_a + r2 * (spec.y_b - spec.y_a));
   };

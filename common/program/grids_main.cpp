@@ -66,7 +66,7 @@ bool has_grids(const fsi::SolidSpec& solid) {
 void write_solid(const std::string& folder, const fsi::SolidSpec& solid) {
   const std::string name = "solid_" + solid.name;
   if (solid.body_fitted.empty() || has_grids(solid)) {
-    write_grids(folder, name, solid.grid, solid.body_fitted);
+    write_grids(folder, name, solid.grid, fsi::fitted_grids(solid));
     return;
   }
   const fsi::Field x = outline_of(solid.body_fitted.front().curve);

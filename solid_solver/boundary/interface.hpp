@@ -2,6 +2,7 @@
 /// What the solid shows of an interface, and what it is told. Arrays are component-major over the n points of
 /// a side in the order of the grid index: component c of point k is at [c * n + k].
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -28,6 +29,8 @@ struct InterfaceValues {
   std::span<const double> v_n;  ///< normal velocity, n
   std::span<const double> w_n;  ///< normal traction per unit current area, n
   int grid = 0;
+  /// At its ends: the interface goes on round the corner, where `n` is that of the chord.
+  std::array<bool, 2> goes_on{false, false};
 };
 
 }  // namespace fsi::solid

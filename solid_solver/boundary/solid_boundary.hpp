@@ -138,6 +138,7 @@ class SolidBoundary {
   void find_traction(ConstFieldView q, Side side, double t);
   double stretch_along(ConstFieldView q, Side side, int k) const;
   void find_projected_traction(ConstFieldView q, double t, const InterfaceValues& values);
+  Vec2 pressed_at_corner(ConstFieldView q, double t, const InterfaceValues& values, int k) const;
   void set_normal_stress(FieldView q, Side side, double t) const;
   Stiffness stiffness(ConstFieldView q, Side side, int k) const;
   Mat2 impedance(const Stiffness& K, Side side, int k) const;

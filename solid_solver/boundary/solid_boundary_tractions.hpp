@@ -83,13 +83,29 @@ void SolidBoundary<L>::find_projected_traction(ConstFieldView q, double t, const
   const SideIndex& line = line_of(values.side);
   const auto n = static_cast<std::size_t>(line.n);
   for (std::size_t k = 0; k < n; ++k) {
-    const double eta = 1.0 / stretch_along(q, values.side, static_cast<int>(k));
-    const Vec2 normal =
-        follows(values.side) ? Vec2(values.n[k], values.n[n + k]) : at(values.side, static_cast<int>(k)).n0;
     const int point = static_cast<int>(k);
+    const double eta = 1.0 / stretch_along(q, values.side, point);
+    const Vec2 normal = follows(values.side) ? Vec2(values.n[k], values.n[n + k]) : at(values.side, point).n0;
+    if (end_of(line, point) && values.goes_on[point == 0 ? 0 : 1]) {
+      T_[index(values.side)][k] = pressed_at_corner(q, t, values, point);
+      continue;
+    }
     T_[index(values.side)][k] =
         values.w_n[k] / eta * normal + traction_of(chosen(line.at(point, 0), t).P, at(values.side, point).n0);
   }
+}
+
+/// The same where an interface turns round the corner k of a side: w_n acts along the side's own normal.
+template <Law L>
+Vec2 SolidBoundary<L>::pressed_at_corner(ConstFieldView q, double t, const InterfaceValues& values,
+                                         int k) const {
+  const SideIndex& line = line_of(values.side);
+  const SideMetrics& m = at(values.side, k);
+  const Vec2 along = difference_along(grid_.x, line, 0, k);
+  const Vec2 now = follows(values.side) ? Vec2(along + difference_along(q, line, plane::u1, k)) : along;
+  const double turn = m.t0.dot(along) > 0 ? 1.0 : -1.0;  // n0 is t0 turned by -90 degrees
+  const Vec2 area = turn / along.norm() * Vec2(now.y(), -now.x());
+  return values.w_n[static_cast<std::size_t>(k)] * area + traction_of(chosen(line.at(k, 0), t).P, m.n0);
 }
 
 template <Law L>

@@ -34,6 +34,13 @@ struct SideLoad {
   Vec2 force = Vec2::Zero();
   double moment = 0;  ///< about the origin [force*length/depth]
   double power = 0;   ///< [power/depth]
+
+  SideLoad& operator+=(const SideLoad& other) {
+    force += other.force;
+    moment += other.moment;
+    power += other.power;
+    return *this;
+  }
 };
 
 inline double cross(const Vec2& a, const Vec2& b) {

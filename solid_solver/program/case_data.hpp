@@ -68,7 +68,7 @@ class CaseData {
   std::vector<SolidPart> parts() const {
     std::vector<SolidPart> all;
     all.push_back(part(grid_from_case(spec_.grid, false), spec_.boundary));
-    for (const BodyFittedSpec& fitted : spec_.body_fitted)
+    for (const BodyFittedSpec& fitted : fitted_grids(spec_))
       all.push_back(part(grid_from_case(fitted), fitted.boundary));
     return all;
   }

@@ -44,9 +44,9 @@ class SolidParticipant final : public Participant {
     hello.points = solver_.points();
     for (const Meeting& meeting : body_.meetings()) {
       SolidInterface state;
-      solver_.interface_state(meeting.side, state, meeting.grid);
+      body_.show(meeting, state);
       move_along(meeting, state.x);
-      const std::vector<double> x_bar = solver_.grid(meeting.grid).side_points(meeting.side);
+      const std::vector<double> x_bar = body_.reference_points(meeting);
       hello.interfaces.push_back({.name = meeting.name,
                                   .dimension = 2,
                                   .x = state.x,
@@ -62,7 +62,7 @@ class SolidParticipant final : public Participant {
 
   void fill(std::size_t k, wire::PredictedInterface& predicted) const override {
     const Meeting& meeting = body_.meetings()[k];
-    solver_.interface_state(meeting.side, interface_, meeting.grid);
+    body_.show(meeting, interface_);
     predicted.x = interface_.x;
     move_along(meeting, predicted.x);
     predicted.v = interface_.v;
@@ -207,13 +207,8 @@ class SolidParticipant final : public Participant {
 
   /// Of all gases.
   SideLoad whole_load() const {
-    SideLoad sum = solver_.side_load(body_.meetings().front().side, body_.meetings().front().grid);
-    for (const Meeting& meeting : body_.meetings().subspan(1)) {
-      const SideLoad load = solver_.side_load(meeting.side, meeting.grid);
-      sum.force += load.force;
-      sum.moment += load.moment;
-      sum.power += load.power;
-    }
+    SideLoad sum = body_.load(body_.meetings().front());
+    for (const Meeting& meeting : body_.meetings().subspan(1)) sum += body_.load(meeting);
     return sum;
   }
 
@@ -235,7 +230,7 @@ class SolidParticipant final : public Participant {
 
   /// Whether all that acts on the body is the gas.
   bool surrounded() const {
-    return !body_.meetings().empty() && body_.meetings().front().grid == 1 &&
+    return !body_.meetings().empty() && !spec_.body_fitted.empty() &&
            spec_.body_fitted.front().curve.closed() && !spec_.body_force && !setup_.problem.interface.motion;
   }
 
@@ -243,7 +238,7 @@ class SolidParticipant final : public Participant {
   void move_along(const Meeting& meeting, std::vector<double>& x) const {
     const auto& motion = setup_.problem.interface.motion;
     if (!motion) return;
-    const std::vector<double> x_bar = solver_.grid(meeting.grid).side_points(meeting.side);
+    const std::vector<double> x_bar = body_.reference_points(meeting);
     const std::size_t n = x_bar.size() / 2;
     for (std::size_t k = 0; k < n; ++k) {
       x[k] += motion->c1(x_bar[k], x_bar[n + k], solver_.t()) - x_bar[k];

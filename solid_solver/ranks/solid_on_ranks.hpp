@@ -69,12 +69,18 @@ std::vector<Need> SolidSolver<L>::lines_of_interfaces() const {
   for (int k = 0; k < grids(); ++k) {
     const Layout layout = component(k).layout();
     for (const Side side : all_sides) {
-      if (component(k).boundary().kind(side) != Boundary::Kind::interface) continue;
+      const auto is_interface = [&](Side s) {
+        return component(k).boundary().kind(s) == Boundary::Kind::interface;
+      };
+      if (!is_interface(side)) continue;
+      // An interface that goes round corners is closed as a whole by every rank.
+      const bool round_corners = is_interface(neighbour(side, false)) || is_interface(neighbour(side, true));
       strips.clear();
       add_lines(layout, side, k, lines_of_interface, strips);
       for (int rank = 0; rank < early_.ranks().size(); ++rank) {
-        const bool near =
-            std::ranges::any_of(strips, [&](const Strip& s) { return early_.has(rank, k, s.j); });
+        const bool near = round_corners || std::ranges::any_of(strips, [&](const Strip& s) {
+                            return early_.has(rank, k, s.j);
+                          });
         if (rank > 0 && !near) continue;
         for (const Strip& strip : strips) needs.push_back({rank, strip});
       }

@@ -169,6 +169,19 @@ class LayoutOfSolids(OnRanks):
                                             "output.times=[0.1, 0.3]", "--set", "output.checkpoint_every=10")
 
 
+class LayoutOfABar(OnRanks):
+    """An interface along three sides of one grid, which each rank closes as a whole within a macro step."""
+
+    who = ("bar",)
+    STIFF = ("bar_on_wall", "--set", "parameters.E=1400", "--set", "time.multirate=true", "--set", "time.end=0.7", "--set", "output.times=[0.5, 0.7]")
+
+    def test_round_corners_with_substeps(self):
+        self.assert_layouts(*self.STIFF, numbers_of_ranks=(2, 4))
+
+    def test_restart_on_other_ranks(self):
+        self.assert_restarts_on_other_ranks(*self.STIFF, "--set", "output.checkpoint_every=20")
+
+
 class LayoutOfAnEllipse(OnRanks):
     who = ("ellipse",)
 

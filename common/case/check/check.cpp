@@ -302,7 +302,7 @@ void check_case(const Case& problem, const Node& root) {
     check_solid_grid(solid, node_at(root, {"solids", solid.name, "grid"}));
     if (!is_continuum(solid.law)) continue;  // need their outline only
     check_overlap({.background = solid.grid,
-                   .body_fitted = solid.body_fitted,
+                   .body_fitted = fitted_grids(solid),
                    .owner = node_at(root, {"solids", solid.name}),
                    .path = "solids." + solid.name});
   }

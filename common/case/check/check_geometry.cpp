@@ -6,10 +6,12 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "common/case/document/fluid_sections.hpp"
+#include "common/case/grids/block.hpp"
 #include "common/case/grids/no_grids_fit.hpp"
 #include "common/case/schema/laws.hpp"
 #include "common/grid/geometry/outline.hpp"
@@ -268,6 +270,12 @@ void check_apart(const CheckedOutline& outline, const CheckedOutline& other) {
                    outline.name, other.name, overlap.distance, overlap.x[0], overlap.x[1]));
 }
 
+/// What keeps a body from having one grid from corner to corner.
+std::string why_no_block(const CurveSpec& curve) {
+  const BlockCorners corners = block_corners(curve);
+  return corners.at ? "" : fmt::format(" but in one with four straight sides: {}", corners.why_not);
+}
+
 /// Grids fan around corners on the outside; on the inside their lines would meet.
 void check_corners_inside(const CheckedOutline& outline) {
   if (outline.curve.corners.empty()) return;
@@ -277,8 +285,8 @@ void check_corners_inside(const CheckedOutline& outline) {
       .key = outline.path,
       .cause =
           fmt::format("the outline has a sharp corner at ({:.4g}, {:.4g}), around which no grid inside an "
-                      "elastic body can be laid",
-                      x[0], x[1]),
+                      "elastic body can be laid{}",
+                      x[0], x[1], why_no_block(outline.curve)),
       .otherwise = "round the outline there",
       .owner = owner_of(outline)};
   if (outline.node.find("corners") == nullptr)
@@ -287,17 +295,49 @@ void check_corners_inside(const CheckedOutline& outline) {
   throw NoGridsFit(std::move(parts));
 }
 
+/// Between corners, values cannot be carried from the points of one side to those of another.
+void check_same_points(const Case& problem, const FluidSpec& fluid, const Node& root) {
+  for (std::size_t k = 0; k < fluid.body_fitted.size(); ++k) {
+    const auto solid = std::ranges::find(problem.solids, fluid.body_fitted[k].solid, &SolidSpec::name);
+    if (solid == problem.solids.end() || !is_block(*solid)) continue;
+    const Node& node = fluid_section_of(root, fluid.name).find("body_fitted")->items[k];
+    if (const Node* points = node.find("points"))
+      fail(points->place, fmt::format("{}.body_fitted[{}].points", fluid.path, k),
+           fmt::format("solid `{}` and the gas have the same points, from corner to corner; leave it out",
+                       solid->name));
+  }
+}
+
+/// The side of a block that stands on a wall is held.
+void check_foot(const SolidSpec& solid, const Case& problem, const Node& root) {
+  const std::optional<std::array<Side, 2>>& walls = solid.body_fitted.front().curve.walls;
+  if (!is_block(solid) || !walls) return;
+  const Side foot = walls->front();
+  const BoundaryKind kind = solid.boundary[static_cast<std::size_t>(foot)].kind;
+  const bool open = kind == BoundaryKind::none && problem.fluids.empty();
+  if (!open && kind != BoundaryKind::interface && kind != BoundaryKind::periodic) return;
+  const Node& node = *root.find("solids")->find(solid.name);
+  const Node* boundary = node.find("boundary");
+  fail(boundary != nullptr ? boundary->place : node.place, fmt::format("solids.{}.boundary", solid.name),
+       fmt::format(
+           "the body stands on its {0} side, which needs a condition of its own; write `{0}: clamped` or "
+           "`{0}: slip_wall`",
+           name_of(foot)));
+}
+
 }  // namespace
 
 void check_geometry(const Case& problem, const Node& root) {
   for (const SolidSpec& solid : problem.solids) {
     if (solid.body_fitted.empty()) continue;
     check_crossing_itself(outline_of(solid, root));
-    const bool has_core = is_continuum(solid.law);
+    const bool has_core = is_continuum(solid.law) && !is_block(solid);
+    check_foot(solid, problem, root);
     if (has_core) check_corners_inside(outline_of(solid, root));
     if (has_core && is_upright(solid.grid)) check_core(solid, root);
   }
   for (const FluidSpec& fluid : problem.fluids) {
+    check_same_points(problem, fluid, root);
     const std::vector<CheckedOutline> outlines = outlines_in_gas(problem, fluid, root);
     for (const CheckedOutline& outline : outlines) {
       check_crossing_itself(outline);

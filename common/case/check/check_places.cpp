@@ -81,7 +81,7 @@ void check_probe_in_gas(const FluidSpec& fluid, const Vec2& x, const Node& node,
 void check_probe_in_solid(const SolidSpec& solid, const Vec2& x, const Node& node, const std::string& path) {
   if (!is_continuum(solid.law)) return;  // their motion is known everywhere
   bool outside = !within_rim(solid.grid, x);
-  for (const BodyFittedSpec& spec : solid.body_fitted) outside = outside || behind(spec, solid.grid, x);
+  for (const BodyFittedSpec& spec : fitted_grids(solid)) outside = outside || behind(spec, solid.grid, x);
   if (!outside) return;
   fail(node.place, path,
        fmt::format(

@@ -8,6 +8,7 @@
 
 #include "common/case/document/fluid_sections.hpp"
 #include "common/case/document/reader.hpp"
+#include "common/case/grids/block.hpp"
 #include "common/case/grids/fit_grids.hpp"
 #include "common/case/grids/no_grids_fit.hpp"
 #include "common/case/grids/node_tools.hpp"
@@ -76,6 +77,33 @@ void write_body(Node& solid, const BodyGrids& chosen) {
   put(grid, "points", pair(chosen.core.n1, chosen.core.n2));
 }
 
+/// Nothing is said of a ring or a core: a body of four straight sides takes one grid from corner to corner.
+bool leaves_block_open(const Node& solid) {
+  const Node* grid = solid.find("grid");
+  const Node* kind = grid == nullptr ? nullptr : grid->find("kind");
+  if (kind != nullptr && kind->text == "block") return true;
+  return lacks(grid, {"x", "y", "map", "kind"}) &&
+         lacks(solid.find("body_fitted"), {"lines", "spacing", "growth", "concave_smoothing", "map"});
+}
+
+/// Distance of points along an outline.
+double spacing_of(const Node& shape, const CurveSpec& closely, double h) {
+  const Node *points = shape.find("points"), *spacing = shape.find("spacing");
+  if (spacing != nullptr) return *spacing->number;
+  return points == nullptr ? h : closely.spacing * (closely.points() - 1) / (*points->number - 1);
+}
+
+std::string write_block(Node& solid, const std::string& name, const std::array<Vec2, 4>& corners, double h) {
+  const std::string place = solid.find("shape")->place;
+  const auto [n1, n2] = block_points(corners, h);
+  Node points{.kind = Node::Kind::list, .place = place, .entries = {}};
+  points.items = {number_node(n1, place), number_node(n2, place)};
+  Node& grid = section_of(solid, "grid");
+  put(grid, "kind", word_node("block", place));
+  put(grid, "points", points);
+  return fmt::format("solids.{}: one grid of {} x {} points from corner to corner", name, n1, n2);
+}
+
 std::string text_of(const std::string& solid, const BodyGrids& grids) {
   const GridSpec& core = grids.core;
   return fmt::format(
@@ -101,9 +129,15 @@ void choose_for_solids(Node& root, const Reader& reader, std::vector<std::string
         .with_points = [&](std::optional<int> points) { return build_curve(reader, shape, path, points); }};
     const std::string& law = solid.find("law")->text;
     const bool outline_only = !is_continuum(law);
+    const double h = reader.scope().constants.at("h");
     try {
-      const BodyGrids grids =
-          fit_body(outline, reader.scope().constants.at("h"), wish_of(solid), outline_only);
+      if (!outline_only && leaves_block_open(solid)) {
+        if (const BlockCorners corners = block_corners(outline.closely); corners.at) {
+          chosen.push_back(write_block(solid, entry.key, *corners.at, spacing_of(shape, outline.closely, h)));
+          continue;
+        }
+      }
+      const BodyGrids grids = fit_body(outline, h, wish_of(solid), outline_only);
       write_body(solid, grids);
       chosen.push_back(text_of(entry.key, grids));
     } catch (const NoGridsFit& mistake) {

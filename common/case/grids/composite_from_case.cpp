@@ -44,11 +44,17 @@ bool comes_down_flat(const BodyFittedSpec& spec, const Vec2& wall, std::size_t e
   return away.dot(along) > cosine * away.norm() * along.norm();
 }
 
+std::optional<grid::CrowdedCorner> crowded_elastic_corner(const BodyFittedSpec& spec, ConstFieldView x) {
+  if (!spec.curve.elastic_corners || spec.side != Side::top) return std::nullopt;
+  return grid::most_crowded_elastic_corner(x, spec.side, spec.curve.corners);
+}
+
 /// What is wrong with the ghost lines behind a curve, through which fluxes go and from which values are
 /// continued.
 std::optional<std::string> trouble_behind(const BodyFittedSpec& spec, ConstFieldView x) {
   auto corner = grid::crowded_corner(x, spec.side);
   if (!corner) corner = grid::most_crowded_bend(x, spec.side, spec.curve.corners);
+  if (const auto elastic = crowded_elastic_corner(spec, x); elastic && elastic->part < 1) corner = elastic;
   if (corner && corner->part < 1) {
     return fmt::format("its curve turns too sharply at ({:.4g}, {:.4g}) for the distance of its lines",
                        corner->x[0], corner->x[1]);
@@ -155,8 +161,10 @@ BodyFittedSpec with_sound_lines(const BodyFittedSpec& spec) {
   try {
     const grid::MovingGrid grid(grid_of(thin), 0);
     const auto bend = grid::most_crowded_bend(grid.x(), spec.side, spec.curve.corners);
+    const auto corner = crowded_elastic_corner(spec, grid.x());
     const double slant = grid::most_slanted_line(grid.x(), spec.side).slant;
-    part = std::min(bend ? bend->part : any, slant > 0 ? grid::largest_slant / slant : any);
+    part = std::min({bend ? bend->part : any, corner ? corner->part : any,
+                     slant > 0 ? grid::largest_slant / slant : any});
   } catch (const Failure&) {  // another check says why no grid can be marched from this curve
     return spec;
   }

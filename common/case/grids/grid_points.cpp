@@ -9,6 +9,11 @@ Vec2 place(const GridSpec& grid, double r, double s, double t) {
   if (grid.kind == GridSpec::Kind::mapped) {
     x = Vec2(grid.map.c1.at_parameters(r, s, t), grid.map.c2.at_parameters(r, s, t));
   }
+  if (grid.kind == GridSpec::Kind::block) {
+    const auto& [x_00, x_10, x_11, x_01] = grid.corners;
+    const Vec2 below = x_00 + r * (x_10 - x_00), above = x_01 + r * (x_11 - x_01);
+    return below + s * (above - below);
+  }
   const double c = std::cos(grid.rotation);
   const double sine = std::sin(grid.rotation);
   return {c * x[0] - sine * x[1], sine * x[0] + c * x[1]};

@@ -11,6 +11,7 @@
 #include "common/case/document/fluid_sections.hpp"
 #include "common/case/document/reader.hpp"
 #include "common/case/read/build_beam.hpp"
+#include "common/case/read/build_block.hpp"
 #include "common/case/read/build_domain.hpp"
 #include "common/case/read/build_levels.hpp"
 #include "common/case/read/build_material.hpp"
@@ -158,9 +159,10 @@ SolidSpec solid_of(const Reader& reader, const config::Entry& entry) {
     result.fixed = motion->text == "fixed";
   }
   build_material(node, owner.path, result);
-  result.grid = build_grid(reader, owner);
+  result.grid = build_solid_grid(reader, owner);
   result.boundary = build_boundaries(reader, owner, result.grid);
   result.body_fitted = build_outline_grid(reader, owner, result.boundary);
+  complete_block(node, owner.path, result);
   result.scheme = solid_scheme_of(node.find("scheme"));
   result.beam = build_beam(reader, node, result.law, owner.path);
   check_mass(result, node, owner.path);

@@ -102,9 +102,9 @@ template <class Owner>
 StepCost step_of(const std::string& program, const Owner& owner, double speed) {
   std::vector<CellRate> rates;
   double fitted_points = 0;
-  const std::vector<grid::MovingGrid> grids = grids_at_start(owner.body_fitted);
+  const std::vector<grid::MovingGrid> grids = grids_at_start(fitted_grids(owner));
   for (std::size_t k = 0; k < grids.size(); ++k) {
-    const BodyFittedSpec& fitted = owner.body_fitted[k];
+    const BodyFittedSpec& fitted = fitted_grids(owner)[k];
     append_rates(fitted, grids[k], rates);
     fitted_points += static_cast<double>(fitted.curve.points()) * fitted.lines;
   }

@@ -55,7 +55,7 @@ MemoryNeed need_of(const std::string& program, const Owner& owner, const Cost& c
   const bool lattice = is_lattice(owner);
   MemoryNeed need{.program = program, .points = points_of(owner.grid), .bytes = program_cost};
   need.bytes += (lattice ? cost.lattice : cost.mapped) * need.points;
-  for (const BodyFittedSpec& fitted : owner.body_fitted) {
+  for (const BodyFittedSpec& fitted : fitted_grids(owner)) {
     need.points += points_of(fitted);
     need.bytes += cost.fitted * points_of(fitted);
   }
@@ -115,7 +115,7 @@ std::pair<const Node*, std::string> largest_grid(const Case& problem, const Node
     };
     offer(points_of(owner.grid), "grid");
     double fitted = 0;
-    for (const BodyFittedSpec& grid : owner.body_fitted) fitted += points_of(grid);
+    for (const BodyFittedSpec& grid : fitted_grids(owner)) fitted += points_of(grid);
     offer(fitted, node.find("body_fitted") != nullptr ? "body_fitted" : "shape");
   };
   for (const FluidSpec& fluid : problem.fluids) look(fluid, fluid_section_of(root, fluid.name), fluid.path);

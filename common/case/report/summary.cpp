@@ -68,7 +68,7 @@ ordered_json expect_json(const std::vector<Expectation>& expect) {
 template <class Owner>
 std::uint64_t points_of(const Owner& owner) {
   auto points = static_cast<std::uint64_t>(owner.grid.n1) * static_cast<std::uint64_t>(owner.grid.n2);
-  for (const BodyFittedSpec& fitted : owner.body_fitted)
+  for (const BodyFittedSpec& fitted : fitted_grids(owner))
     points += static_cast<std::uint64_t>(fitted.curve.points()) * static_cast<std::uint64_t>(fitted.lines);
   return points;
 }
@@ -77,7 +77,7 @@ std::uint64_t points_of(const Owner& owner) {
 template <class Owner>
 std::string grids_of(const Owner& owner) {
   std::string text = fmt::format("{} x {}", owner.grid.n1, owner.grid.n2);
-  for (const BodyFittedSpec& fitted : owner.body_fitted)
+  for (const BodyFittedSpec& fitted : fitted_grids(owner))
     text += fmt::format(" + {} x {}", fitted.curve.points(), fitted.lines);
   return text;
 }

@@ -62,6 +62,18 @@ constexpr array grid_variants{
     Variant{"rectangle", "a rectangle with equally spaced points", rectangle_keys},
     Variant{"mapped", "the unit square mapped by a formula", mapped_keys},
 };
+constexpr array block_keys{
+    Key{.name = "spacing",
+        .meaning = "mean distance of points (in place of `points`)",
+        .unit = "length",
+        .fallback = "from `points`",
+        .range = positive},
+};
+constexpr array solid_grid_variants{
+    grid_variants[0],
+    grid_variants[1],
+    Variant{"block", "of a solid with a `shape` of four straight sides: from corner to corner", block_keys},
+};
 // ---- the gas
 
 constexpr array refine_keys{
@@ -249,8 +261,10 @@ constexpr array fluid_keys{
 
 }  // namespace
 
-constinit const Section grid_section{
-    .title = "A component grid", .keys = shake_keys, .variants = grid_variants, .default_kind = "rectangle"};
+constinit const Section grid_section{.title = "The grid of a solid",
+                                     .keys = shake_keys,
+                                     .variants = solid_grid_variants,
+                                     .default_kind = "rectangle"};
 
 constinit const Section gas_boundary_section{
     .title = "A side of the gas", .keys = {}, .variants = gas_boundary_variants, .words = gas_boundary_words};

@@ -124,7 +124,12 @@ std::optional<CrowdedCorner> crowded_corner(ConstFieldView x, Side curve) {
   return worst;
 }
 
-std::optional<CrowdedCorner> most_crowded_bend(ConstFieldView x, Side curve, std::span<const int> corners) {
+namespace {
+
+/// Of the points next to corners, or of all others.
+std::optional<CrowdedCorner> most_crowded(ConstFieldView x, Side curve, std::span<const int> corners,
+                                          bool at_corners) {
+  const double least = at_corners ? least_share_of_elastic_corners : least_share_of_bends;
   const int period = x.layout.n1 - 1;
   const auto is_beside_corner = [&](int i) {
     return std::ranges::any_of(corners, [&](int corner) {
@@ -134,11 +139,22 @@ std::optional<CrowdedCorner> most_crowded_bend(ConstFieldView x, Side curve, std
   };
   std::optional<CrowdedCorner> worst;
   for (int i = 0; i < x.layout.n1; ++i) {
-    if (is_beside_corner(i)) continue;
-    const CrowdedCorner here = crowd_at(x, curve, i, least_share_of_bends);
+    if (is_beside_corner(i) != at_corners) continue;
+    const CrowdedCorner here = crowd_at(x, curve, i, least);
     if (here.part < (worst ? worst->part : std::numeric_limits<double>::infinity())) worst = here;
   }
   return worst;
+}
+
+}  // namespace
+
+std::optional<CrowdedCorner> most_crowded_bend(ConstFieldView x, Side curve, std::span<const int> corners) {
+  return most_crowded(x, curve, corners, false);
+}
+
+std::optional<CrowdedCorner> most_crowded_elastic_corner(ConstFieldView x, Side curve,
+                                                         std::span<const int> corners) {
+  return most_crowded(x, curve, corners, true);
 }
 
 SlantedLine most_slanted_line(ConstFieldView x, Side curve) {

@@ -43,6 +43,9 @@ struct CrowdedCorner {
 /// whose ghosts would change places otherwise: there the gas grows out of bounds with less than a half, and
 /// a body that yields to it earlier. A margin for bodies that bend is included.
 inline constexpr double least_share = 0.1, least_share_of_bends = 0.55;
+/// At sharp corners of elastic bodies: with 0.6 a shock makes the gas at the corner grow out of bounds within some
+/// hundred steps, with 0.65 it does not (docs/theory_grids.md, "Corners").
+inline constexpr double least_share_of_elastic_corners = 0.7;
 
 /// The most crowded point of the curve on side `curve` (bottom or top) at which less than least_share is left.
 std::optional<CrowdedCorner> crowded_corner(ConstFieldView x, Side curve);
@@ -50,6 +53,10 @@ std::optional<CrowdedCorner> crowded_corner(ConstFieldView x, Side curve);
 /// The most crowded point of all that are not next to a corner, crowded or not; nothing where no line gets
 /// shorter.
 std::optional<CrowdedCorner> most_crowded_bend(ConstFieldView x, Side curve, std::span<const int> corners);
+
+/// The most crowded point of the corners of an elastic body and those next to them.
+std::optional<CrowdedCorner> most_crowded_elastic_corner(ConstFieldView x, Side curve,
+                                                         std::span<const int> corners);
 
 /// Where lines leave a curve so slantingly, as at a wall that it meets at a flat angle, that a ghost point
 /// lies beside another point of the curve than its own.

@@ -31,7 +31,9 @@ def _outline(options):
             raise UserMistake("--straight is about the points of an outline; add --outline FILE")
         return outline.Outline(radius=0.5 * (options.size or SIZE))
     found = outline.read(options.outline, options.straight)
-    return outline.scaled(found, options.size) if options.size else found
+    if options.size:
+        found = outline.scaled(found, options.size)
+    return outline.from_its_foot(found) if options.on_wall and options.straight else found
 
 
 def problem_of(options):
@@ -45,7 +47,7 @@ def problem_of(options):
         chosen["p"] = options.pressure
     if chosen.get("flow") == "stream":
         chosen.setdefault("mach", 0.5)
-    problem = Problem(name=Path(options.name).stem, outline=_outline(options), straight=options.straight, fixed=options.fixed,
+    problem = Problem(name=Path(options.name).stem, outline=_outline(options), straight=options.straight, fixed=options.fixed, on_wall=options.on_wall,
                       material=materials.material_of(options.material or "aluminium"), **chosen)
     problem.check()
     return problem

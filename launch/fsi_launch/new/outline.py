@@ -71,6 +71,25 @@ def scaled(outline, size):
     return Outline(None, tuple((factor * x, factor * y) for x, y in outline.points), factor * outline.radius)
 
 
+def is_block(outline):
+    """Are its points the corners of a body with four sides, none of them hollow?"""
+    points = outline.points
+    turns = [(b[0] - a[0]) * (c[1] - b[1]) - (b[1] - a[1]) * (c[0] - b[0])
+             for a, b, c in zip(points, points[1:] + points[:1], points[2:] + points[:2])]
+    return len(points) == 4 and (min(turns) > 0 or max(turns) < 0)
+
+
+def from_its_foot(outline):
+    """The same corners, the two lowest of them, on which the body stands, at the ends. Throws UserMistake."""
+    points, low = outline.points, outline.box()[2]
+    near = 1e-9 * outline.size()
+    for k in range(len(points)):
+        turned = points[k:] + points[:k]
+        if turned[0][1] - low <= near and turned[-1][1] - low <= near:
+            return Outline(outline.path, tuple((x, low if y - low <= near else y) for x, y in turned), outline.radius)
+    raise UserMistake("--on-wall: the outline has no level edge at its lowest point on which it could stand")
+
+
 def shortest_edge(outline):
     following = outline.points[1:] + outline.points[:1]
     return min(((a[0] - b[0]) ** 2 + (a[1] - b[1]) ** 2) ** 0.5 for a, b in zip(outline.points, following))

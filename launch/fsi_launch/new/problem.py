@@ -28,6 +28,7 @@ class Problem:
     gamma: float = 1.4
     law: str = "neo_hookean"
     fixed: bool = False
+    on_wall: bool = False       # stands on the lower wall of the gas, clamped
     end: float = None           # of the run; None: chosen
     cells: int = 20             # along the body
 
@@ -45,6 +46,11 @@ class Problem:
         if self.fixed and self.law != "rigid":
             raise UserMistake("--fixed holds a rigid body; add --law rigid")
 
+        if self.on_wall and not self.straight:
+            raise UserMistake("--on-wall is for a body with straight edges; add --outline FILE --straight")
+        if self.on_wall and self.law == "rigid" and not self.fixed:
+            raise UserMistake("--on-wall: nothing would hold a rigid body on the wall; add --fixed")
+
     def sound(self):
         """Speed of sound of the gas at rest [m/s]."""
         return math.sqrt(self.gamma * self.p / self.rho)
@@ -59,7 +65,7 @@ class Problem:
         length, step = self.outline.size(), 5 * self.spacing()
         def down(value):
             return step * math.floor(value / step + 1e-9)
-        return (down(x_low - BEFORE * length), -down(-x_high - BEHIND * length), down(y_low - BESIDE * length),
+        return (down(x_low - BEFORE * length), -down(-x_high - BEHIND * length), y_low if self.on_wall else down(y_low - BESIDE * length),
                 -down(-y_high - BESIDE * length))
 
     def shock(self):

@@ -43,9 +43,9 @@ fluid:
 """
 
 SHOCK_SIDES = """  boundary:
-    left: {kind: far_field, state: {rho: rho_1, v: [v_1, 0], p: p_1}}    # the gas behind the shock; waves from inside leave
-    right: {kind: far_field, state: {rho: rho_0, v: [0, 0], p: p_0}}
-    bottom: outflow       # or slip_wall: a duct
+    left: {{kind: far_field, state: {{rho: rho_1, v: [v_1, 0], p: p_1}}}}    # the gas behind the shock; waves from inside leave
+    right: {{kind: far_field, state: {{rho: rho_0, v: [0, 0], p: p_0}}}}
+    bottom: {bottom}
     top: outflow
   initial:
     rho: "x < x_shock ? rho_1 : rho_0"
@@ -54,11 +54,11 @@ SHOCK_SIDES = """  boundary:
 """
 
 STREAM_SIDES = """  boundary:               # the stream outside, through which waves leave
-    left: {kind: far_field, state: {rho: rho_0, v: [v_1, 0], p: p_0}}
-    right: {kind: far_field, state: {rho: rho_0, v: [v_1, 0], p: p_0}}
-    bottom: {kind: far_field, state: {rho: rho_0, v: [v_1, 0], p: p_0}}    # or slip_wall: a wind tunnel
-    top: {kind: far_field, state: {rho: rho_0, v: [v_1, 0], p: p_0}}
-  initial: {rho: rho_0, v: [v_1, 0], p: p_0}
+    left: {{kind: far_field, state: {{rho: rho_0, v: [v_1, 0], p: p_0}}}}
+    right: {{kind: far_field, state: {{rho: rho_0, v: [v_1, 0], p: p_0}}}}
+    bottom: {bottom}
+    top: {{kind: far_field, state: {{rho: rho_0, v: [v_1, 0], p: p_0}}}}
+  initial: {{rho: rho_0, v: [v_1, 0], p: p_0}}
 """
 
 BODY = """
@@ -68,7 +68,7 @@ solids:
     rho: rho_bar
     lambda: E * nu / ((1 + nu) * (1 - 2 * nu))
     mu: E / (2 * (1 + nu))
-{motion}    shape: {shape}
+{motion}    shape: {shape}{stands}
 
 output:
   every: {every:.3g}{every_space}# fields [s]
@@ -86,10 +86,12 @@ def _shape(problem, path):
         return f"{{kind: circle, radius: {outline.radius:g}}}"
     if not problem.straight:
         return f"{{kind: spline, file: {path}}}    # a smooth curve through the points"
-    from fsi_launch.new.outline import shortest_edge
+    from fsi_launch.new.outline import is_block, shortest_edge
     corners = ", ".join(f"[{x:.9g}, {y:.9g}]" for x, y in outline.points)
-    radius = min(2 * problem.spacing(), 0.25 * shortest_edge(outline))
-    return f"\n      kind: polygon\n      corners: [{corners}]\n      radius: {radius:.3g}       # of the rounded corners [m]"
+    radius = 0 if is_block(outline) else min(2 * problem.spacing(), 0.25 * shortest_edge(outline))
+    meaning = "of the rounded corners [m]" if radius else "sharp corners"
+    walls = "\n      walls: [bottom, bottom]    # on which its first and its last corner stand" if problem.on_wall else ""
+    return f"\n      kind: polygon\n      corners: [{corners}]\n      radius: {radius:.3g}       # {meaning}{walls}"
 
 
 def write(problem, file, path):
@@ -106,9 +108,14 @@ def write(problem, file, path):
         "p": problem.p, "sound": problem.sound(), "mach": problem.mach, "shock": problem.shock(), "material": material,
         "note": f" ({material.note})" if material.note else "", "factor": 0.1 / h, "h": h, "space": " " * max(1, 9 - len(factor)),
         "cells": round(problem.outline.size() / h), "end": end, "x_low": x_low, "x_high": x_high, "y_low": y_low, "y_high": y_high}
+    sides = SHOCK_SIDES if shock else STREAM_SIDES
+    bottom = ("outflow       # or slip_wall: a duct" if shock
+              else "{kind: far_field, state: {rho: rho_0, v: [v_1, 0], p: p_0}}    # or slip_wall: a wind tunnel")
+    clamped = problem.on_wall and problem.law != "rigid"
     body = BODY.format(
+        stands="\n    boundary: {left: free, right: free, bottom: clamped, top: free}    # bottom: its foot" if clamped else "",
         law=problem.law, space=" " * max(1, 15 - len(problem.law)), shape=_shape(problem, path), every=end / OUTPUTS,
         every_space=" " * max(1, 15 - len(every)), motion="    motion: fixed         # free: the gas moves it\n" if problem.fixed else "",
         x_probe=0.5 * sum(problem.outline.box()[:2]), y_probe=0.5 * (problem.outline.box()[3] + y_high))
     return (HEAD.format(**numbers) + (SHOCK if shock else STREAM).format(**numbers) + SOLID_NUMBERS.format(**numbers)
-            + RESOLUTION.format(**numbers) + (SHOCK_SIDES if shock else STREAM_SIDES) + body)
+            + RESOLUTION.format(**numbers) + sides.format(bottom="slip_wall" if problem.on_wall else bottom) + body)

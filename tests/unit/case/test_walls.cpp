@@ -108,12 +108,12 @@ std::string number_after(const std::string& message, const std::string& words) {
   return message.substr(from, message.find('`', from) - from);
 }
 
-TEST(Walls, AnElasticBodyHasNoSharpCornersAndTheRadiusThatIsNamedWorks) {
+TEST(Walls, AnElasticBodyWithMoreThanFourSidesHasNoSharpCornersAndTheRadiusThatIsNamedWorks) {
   const auto box = [](const std::string& radius) {
     return "time: {end: 1}\ngrid: {factor: 2}\nsolids:\n  box:\n    law: neo_hookean\n    rho: 1\n    "
            "lambda: 1\n"
            "    mu: 1\n    body_fitted: {boundary: free}\n"
-           "    shape: {kind: polygon, corners: [[0, 0], [1, 0], [1, 0.7], [0, 0.7]], radius: " +
+           "    shape: {kind: polygon, corners: [[0, 0], [1, 0], [1, 0.7], [0.5, 0.9], [0, 0.7]], radius: " +
            radius + "}\n";
   };
   const std::string message = mistake_in(box("0"));

@@ -15,12 +15,12 @@ from fsi_launch.failure import UserMistake
 from fsi_launch.new import materials, outline, questions, text
 from fsi_launch.new.problem import Problem
 
-OPTIONS = ("name", "outline", "straight", "size", "flow", "mach", "density", "pressure", "gamma", "material", "law", "fixed", "end",
+OPTIONS = ("name", "outline", "straight", "on_wall", "size", "flow", "mach", "density", "pressure", "gamma", "material", "law", "fixed", "end",
            "cells")
 
 
 def options(**given):
-    return SimpleNamespace(**{name: None for name in OPTIONS} | {"name": "case", "straight": False, "fixed": False} | given)
+    return SimpleNamespace(**{name: None for name in OPTIONS} | {"name": "case", "straight": False, "fixed": False, "on_wall": False} | given)
 
 
 def problem(**given):
@@ -101,7 +101,7 @@ class Sizes(unittest.TestCase):
 
     def test_mistakes(self):
         for given in ({"mach": 1.0}, {"mach": -1.0, "flow": "stream"}, {"density": 0.0}, {"gamma": 1.0}, {"cells": 2}, {"size": 0.0},
-                      {"fixed": True}, {"straight": True}, {"end": float("nan")}):
+                      {"fixed": True}, {"straight": True}, {"on_wall": True}, {"end": float("nan")}):
             with self.subTest(given), self.assertRaises(UserMistake):
                 problem(**given)
 
@@ -118,6 +118,33 @@ class Text(unittest.TestCase):
         one = Problem("case", outline.Outline(Path("o.csv"), points), materials.TABLE["steel"], straight=True)
         shape = yaml.safe_load(text.write(one, "case.yaml", "o.csv"))["solids"]["body"]["shape"]
         self.assertEqual((shape["kind"], [tuple(corner) for corner in shape["corners"]]), ("polygon", list(points)))
+
+
+class OnAWall(InScratch):
+    def shape_of(self, content, **given):
+        (self.folder / "o.csv").write_text(content)
+        case = yaml.safe_load(text.write(problem(outline=str(self.folder / "o.csv"), straight=True, **given), "case.yaml", None))
+        return case, case["solids"]["body"]
+
+    def test_a_bar_has_sharp_corners_and_a_house_round_ones(self):
+        self.assertEqual(self.shape_of("0,0\n.1,0\n.1,.2\n0,.2\n")[1]["shape"]["radius"], 0)
+        for more in ("0,0\n.1,0\n.1,.2\n.05,.3\n0,.2\n", "0,0\n.1,0\n.02,.02\n0,.1\n"):
+            self.assertGreater(self.shape_of(more)[1]["shape"]["radius"], 0)
+
+    def test_the_lowest_edge_is_the_foot(self):
+        for content in ("0,-1\n1,-1\n1,2\n0,2\n", "1,2\n1,-1\n0,-1\n0,2\n", "0,2\n0,-1\n1,-1\n1,2\n"):
+            case, body = self.shape_of(content, on_wall=True)
+            corners = body["shape"]["corners"]
+            self.assertEqual((corners[0][1], corners[-1][1]), (-1, -1))
+            self.assertEqual({tuple(corner) for corner in corners}, {(0, -1), (1, -1), (1, 2), (0, 2)})
+            self.assertEqual(body["shape"]["walls"], ["bottom", "bottom"])
+            self.assertEqual(body["boundary"]["bottom"], "clamped")
+            self.assertEqual((case["fluid"]["grid"]["y"][0], case["fluid"]["boundary"]["bottom"]), (-1, "slip_wall"))
+
+    def test_without_a_level_foot_it_is_refused(self):
+        with self.assertRaises(UserMistake) as caught:
+            self.shape_of("0,0\n1,0.1\n1,2\n0,2\n", on_wall=True)
+        self.assertIn("level edge", str(caught.exception))
 
 
 class Questions(InScratch):

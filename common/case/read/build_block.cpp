@@ -1,0 +1,76 @@
+#include "common/case/read/build_block.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "common/case/grids/block.hpp"
+#include "common/case/read/build_shape.hpp"
+
+namespace fsi {
+
+namespace {
+
+using config::fail;
+using config::Node;
+
+std::array<int, 2> points_of_block(const Node& grid, const std::array<Vec2, 4>& corners,
+                                   const std::string& path) {
+  const Node *points = grid.find("points"), *spacing = grid.find("spacing");
+  if ((points == nullptr) == (spacing == nullptr))
+    fail(grid.place, path, "give `points: [.., ..]` or `spacing`, one of them");
+  if (spacing != nullptr) return block_points(corners, *spacing->number);
+  return {static_cast<int>(*points->items[0].number), static_cast<int>(*points->items[1].number)};
+}
+
+GridSpec build_block(const Reader& reader, const Owner& owner, const Node& node) {
+  const std::string path = owner.path + ".grid";
+  const Node* shape = owner.node.find("shape");
+  if (shape == nullptr)
+    fail(node.place, path, "a block lies between the sides of a `shape`, which is missing");
+  if (const Node* turn = node.find("rotation"))
+    fail(turn->place, path + ".rotation", "a block lies as its `shape` does; leave it out");
+  constexpr int samples = 1200;
+  const BlockCorners corners = block_corners(build_curve(reader, *shape, owner.path + ".shape", samples));
+  if (!corners.at)
+    fail(node.place, path,
+         fmt::format(
+             "`kind: block` is for an outline of four straight sides with sharp corners, but {}; leave "
+             "out `grid`, which is then chosen",
+             corners.why_not));
+  GridSpec grid;
+  grid.kind = GridSpec::Kind::block;
+  grid.name = owner.name;
+  grid.corners = *corners.at;
+  Reader::assign(node, "name", grid.name);
+  const auto [n1, n2] = points_of_block(node, *corners.at, path);
+  grid.n1 = n1;
+  grid.n2 = n2;
+  return grid;
+}
+
+}  // namespace
+
+GridSpec build_solid_grid(const Reader& reader, const Owner& owner) {
+  const Node* node = owner.node.find("grid");
+  const Node* kind = node == nullptr ? nullptr : node->find("kind");
+  return kind != nullptr && kind->text == "block" ? build_block(reader, owner, *node)
+                                                  : build_grid(reader, owner);
+}
+
+void complete_block(const Node& node, const std::string& path, SolidSpec& solid) {
+  if (!is_block(solid)) return;
+  if (const Node* fitted = node.find("body_fitted")) {
+    for (const config::Entry& entry : fitted->entries) {
+      if (entry.key == "boundary") continue;
+      fail(entry.place, fmt::format("{}.body_fitted.{}", path, entry.key),
+           "belongs to a grid along the outline, but a block has one grid; leave it out");
+    }
+  }
+  BodyFittedSpec& outline = solid.body_fitted.front();
+  outline.curve = block_outline(solid.grid, outline.curve);
+  for (const Side side : sides_along(outline.curve))
+    solid.boundary[static_cast<std::size_t>(side)] = outline.boundary[static_cast<std::size_t>(outline.side)];
+}
+
+}  // namespace fsi

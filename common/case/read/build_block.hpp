@@ -1,0 +1,15 @@
+#pragma once
+/// A solid whose one grid lies between the four straight sides of its outline: `grid: {kind: block, points: [.., ..]}`.
+
+#include "common/case/read/build_domain.hpp"
+
+namespace fsi {
+
+/// The `grid` of a solid. @throws UserMistake
+GridSpec build_solid_grid(const Reader& reader, const Owner& owner);
+
+/// The outline of a block gets the points of its grid, and the sides of the grid the conditions of the outline; other
+/// solids stay as they are. @throws UserMistake for keys of a grid along the outline, which a block has not
+void complete_block(const config::Node& node, const std::string& path, SolidSpec& solid);
+
+}  // namespace fsi
