@@ -56,6 +56,30 @@ constexpr bool takes_reference(const Key& key) {
   return std::ranges::equal(key.words, or_reference);
 }
 
+/// Density, velocity, and pressure or temperature.
+inline constexpr std::array gas_state_keys{
+    Key{.name = "rho",
+        .type = Type::field,
+        .meaning = "density",
+        .unit = "mass/volume",
+        .required = true,
+        .range = positive},
+    Key{.name = "v", .type = Type::vector, .meaning = "velocity", .unit = "velocity", .required = true},
+    Key{.name = "p",
+        .type = Type::field,
+        .meaning = "pressure (or give T)",
+        .unit = "pressure",
+        .fallback = "rho T",
+        .range = positive},
+    Key{.name = "T",
+        .type = Type::field,
+        .meaning = "temperature p / rho, in place of p",
+        .unit = "pressure volume/mass",
+        .fallback = "p / rho",
+        .range = positive},
+};
+inline constexpr Section gas_state_section{.title = "A state of the gas", .keys = gas_state_keys};
+
 /// The key of boundaries of the gas that are told a state.
 inline constexpr std::array gas_boundary_state{
     Key{.name = "state",

@@ -85,7 +85,6 @@ constexpr std::span<const std::string_view> words_of_key(const Key& key) {
 
 extern const Section grid_section;            ///< of gas and solids
 extern const Section shape_section;           ///< a curve
-extern const Section gas_state_section;       ///< rho, v, p or T
 extern const Section gas_boundary_section;    ///< one side of the gas
 extern const Section solid_boundary_section;  ///< one side of a solid
 extern const Section gas_fitted_section;      ///< a body-fitted grid of the gas

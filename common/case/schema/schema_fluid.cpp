@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "common/case/case.hpp"
+#include "common/case/schema/boundary_facts.hpp"
 #include "common/case/schema/boundary_words.hpp"
 #include "common/case/schema/schema.hpp"
 #include "fluid_solver/boundary/every_boundary.hpp"
@@ -127,28 +128,6 @@ constexpr Section gas_grid_section{.title = "The grid of the gas",
                                    .keys = gas_grid_keys,
                                    .variants = grid_variants,
                                    .default_kind = "rectangle"};
-
-constexpr array gas_state_keys{
-    Key{.name = "rho",
-        .type = Type::field,
-        .meaning = "density",
-        .unit = "mass/volume",
-        .required = true,
-        .range = positive},
-    Key{.name = "v", .type = Type::vector, .meaning = "velocity", .unit = "velocity", .required = true},
-    Key{.name = "p",
-        .type = Type::field,
-        .meaning = "pressure (or give T)",
-        .unit = "pressure",
-        .fallback = "rho T",
-        .range = positive},
-    Key{.name = "T",
-        .type = Type::field,
-        .meaning = "temperature p / rho, in place of p",
-        .unit = "pressure volume/mass",
-        .fallback = "p / rho",
-        .range = positive},
-};
 
 /// What every kind tells, in the order of the case file's documentation.
 constexpr array gas_boundary_facts = []<class... Kind>(std::type_identity<std::variant<Kind...>>) {
@@ -274,8 +253,6 @@ const GasBoundaryFacts& gas_boundary(BoundaryKind kind) {
   return gas_boundary_facts[static_cast<std::size_t>(found -
                                                      fluid::boundary_kinds.begin())];  // else that of Idle
 }
-
-constinit const Section gas_state_section{.title = "A state of the gas", .keys = gas_state_keys};
 
 constinit const Section fluid_section{.title = "The gas", .keys = fluid_keys};
 

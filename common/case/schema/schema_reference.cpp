@@ -1,5 +1,6 @@
 #include <array>
 
+#include "common/case/schema/boundary_facts.hpp"
 #include "common/case/schema/schema.hpp"
 
 namespace fsi::schema {
