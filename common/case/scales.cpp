@@ -2,19 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "common/case/grids/grid_points.hpp"
 
 namespace fsi {
 
 double size_of(const GridSpec& grid) {
   if (grid.kind == GridSpec::Kind::rectangle) return std::max(grid.x_b - grid.x_a, grid.y_b - grid.y_a);
-  double size = 0;
-  for (const Expression* component : {&grid.map.c1, &grid.map.c2}) {
-    const auto [low, high] =
-        std::minmax({component->at_parameters(0, 0, 0), component->at_parameters(1, 0, 0),
-                     component->at_parameters(0, 1, 0), component->at_parameters(1, 1, 0)});
-    size = std::max(size, high - low);
+  Vec2 low = place(grid, 0, 0, 0), high = low;
+  for (const auto& [r, s] : {std::pair{1, 0}, {0, 1}, {1, 1}}) {
+    low = low.cwiseMin(place(grid, r, s, 0));
+    high = high.cwiseMax(place(grid, r, s, 0));
   }
-  return size;
+  return (high - low).maxCoeff();
 }
 
 double crossing_time_of(const SolidSpec& solid) {

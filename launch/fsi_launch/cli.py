@@ -162,9 +162,10 @@ def _add_new(verbs):
                             "terminal it asks for what the options leave open.")
     verb.add_argument("name", metavar="NAME", help="of the case; NAME.yaml is written, in this folder or where NAME says")
     verb.add_argument("--outline", metavar="FILE", help="points of the body's outline in their order, x, y on each line (default: a circle)")
-    verb.add_argument("--straight", action="store_true", help="straight edges between the points, in place of a smooth curve; corners are "
-                      "sharp where there are four, a little rounded where there are more")
-    verb.add_argument("--on-wall", action="store_true", help="the body stands with its lowest edge on the lower wall of the gas, clamped")
+    verb.add_argument("--straight", action="store_true", help="straight edges between the points, corners a little rounded, in place of a "
+                      "smooth curve")
+    verb.add_argument("--on-wall", action="store_true", help="the body stands with its lowest edge on the lower wall of the gas, clamped; "
+                      "an elastic one of four corners keeps them sharp")
     verb.add_argument("--size", metavar="L", type=float, help="length of the body [m], to which an outline is scaled (default: the file's "
                       "numbers; a circle: 0.1)")
     verb.add_argument("--flow", choices=FLOWS, help="a shock that runs against the body (default), or a stream around it")

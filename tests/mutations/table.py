@@ -102,7 +102,7 @@ MUTATIONS = [
      "level.to_prolong = parents_of(scene, l, level.prolonged);", "level.to_prolong = scene.share.nothing_yet();", "test_fluid",
      "LevelsOnRanks*"),
     ("levels on ranks: what averages are made of is not brought", "fluid_solver/levels/levels_on_ranks.cpp",
-     "level.to_restrict = averages_of(scene, l, level.restricted);", "level.to_restrict = scene.share.nothing_yet();", "test_fluid",
+     "need_averages(scene, l, at(l).restricted, *delivery);", ";", "test_fluid",
      "LevelsOnRanks*"),
     ("ranks: runs of one's own rows alone", "fluid_solver/component.cpp",
      "for (const grid::Interval& run : discretised_.row(j)) row.push_back({run.begin, run.end});",

@@ -88,7 +88,8 @@ def _shape(problem, path):
         return f"{{kind: spline, file: {path}}}    # a smooth curve through the points"
     from fsi_launch.new.outline import is_block, shortest_edge
     corners = ", ".join(f"[{x:.9g}, {y:.9g}]" for x, y in outline.points)
-    radius = 0 if is_block(outline) else min(2 * problem.spacing(), 0.25 * shortest_edge(outline))
+    sharp = problem.on_wall and problem.law != "rigid" and is_block(outline)
+    radius = 0 if sharp else min(2 * problem.spacing(), 0.25 * shortest_edge(outline))
     meaning = "of the rounded corners [m]" if radius else "sharp corners"
     walls = "\n      walls: [bottom, bottom]    # on which its first and its last corner stand" if problem.on_wall else ""
     return f"\n      kind: polygon\n      corners: [{corners}]\n      radius: {radius:.3g}       # {meaning}{walls}"

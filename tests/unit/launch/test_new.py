@@ -126,10 +126,16 @@ class OnAWall(InScratch):
         case = yaml.safe_load(text.write(problem(outline=str(self.folder / "o.csv"), straight=True, **given), "case.yaml", None))
         return case, case["solids"]["body"]
 
-    def test_a_bar_has_sharp_corners_and_a_house_round_ones(self):
-        self.assertEqual(self.shape_of("0,0\n.1,0\n.1,.2\n0,.2\n")[1]["shape"]["radius"], 0)
-        for more in ("0,0\n.1,0\n.1,.2\n.05,.3\n0,.2\n", "0,0\n.1,0\n.02,.02\n0,.1\n"):
-            self.assertGreater(self.shape_of(more)[1]["shape"]["radius"], 0)
+    def test_an_elastic_bar_has_sharp_corners_and_a_house_round_ones(self):
+        bar, house = "0,0\n.1,0\n.1,.2\n0,.2\n", "0,0\n.1,0\n.1,.2\n.05,.3\n0,.2\n"
+        self.assertEqual(self.shape_of(bar, on_wall=True)[1]["shape"]["radius"], 0)
+        for content, given in ((house, {"on_wall": True}), (bar, {}), (bar, {"on_wall": True, "law": "rigid", "fixed": True})):
+            self.assertGreater(self.shape_of(content, **given)[1]["shape"]["radius"], 0)
+
+    def test_four_corners_are_a_block_where_none_is_hollow(self):
+        square, arrow = ((0, 0), (1, 0), (1, 1), (0, 1)), ((0, 0), (1, 0), (0.2, 0.2), (0, 1))
+        for points, block in ((square, True), (square[::-1], True), (arrow, False), (square[:3], False)):
+            self.assertEqual(outline.is_block(outline.Outline(Path("o.csv"), points)), block)
 
     def test_the_lowest_edge_is_the_foot(self):
         for content in ("0,-1\n1,-1\n1,2\n0,2\n", "1,2\n1,-1\n0,-1\n0,2\n", "0,2\n0,-1\n1,-1\n1,2\n"):
