@@ -5,7 +5,7 @@
 
 namespace fsi::solid {
 
-JoinedSides::JoinedSides(std::vector<Stretch> stretches, std::vector<int> points, bool closed)
+JoinedSides::JoinedSides(std::vector<Stretch> stretches, const std::vector<int>& points, bool closed)
     : stretches_(std::move(stretches)), closed_(closed), starts_{0}, values_(stretches_.size()) {
   for (const int n : points) starts_.push_back(starts_.back() + static_cast<std::size_t>(n) - 1);
 }

@@ -25,7 +25,7 @@ struct Stretch {
 class JoinedSides {
  public:
   /// @param points of each side, in the order of the interface  @param closed the last side ends where the first begins
-  JoinedSides(std::vector<Stretch> stretches, std::vector<int> points, bool closed);
+  JoinedSides(std::vector<Stretch> stretches, const std::vector<int>& points, bool closed);
 
   std::span<const Stretch> stretches() const { return stretches_; }
   bool closed() const { return closed_; }

@@ -69,7 +69,7 @@ double area_within(const CurveSpec& curve) {
   double twice = 0;
   for (int i = 0; i < n; ++i) {
     const auto k = static_cast<std::size_t>(i), next = static_cast<std::size_t>((i + 1) % n);
-    const std::size_t y = static_cast<std::size_t>(n);
+    const auto y = static_cast<std::size_t>(n);
     twice += curve.x[k] * curve.x[y + next] - curve.x[next] * curve.x[y + k];
   }
   return 0.5 * std::abs(twice);
