@@ -150,7 +150,7 @@ class SolidBody {
       stretches.push_back({.side = side, .against = runs_against_outline(side)});
       points.push_back(solver_.grid().side_size(side));
     }
-    meetings_.push_back({.along = {std::move(stretches), std::move(points), outline.curve.closed()},
+    meetings_.push_back({.along = {std::move(stretches), points, outline.curve.closed()},
                          .grid = 0,
                          .name = interface_name(spec, condition.fluid)});
   }
