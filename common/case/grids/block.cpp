@@ -101,8 +101,8 @@ std::array<int, 2> block_points(const std::array<Vec2, 4>& corners, double h) {
   const auto points = [&](std::size_t side, std::size_t opposite) {
     const double length = 0.5 * ((corners[(side + 1) % 4] - corners[side]).norm() +
                                  (corners[(opposite + 1) % 4] - corners[opposite]).norm());
-    constexpr int fewest = 4;  // cells
-    return std::max(fewest, static_cast<int>(std::lround(length / h))) + 1;
+    constexpr double fewest = 4, most = 1e8;  // cells
+    return static_cast<int>(std::lround(std::clamp(length / h, fewest, most))) + 1;
   };
   return {points(0, 2), points(1, 3)};
 }

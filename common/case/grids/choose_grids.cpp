@@ -208,6 +208,15 @@ void choose_for_gas(Node& root, std::size_t index, const Scope& scope, std::vect
   if (add_wall_strips(*list, draft.fluids[index], open_rings(*list))) draft = build_case(root, scope);
   const std::vector<std::size_t> open = open_rings(*list);
   const FluidSpec& spec = draft.fluids[index];
+  for (const BodyFittedSpec& ring : spec.body_fitted) {
+    constexpr int most = 20'000;  // their distances from each other are looked at in pairs
+    if (ring.curve.points() > most)
+      config::fail(
+          list->place, "body_fitted",
+          fmt::format("an outline would have {} points, more than {}: is the body much larger than the "
+                      "grid's spacing is meant for? take grid.factor smaller",
+                      ring.curve.points(), most));
+  }
   const GasGrids chosen = fit_rings(spec.grid, spec.body_fitted, open, finer);
   if (finer) {
     put(background, "spacing", number_node(chosen.background, background.place));

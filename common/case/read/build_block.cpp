@@ -14,6 +14,9 @@ namespace {
 using config::fail;
 using config::Node;
 
+/// Of a body; its width is looked for among all pairs of them.
+constexpr int most_points_around = 20'000;
+
 std::array<int, 2> points_of_block(const Node& grid, const std::array<Vec2, 4>& corners,
                                    const std::string& path) {
   const Node *points = grid.find("points"), *spacing = grid.find("spacing");
@@ -44,6 +47,12 @@ GridSpec build_block(const Reader& reader, const Owner& owner, const Node& node)
   grid.corners = *corners.at;
   Reader::assign(node, "name", grid.name);
   const auto [n1, n2] = points_of_block(node, *corners.at, path);
+  if (2 * (n1 + n2) > most_points_around)
+    fail(
+        node.place, path,
+        fmt::format(
+            "{} x {} points are more than {} around the body; take a larger spacing (or grid.factor smaller)",
+            n1, n2, most_points_around));
   grid.n1 = n1;
   grid.n2 = n2;
   return grid;

@@ -106,6 +106,14 @@ TEST(Blocks, ThinOnesHaveFourCellsAcrossAndGivenPointsStay) {
   EXPECT_EQ(spaced.n2, 6);
 }
 
+TEST(Blocks, TooManyPointsAreRefusedAtOnce) {
+  for (const char* grid : {"spacing: 1e-6", "spacing: 1e-300", "points: [12000, 5]"}) {
+    const std::string message =
+        mistake_in(block_case(square, fmt::format("    grid: {{kind: block, {}}}\n", grid)));
+    EXPECT_NE(message.find("around the body"), std::string::npos) << grid << ": " << message;
+  }
+}
+
 TEST(Blocks, LinesOfTheGasAreCloseAtElasticCorners) {
   const auto lines = [](const std::string& spacing) {
     return block_case("corners: [[-0.5, -0.5], [0.5, -0.5], [0.5, 0.5], [-0.5, 0.5]]", "",
