@@ -1,5 +1,6 @@
 # cmake -D ROOT=.. -D FILE=.. -D VERSION=.. -D COMPILER=.. -D BUILD_TYPE=.. -D MARCH=.. -D INSTRUCTION_SET=.. -P this
-# Writes FILE as JSON: the values above, the commit of ROOT and whether files that git knows differ from it. Both are null where
+# Writes FILE as JSON: the values above, the commit of ROOT and whether files that git knows differ from it, those of docs/
+# left out: nothing is built from them, and what records results writes there between two runs. Both are null where
 # ROOT is no git repository of its own (an unpacked archive, a copy within somebody else's repository) or there is no git.
 # A FILE that would stay the same is not touched.
 cmake_minimum_required(VERSION 3.25)
@@ -14,7 +15,8 @@ if(GIT)
     RESULT_VARIABLE code OUTPUT_VARIABLE answer ERROR_QUIET)
   if(code EQUAL 0 AND answer MATCHES "^\n([0-9a-f]+)\n$")  # the first line is empty at the top of a repository
     set(commit "\"${CMAKE_MATCH_1}\"")
-    execute_process(COMMAND ${git} status --porcelain --untracked-files=no OUTPUT_VARIABLE changes ERROR_QUIET)
+    execute_process(COMMAND ${git} status --porcelain --untracked-files=no -- :/ :!/docs
+      OUTPUT_VARIABLE changes ERROR_QUIET)
     if(changes)
       set(modified true)
     else()

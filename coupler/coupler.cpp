@@ -40,7 +40,7 @@ Coupler::Coupler(const CouplerOptions& options, std::span<const wire::Hello> hel
   }
   gases_ = participants_.size();
   for (const Solid& solid : solids_) participants_.push_back(solid.name);
-  bids_.resize(participants_.size());
+  proposals_.resize(participants_.size());
   answers_.resize(2 * interfaces_.size());
   moment_.t = options.start;
 }
@@ -113,7 +113,7 @@ Eigen::VectorXd Coupler::project_modes(Solid& solid) const {
   if (moment_.dt == 0) return Eigen::Map<const Eigen::VectorXd>(modal.q_dot.data(), modal.modes);
   Eigen::VectorXd q_dot = solid.modes.project(modal, sides, moment_.dt);
   if (q_dot.size() == 0) {
-    throw NumbersBroke(
+    throw Diverged(
         fmt::format("nothing resists one of its {} modes, no mass, no stiffness, no gas", modal.modes),
         {.step = moment_.step, .t = moment_.t, .program = solid.name, .interface = first.pair().name});
   }
@@ -123,13 +123,13 @@ Eigen::VectorXd Coupler::project_modes(Solid& solid) const {
 void Coupler::agree_on_time_step(std::span<const wire::PredictedInterface> predicted) {
   for (std::size_t k = 0; k < participants_.size(); ++k) {
     const auto state = std::ranges::find(predicted, participants_[k], &wire::PredictedInterface::from);
-    bids_[k] = {.from = participants_[k],
-                .dt = state->dt_bid,
-                .reason = state->dt_reason,
-                .may_substep = options_.multirate && k >= gases_};
+    proposals_[k] = {.from = participants_[k],
+                     .dt = state->proposed_dt,
+                     .reason = state->dt_reason,
+                     .may_substep = options_.multirate && k >= gases_};
   }
   if (moment_.dt == 0) shorten_first_step();
-  next_ = agreement_.agree(bids_);
+  next_ = agreement_.agree(proposals_);
 }
 
 /// A gas proposes its first step from waves alone: it does not know how its sides begin to move.
@@ -137,11 +137,12 @@ void Coupler::shorten_first_step() {
   for (std::size_t k = 0; k < gases_; ++k) {
     double share = 1;
     for (const InterfaceExchange& interface : interfaces_) {
-      if (interface.pair().fluid == bids_[k].from) share = std::min(share, interface.share_of_first_step());
+      if (interface.pair().fluid == proposals_[k].from)
+        share = std::min(share, interface.share_of_first_step());
     }
     if (share == 1) continue;
-    bids_[k].dt *= share;
-    bids_[k].reason = fmt::format("a side that begins to move {:.3g} times as fast as waves", 1 / share);
+    proposals_[k].dt *= share;
+    proposals_[k].reason = fmt::format("a side that begins to move {:.3g} times as fast as waves", 1 / share);
   }
 }
 

@@ -37,7 +37,7 @@ class Coupler {
 
   /// One exchange: projects every interface, agrees on the next step, commands the motion. Two answers per
   /// interface, to the gas and to the solid; they hold until the next call.
-  /// @throws NumbersBroke naming step, t, program, interface, point and quantity
+  /// @throws Diverged naming step, t, program, interface, point and quantity
   std::span<const wire::ProjectedInterface> step(std::span<const wire::PredictedInterface> predicted);
 
   /// The run ends with the next exchange.
@@ -65,7 +65,7 @@ class Coupler {
   /// The step agreed on in the last exchange.
   const AgreedStep& next() const { return next_; }
   /// What everybody proposed for it.
-  const std::vector<Bid>& bids() const { return bids_; }
+  const std::vector<Proposal>& proposals() const { return proposals_; }
   /// What the last exchange did, one per interface.
   std::vector<InterfaceReport> reports() const;
   /// For the monitor: values along each interface at the last exchange.
@@ -96,7 +96,7 @@ class Coupler {
   std::vector<Solid> solids_;
   std::vector<std::string> participants_;  ///< the gases first
   std::size_t gases_ = 0;                  ///< so many
-  std::vector<Bid> bids_;                  ///< of the participants
+  std::vector<Proposal> proposals_;        ///< of the participants
   std::vector<wire::ProjectedInterface> answers_;
   Moment moment_;
   AgreedStep next_;

@@ -86,7 +86,7 @@ Coupler coupler_of(const Case& problem, bus::CouplerSession& session) {
 }
 
 /// The programs that propose steps.
-std::vector<std::string> bidders(const Case& problem) {
+std::vector<std::string> proposers(const Case& problem) {
   std::vector<std::string> names;
   for (const FluidSpec& fluid : problem.fluids) names.push_back(fluid.name);
   for (const SolidSpec& solid : problem.solids) names.push_back(solid.name);
@@ -97,11 +97,11 @@ std::vector<std::string> columns_of(const Case& problem) {
   std::vector<std::string> columns{"step", "t [time]", "dt [time]"};
   for (const std::string& name : interface_names(problem)) {
     for (const char* quantity : {"velocity_jump [length/time]", "traction_jump [force/area]", "gap [length]",
-                                 "power [power/depth]"}) {
+                                 "power [power/depth]", "shear [force/area]", "p_max [force/area]"}) {
       columns.push_back(fmt::format("{}.{}", name, quantity));
     }
   }
-  for (const std::string& name : bidders(problem)) columns.push_back(name + ".dt_bid [time]");
+  for (const std::string& name : proposers(problem)) columns.push_back(name + ".proposed_dt [time]");
   columns.emplace_back("limited_by");
   return columns;
 }
@@ -114,7 +114,7 @@ CoupledRun::CoupledRun(const Setup& setup, io::Part& part)
       session_(join(setup)),
       coupler_(coupler_of(setup.problem, session_)),
       table_(setup.run_dir + "/interface.csv", columns_of(setup.problem), setup.opening()),
-      proposed_(bidders(setup.problem).size(), std::nan("")),
+      proposed_(proposers(setup.problem).size(), std::nan("")),
       progress_(setup.problem.time.end),
       checkpoints_(setup, part, [this](Archive& archive) { this->archive(archive); }),
       due_(setup.problem.output),
@@ -230,7 +230,8 @@ void CoupledRun::record() {
   for (const std::string& name : interface_names(setup_.problem)) {
     const auto report = std::ranges::find(reports, name, &InterfaceReport::name);
     if (report == reports.end()) continue;
-    row.insert(row.end(), {report->velocity_jump, report->traction_jump, report->gap, report->power});
+    row.insert(row.end(), {report->velocity_jump, report->traction_jump, report->gap, report->power,
+                           report->shear, report->p_max});
     extremes.max_velocity_jump = std::max(extremes.max_velocity_jump, report->velocity_jump);
     extremes.max_traction_jump = std::max(extremes.max_traction_jump, report->traction_jump);
     extremes.max_gap = std::max(extremes.max_gap, report->gap);
@@ -246,10 +247,10 @@ void CoupledRun::record() {
 
 void CoupledRun::note_agreement() {
   if (coupler_.finished()) return;
-  const std::vector<std::string> names = bidders(setup_.problem);
+  const std::vector<std::string> names = proposers(setup_.problem);
   for (std::size_t k = 0; k < names.size(); ++k) {
-    const auto bid = std::ranges::find(coupler_.bids(), names[k], &Bid::from);
-    proposed_[k] = bid == coupler_.bids().end() ? std::nan("") : bid->dt;
+    const auto proposal = std::ranges::find(coupler_.proposals(), names[k], &Proposal::from);
+    proposed_[k] = proposal == coupler_.proposals().end() ? std::nan("") : proposal->dt;
   }
   limited_by_ = coupler_.next().limited_by;
 }
@@ -290,7 +291,7 @@ void CoupledRun::publish() {
   telemetry.t_end = setup_.problem.time.end;
   telemetry.dt = coupler_.finished() ? coupler_.dt() : next.plan.dt;
   if (!coupler_.finished()) telemetry.dt_reason = fmt::format("{}: {}", next.limited_by, next.reason);
-  telemetry.dt_bid = telemetry.dt;
+  telemetry.proposed_dt = telemetry.dt;
   telemetry.limited_by = next.limited_by;
   telemetry.limits = limits_of(part_);
   telemetry.compute_s = part_.compute_s;

@@ -13,28 +13,28 @@ namespace fsi::coupler {
 namespace {
 
 constexpr double most_substeps = 10000;
-constexpr double rounding = 1e-9;  // a step that exceeds a bid by rounding needs no further substep
+constexpr double rounding = 1e-9;  // a step that exceeds a proposal by rounding needs no further substep
 
-/// Smallest bid of those that cannot substep; of all when nobody else sets a limit.
-const Bid* smallest(std::span<const Bid> bids) {
-  const Bid* smallest_bid = nullptr;
+/// Smallest proposal of those that cannot substep; of all when nobody else sets a limit.
+const Proposal* smallest(std::span<const Proposal> proposals) {
+  const Proposal* smallest_proposal = nullptr;
   for (const bool substepping : {false, true}) {
-    for (const Bid& bid : bids) {
-      if (bid.may_substep != substepping || std::isinf(bid.dt)) continue;
-      if (smallest_bid == nullptr || bid.dt < smallest_bid->dt) smallest_bid = &bid;
+    for (const Proposal& proposal : proposals) {
+      if (proposal.may_substep != substepping || std::isinf(proposal.dt)) continue;
+      if (smallest_proposal == nullptr || proposal.dt < smallest_proposal->dt) smallest_proposal = &proposal;
     }
-    if (smallest_bid != nullptr) break;
+    if (smallest_proposal != nullptr) break;
   }
-  return smallest_bid;
+  return smallest_proposal;
 }
 
-std::int32_t substeps_of(const Bid& bid, double dt, double t) {
-  if (!bid.may_substep) return 1;
-  const double count = std::max(1.0, std::ceil(dt / bid.dt * (1 - rounding)));
+std::int32_t substeps_of(const Proposal& proposal, double dt, double t) {
+  if (!proposal.may_substep) return 1;
+  const double count = std::max(1.0, std::ceil(dt / proposal.dt * (1 - rounding)));
   if (!(count <= most_substeps)) {
-    throw NumbersBroke(fmt::format("the time step of \"{}\" has collapsed to {:.3g}, {:.0f} substeps ({})",
-                                   bid.from, bid.dt, count, bid.reason),
-                       {.t = t, .program = bid.from});
+    throw Diverged(fmt::format("the time step of \"{}\" has collapsed to {:.3g}, {:.0f} substeps ({})",
+                               proposal.from, proposal.dt, count, proposal.reason),
+                   {.t = t, .program = proposal.from});
   }
   return static_cast<std::int32_t>(count);
 }
@@ -49,20 +49,21 @@ void TimeStepAgreement::archive(Archive& archive) {
   archive.number("t", t_);
 }
 
-AgreedStep TimeStepAgreement::agree(std::span<const Bid> bids) {
-  for (const Bid& bid : bids) {
-    if (bid.dt > 0) continue;
-    throw NumbersBroke(fmt::format("the time step of \"{}\" is {:.3g} ({})", bid.from, bid.dt, bid.reason),
-                       {.t = t_, .program = bid.from});
+AgreedStep TimeStepAgreement::agree(std::span<const Proposal> proposals) {
+  for (const Proposal& proposal : proposals) {
+    if (proposal.dt > 0) continue;
+    throw Diverged(
+        fmt::format("the time step of \"{}\" is {:.3g} ({})", proposal.from, proposal.dt, proposal.reason),
+        {.t = t_, .program = proposal.from});
   }
-  const Bid unlimited{.from = {}, .dt = std::numeric_limits<double>::infinity(), .reason = {}};
-  const Bid* found = smallest(bids);
-  const Bid& first = found != nullptr ? *found : unlimited;
+  const Proposal unlimited{.from = {}, .dt = std::numeric_limits<double>::infinity(), .reason = {}};
+  const Proposal* found = smallest(proposals);
+  const Proposal& first = found != nullptr ? *found : unlimited;
   AgreedStep step;
   step.plan = schedule_.plan(t_, first.dt, first.reason);
   step.limited_by = name_of(step.plan.limit, first.from);
   step.reason = words_for(step.plan.limit, first.reason);
-  for (const Bid& bid : bids) step.substeps.push_back(substeps_of(bid, step.plan.dt, t_));
+  for (const Proposal& proposal : proposals) step.substeps.push_back(substeps_of(proposal, step.plan.dt, t_));
   t_ = step.plan.t_next;
   return step;
 }

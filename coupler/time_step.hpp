@@ -1,5 +1,5 @@
 #pragma once
-/// One time step for everybody: the minimum of the bids, or with multirate a macro step that suits the gas,
+/// One time step for everybody: the minimum of the proposals, or with multirate a macro step that suits the gas,
 /// in which each solid takes as many equal substeps as it needs.
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 namespace fsi::coupler {
 
 /// Largest step one program can take.
-struct Bid {
+struct Proposal {
   std::string from;          ///< participant's name
   double dt = 0;             ///< safety factor included; infinite: no limit [time]
   std::string reason;        ///< what limits it, for people
@@ -24,7 +24,7 @@ struct AgreedStep {
   PlannedStep plan;
   std::string limited_by;              ///< the program or setting that limits the step
   std::string reason;                  ///< what limits that program, for people
-  std::vector<std::int32_t> substeps;  ///< for each bid: equal steps it takes inside the agreed one
+  std::vector<std::int32_t> substeps;  ///< for each proposal: equal steps it takes inside the agreed one
 };
 
 class TimeStepAgreement {
@@ -33,8 +33,8 @@ class TimeStepAgreement {
   TimeStepAgreement(const TimeSchedule::Options& options, double start);
 
   /// The step from now on; `t()` becomes the time after it.
-  /// @throws NumbersBroke when a bid is no positive number, vanishes, or needs more than 10000 substeps
-  AgreedStep agree(std::span<const Bid> bids);
+  /// @throws Diverged when a proposal is no positive number, vanishes, or needs more than 10000 substeps
+  AgreedStep agree(std::span<const Proposal> proposals);
   double t() const { return t_; }
   const TimeSchedule& schedule() const { return schedule_; }
   void archive(Archive& archive);

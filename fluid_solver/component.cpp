@@ -319,9 +319,8 @@ void Component::check_numbers(double t) const {
   const std::vector<double> of_all = rows_.ranks->together(broken);  // in the order of rows
   if (of_all.empty()) return;
   const auto i = static_cast<int>(of_all[0]), j = static_cast<int>(of_all[1]);
-  throw NumbersBroke(
-      fmt::format("rho = {:.3g}, p = {:.3g}; try {}", of_all[2], of_all[3], remedy_of(scheme_)),
-      {.t = t, .grid = grid_.name(), .point = {i, j}, .position = {x(0, i, j), x(1, i, j)}});
+  throw Diverged(fmt::format("rho = {:.3g}, p = {:.3g}; try {}", of_all[2], of_all[3], remedy_of(scheme_)),
+                 {.t = t, .grid = grid_.name(), .point = {i, j}, .position = {x(0, i, j), x(1, i, j)}});
 }
 
 }  // namespace fsi::fluid

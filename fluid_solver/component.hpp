@@ -139,7 +139,7 @@ class Component {
   /// A step is a sweep, or several if fluxes are imposed that were not known before, and its end. What a sweep says, the
   /// largest of all ranks, is to be handed to the end.
   SweptPoints sweep(double t, double dt);
-  /// state() becomes the predicted state at t, with ghosts out of date. @throws NumbersBroke
+  /// state() becomes the predicted state at t, with ghosts out of date. @throws Diverged
   void end_step(SweptPoints worst, double t, double dt);
   /// True where the wave rates of a row depend on the new state in the rows next to it.
   bool rates_need_neighbours() const { return scheme_.viscosity.any(); }
@@ -211,7 +211,7 @@ class Component {
   /// @returns the rows that were changed
   std::vector<int> keep_positive(const SweepTask& task, const SweepOutput& output);
   void measure_row(int j);
-  /// @throws NumbersBroke at a point without positive density or finite pressure
+  /// @throws Diverged at a point without positive density or finite pressure
   void check_numbers(double t) const;
 };
 

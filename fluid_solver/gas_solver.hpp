@@ -73,7 +73,7 @@ class GasSolver {
  public:
   /// `parts` are the background, a rectangle at rest, and the body-fitted grids that `bodies` describe in
   /// their order; without bodies there is one part of any kind.
-  /// @throws UserMistake where boundaries and grids do not fit or an option is out of range; NumbersBroke
+  /// @throws UserMistake where boundaries and grids do not fit or an option is out of range; Diverged
   /// where the grids do not overlap enough
   GasSolver(std::vector<GasPart> parts, std::vector<grid::BodyFittedGrid> bodies, const GasOptions& options,
             double t0);
@@ -92,12 +92,12 @@ class GasSolver {
   TimeStep compute_time_step() const;
   /// Moves the grids to t_new = t + dt; interface sides go where they are told. Points that were unused
   /// before get values of the present time.
-  /// @throws NumbersBroke at a folded cell, where a point finds no donor, and where two curves are nearer to
+  /// @throws Diverged at a folded cell, where a point finds no donor, and where two curves are nearer to
   /// each other than nearest_curves spacings of the background
   void move_grids(double t_new, double dt, std::span<const grid::SideCommand> commands = {});
   /// Predicted state at t, all points, boundary points included,
   /// without interface conditions; the grid was moved before.
-  /// @throws NumbersBroke at a density or pressure that is no longer a number or not positive
+  /// @throws Diverged at a density or pressure that is no longer a number or not positive
   void advance_fluid(double t, double dt);
   /// The gas along a side, for the projection.
   GasInterface interface_state(Side side, int grid = 0) const;

@@ -61,7 +61,7 @@ auto run_while_sound(const std::vector<double>& times, const Make& make) {
       chain.run_to(t);
       run.outputs.push_back(chain.output());
     }
-  } catch (const NumbersBroke& broke) {
+  } catch (const Diverged& broke) {
     run.broke = broke.what();
   }
   return run;
@@ -92,10 +92,10 @@ void leapfrog(double& t, double end, const StableStep& stable_step, const Step& 
   }
 }
 
-/// All outputs of a run. @throws NumbersBroke where one was not reached
+/// All outputs of a run. @throws Diverged where one was not reached
 template <class Output>
 std::vector<Output> whole(Run<Output> run) {
-  if (!run.broke.empty()) throw NumbersBroke(run.broke);
+  if (!run.broke.empty()) throw Diverged(run.broke);
   return std::move(run.outputs);
 }
 

@@ -100,7 +100,7 @@ void read_gas(const Case& problem, DiskProblem& disk) {
 
 bool load_on_reference(const SolidSpec& solid) {
   const auto follows_not = [](const BoundarySpec& side) {
-    return side.kind == BoundaryKind::interface && side.on_reference;
+    return side.kind == BoundaryKind::interface && side.load == LoadConfiguration::reference;
   };
   return std::ranges::any_of(solid.boundary, follows_not) ||
          std::ranges::any_of(solid.body_fitted, [&](const BodyFittedSpec& fitted) {

@@ -180,7 +180,7 @@ double Rings<L>::fastest_solid_wave() const {
     const solid::Tensor2 F_k = F(k);
     const double det = F_k.a11 * F_k.a22 - F_k.a12 * F_k.a21;
     if (!(det > 0)) {
-      throw NumbersBroke(
+      throw Diverged(
           fmt::format("rotating disk reference: t = {}, r_bar = {}: det F = {}", t_, r_bar_[k], det));
     }
     const solid::Stiffness K = law_.K(F_k);  // acoustic tensor across the rings: K1111, K1121, K1221
@@ -196,7 +196,7 @@ double Rings<L>::fastest_gas_wave() const {
   double fastest = 0;
   for (std::size_t k = 0; k < n_gas_; ++k) {
     if (!(J(k) > 0)) {
-      throw NumbersBroke(fmt::format("rotating disk reference: t = {}, gas at r = {} is folded", t_, r_[k]));
+      throw Diverged(fmt::format("rotating disk reference: t = {}, gas at r = {} is folded", t_, r_[k]));
     }
     const double squares = r_[k] * r_[k] + r_[k + 1] * r_[k + 1];
     const double p = p_[k] + problem_.p_e;

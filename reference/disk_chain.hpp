@@ -51,7 +51,7 @@ struct DiskOutput {
 };
 
 /// Integrates the chain with `points` masses per unit length; second order in 1/points.
-/// @throws UserMistake for an unknown law @throws NumbersBroke when a spring folds
+/// @throws UserMistake for an unknown law @throws Diverged when a spring folds
 std::vector<DiskOutput> solve_disk(const DiskProblem& problem, int points);
 
 using DiskRun = Run<DiskOutput>;

@@ -17,9 +17,10 @@ Vec2 point_of(const LineEnds& ends, int k) {
 }  // namespace
 
 bool has_exact_line(const Case& problem) {
-  const std::string& kind = problem.reference.kind;
-  if (kind == "riemann" || kind == "wall_between_gases" || kind == "clamped_wall") return true;
-  return kind == "elastic_piston" && std::ranges::all_of(problem.solids, [](const SolidSpec& solid) {
+  using enum ReferenceKind;
+  const ReferenceKind kind = problem.reference.kind;
+  if (kind == riemann || kind == wall_between_gases || kind == clamped_wall) return true;
+  return kind == elastic_piston && std::ranges::all_of(problem.solids, [](const SolidSpec& solid) {
            return solid.law == "linear_elastic";
          });
 }

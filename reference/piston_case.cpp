@@ -107,7 +107,7 @@ PistonProblem piston_from_case(const Case& problem) {
   expect_no_body_force(problem.path, solid);
   expect_quiet_end(problem, fluid);
   std::shared_ptr<exact::Solution> exact;
-  if (problem.reference.kind != "piston_1d" && problem.reference.kind != "none") {
+  if (problem.reference.kind != ReferenceKind::piston_1d && problem.reference.kind != ReferenceKind::none) {
     exact = exact::make_solution(problem.reference.kind, problem.reference.numbers, "");
   }
 

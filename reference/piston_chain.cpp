@@ -135,7 +135,7 @@ double Chain<L>::stable_step() const {
     fastest =
         std::max(fastest, law_.K(uniaxial(J)).k1111 / (problem_.material.rho_bar * h_solid_ * h_solid_));
     if (!(J > 0)) {
-      throw NumbersBroke(
+      throw Diverged(
           fmt::format("one-dimensional reference: t = {}, x_bar = {}: F11 = {}", t_, label_[k], J));
     }
   }
@@ -145,8 +145,7 @@ double Chain<L>::stable_step() const {
     const double stiffness = problem_.gamma * p_0_[k] * std::pow(J, -problem_.gamma - 1);
     fastest = std::max(fastest, stiffness * std::max(inverse_mass_[i], inverse_mass_[i + 1]) / h_gas_);
     if (!(J > 0)) {
-      throw NumbersBroke(
-          fmt::format("one-dimensional reference: t = {}, gas at x = {} is folded", t_, x_[i]));
+      throw Diverged(fmt::format("one-dimensional reference: t = {}, gas at x = {} is folded", t_, x_[i]));
     }
   }
   return 1 / std::sqrt(fastest);

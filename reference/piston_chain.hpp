@@ -38,7 +38,7 @@ struct PistonOutput {
 };
 
 /// Integrates the chain with `points` masses per unit length; second order in 1/points.
-/// @throws UserMistake for an unknown law @throws NumbersBroke when a spring folds
+/// @throws UserMistake for an unknown law @throws Diverged when a spring folds
 std::vector<PistonOutput> solve_piston(const PistonProblem& problem, int points);
 
 using PistonRun = Run<PistonOutput>;

@@ -10,7 +10,7 @@
 namespace fsi::solid {
 
 template <Law L>
-std::optional<NumbersBroke> SolidComponent<L>::breakdown(double dt) const {
+std::optional<Diverged> SolidComponent<L>::breakdown(double dt) const {
   const ConstFieldView x = grid_.x();
   for (int j = 0; j < layout().n2; ++j) {
     if (!rows_.owns(j)) continue;
@@ -18,10 +18,10 @@ std::optional<NumbersBroke> SolidComponent<L>::breakdown(double dt) const {
       for (int i = begin; i < end; ++i) {
         const std::string what = breakdown_at(i, j, dt);
         if (what.empty()) continue;
-        return NumbersBroke(what, {.grid = grid_.name(),
-                                   .point = {i, j},
-                                   .position = {x(0, i, j), x(1, i, j)},
-                                   .of_reference = true});
+        return Diverged(what, {.grid = grid_.name(),
+                               .point = {i, j},
+                               .position = {x(0, i, j), x(1, i, j)},
+                               .of_reference = true});
       }
     }
   }

@@ -13,10 +13,8 @@ namespace fsi::solid {
 
 namespace {
 
-using Kind = Boundary::Kind;
-
-Kind kind_of(const SolidPart& part, Side side) {
-  return part.boundaries[static_cast<std::size_t>(side)].kind;
+const Condition& condition_of(const SolidPart& part, Side side) {
+  return part.boundaries[static_cast<std::size_t>(side)].condition;
 }
 
 grid::CartesianGrid background_of(const SolidPart& part) {
@@ -35,14 +33,14 @@ void check(const SolidPart& part, const grid::BodyFittedGrid& body) {
                                   part.grid.layout().n1, part.grid.layout().n2, body.n1, body.n2));
   }
   const Side far = body.curve == Side::bottom ? Side::top : Side::bottom;
-  if (kind_of(part, far) != Kind::none) {
+  if (!condition_of(part, far).open()) {
     throw UserMistake(
         fmt::format("grid \"{}\": side {} lies inside the body and takes no condition; write none",
                     part.grid.name(), name_of(far)));
   }
   const bool closed = body.ends == grid::Curve::closed;
   for (const Side side : {Side::left, Side::right}) {
-    if ((kind_of(part, side) == Kind::periodic) != closed) {
+    if (condition_of(part, side).repeated() != closed) {
       throw UserMistake(fmt::format("grid \"{}\": side {} must {}be periodic, since its curve is {}",
                                     part.grid.name(), name_of(side), closed ? "" : "not ",
                                     closed ? "closed" : "open"));

@@ -52,27 +52,57 @@ struct SolidOptions {
   double cfl = 0.9;                 ///< safety factor C_CFL of the time step [-]
 };
 
-/// The configuration whose area and normal the load of a side belongs to.
-enum class LoadConfiguration {
-  current,    ///< the deformed body: eta of paper eq. (13), a pressure along the present normal
-  reference,  ///< the undeformed body: eta = 1, a pressure along n0, as in small-strain theory. Differs from
-              ///< the paper: with the linear law, ripples of an interface that follows its load grow without
-              ///< bound, the shorter the faster, once the load is a few shear moduli (docs/theory_solid.md)
+/// What the scheme keeps on one side of the reference grid, as an answer to each of three questions. A kind of boundary
+/// (boundary/kinds) is a combination of them; the scheme asks for the answers and knows no kind.
+struct Condition {
+  /// How do the points of the side move?
+  enum class Motion {
+    free,        ///< as the equations say
+    along_wall,  ///< n0 . u = n0 . v = 0, without shear
+    given        ///< u = `vector(x, y, t)`, v = `velocity(x, y, t)`; empty means clamped
+  };
+  /// Which traction do they bear?
+  enum class Traction {
+    unknown,    ///< that of the stress inside, and of the motion
+    given,      ///< `vector(x, y, t)`, per unit area; empty means free
+    projected,  ///< that of the gas on the other side: values come with apply_solid_bcs
+  };
+  /// What is beyond the side?
+  enum class Ghosts {
+    extrapolated,  ///< what continues the inside; where motion or traction are known, it makes P(F) agree with them
+    mirrored,  ///< mirror images across a straight side; extrapolated where the grid has no mirror image
+    repeated,  ///< the opposite side again
+    state,     ///< u, v and P = `state(x, y, t)`, on the side as well
+    nothing    ///< nothing is done: the side is interpolated, or lies in holes of a composite grid
+  };
+  Motion motion = Motion::free;
+  Traction traction = Traction::unknown;
+  Ghosts ghosts = Ghosts::extrapolated;
+
+  constexpr bool loaded() const { return traction != Traction::unknown; }
+  /// The traction is known at all times.
+  constexpr bool knows_rate() const { return traction == Traction::given; }
+  constexpr bool meets_gas() const { return traction == Traction::projected; }
+  constexpr bool walled() const { return motion == Motion::along_wall; }
+  /// A wall whose ghost points must be found.
+  constexpr bool slips() const { return walled() && ghosts == Ghosts::extrapolated; }
+  constexpr bool moved() const { return motion == Motion::given; }
+  constexpr bool mirrored() const { return ghosts == Ghosts::mirrored; }
+  constexpr bool repeated() const { return ghosts == Ghosts::repeated; }
+  /// Ghost points are images of inner ones.
+  constexpr bool imaged() const { return mirrored() || repeated(); }
+  constexpr bool has_state() const { return ghosts == Ghosts::state; }
+  constexpr bool open() const { return ghosts == Ghosts::nothing; }
+
+  friend constexpr bool operator==(const Condition&, const Condition&) = default;
 };
 
-/// Condition on one side of the reference grid.
+/// Of a side that nothing is done at.
+inline constexpr Condition no_condition{.ghosts = Condition::Ghosts::nothing};
+
+/// The condition on one side, and its values.
 struct Boundary {
-  enum class Kind {
-    interface,     ///< the gas is on the other side: values come with apply_solid_bcs
-    traction,      ///< `vector(x, y, t)` is the traction per unit area; empty means free
-    displacement,  ///< u = `vector(x, y, t)`, v = `velocity(x, y, t)`; empty means clamped
-    slip,          ///< n0 . u = 0 and no shear
-    symmetry,      ///< mirror images across a straight side
-    dirichlet,     ///< u, v and P = `state(x, y, t)` on the side and its ghost lines
-    periodic,      ///< continues at the opposite side
-    none           ///< nothing is done: the side is interpolated, or lies in holes of a composite grid
-  };
-  Kind kind = Kind::traction;
+  Condition condition = {.traction = Condition::Traction::given};
   LoadConfiguration load = LoadConfiguration::current;
   VectorFunction vector = {};
   VectorFunction velocity = {};

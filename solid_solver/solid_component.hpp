@@ -71,7 +71,7 @@ class SolidComponent {
   /// Everything the next steps depend on.
   void archive(Archive& archive);
   /// The first point that broke: "point (14, 3): det F = -0.02"; nothing where all are well.
-  std::optional<NumbersBroke> breakdown(double dt) const;
+  std::optional<Diverged> breakdown(double dt) const;
 
   // Where several ranks share the body: those rows of it that this one has to do with.
 
@@ -330,7 +330,7 @@ void SolidComponent<L>::give_back() {
 template <Law L>
 void SolidComponent<L>::complete(double t, double dt) {
   const double beta_u = options_.displacement.at(dt);
-  if (beta_u != 0) boundary_.correct_displacement_dissipation(q_.view(), next_.view(), beta_u);
+  if (beta_u != 0) correct_displacement_dissipation(boundary_.sides(), q_.view(), next_.view(), beta_u);
   if (chosen_) add_relaxation_offset(t + 0.5 * dt, dt);
   keep_tractions(t, dt);
   std::swap(q_, next_);

@@ -72,7 +72,7 @@ class SolidSolver {
       const int index = grids();
       components_.emplace_back(std::move(part), index, points_of(composite_, index, part.grid.layout()), law_,
                                options_);
-      interpolate_first_ |= components_.back().boundary().reads_interpolated_points();
+      interpolate_first_ |= components_.back().boundary().sides().reads_interpolated_points();
     }
     views_.resize(components_.size());
   }
@@ -124,12 +124,12 @@ class SolidSolver {
   }
   /// Predicted state at t + dt at all discretised points; no boundary or interface condition is applied. Looks at
   /// the waves where `compute_time_step` is to know them: in all steps but those that others follow at once.
-  /// @throws NumbersBroke at det F <= 0 or where the system is no longer hyperbolic; all grids then keep the
+  /// @throws Diverged at det F <= 0 or where the system is no longer hyperbolic; all grids then keep the
   /// state at t
   void advance_solid(double t, double dt, Look look = Look::all) {
     try {
       predict(t, dt, look);
-    } catch (NumbersBroke& failure) {
+    } catch (Diverged& failure) {
       for (SolidComponent<L>& component : components_) component.give_back();
       failure.know({.t = t});
       throw;
@@ -145,8 +145,8 @@ class SolidSolver {
   }
   /// Outward direction in which the end k of a side slides along a wall.
   Vec2 along_wall(Side side, int k, int grid = 0) const {
-    const SolidBoundary<L>& boundary = component(grid).boundary();
-    const Vec2 wall = boundary.wall_of(side, k).value(), n0 = boundary.normal(side, k);
+    const Sides& sides = component(grid).boundary().sides();
+    const Vec2 wall = wall_of(sides, side, k).value(), n0 = sides.at(side, k).n0;
     return (n0 - wall * wall.dot(n0)).normalized();
   }
   /// Boundary conditions and ghost points at time t, then interpolation between the grids. `projected` has
@@ -195,7 +195,9 @@ class SolidSolver {
   /// Reference positions of the points.
   ConstFieldView reference(int grid = 0) const { return component(grid).grid().x(); }
   const grid::MovingGrid& grid(int grid = 0) const { return component(grid).grid(); }
-  Boundary::Kind kind(Side side, int grid = 0) const { return component(grid).boundary().kind(side); }
+  const Condition& condition(Side side, int grid = 0) const {
+    return component(grid).boundary().sides().condition(side);
+  }
   /// Points of a grid that have a value.
   const grid::RowSets& valid(int grid = 0) const { return component(grid).points().valid(); }
   /// Points that have a value, all grids.
@@ -224,7 +226,7 @@ class SolidSolver {
   const Share& shared() const { return early_; }
   /// Whether a rank knows `interface_state` of a side after `advance_solid`: rank 0, and those with rows of the side.
   bool shows(Side side, int grid) const {
-    return early_.ranks().first() || component(grid).boundary().present(side);
+    return early_.ranks().first() || component(grid).boundary().sides().present(side);
   }
   /// What this rank does on its part before it applies conditions; where its numbers break, they do on all ranks then.
   template <class Action>
@@ -264,7 +266,7 @@ class SolidSolver {
   void predict(double t, double dt, Look look);
   void predict_on_ranks(double t, double dt, Look look);
   void agree_on_prediction(std::size_t first, double dt);
-  static NumbersBroke breakdown(const SolidComponent<L>& component, double dt);
+  static Diverged breakdown(const SolidComponent<L>& component, double dt);
   std::vector<CutGrid> cut_grids(int halo) const;
   std::vector<Need> lines_of_interfaces() const;
   void take_rows();

@@ -36,7 +36,7 @@ struct Members<wire::PredictedInterface> {
                                    Member{&Sample::interface_name, &Ours::interface},
                                    Member{&Sample::step, &Ours::step},
                                    Member{&Sample::t, &Ours::t},
-                                   Member{&Sample::dt_bid, &Ours::dt_bid},
+                                   Member{&Sample::proposed_dt, &Ours::proposed_dt},
                                    Member{&Sample::dt_reason, &Ours::dt_reason},
                                    Member{&Sample::x, &Ours::x},
                                    Member{&Sample::v, &Ours::v},

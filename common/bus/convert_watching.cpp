@@ -70,7 +70,7 @@ struct Members<wire::Telemetry> {
                                    Member{&Sample::t_end, &Ours::t_end},
                                    Member{&Sample::dt, &Ours::dt},
                                    Member{&Sample::dt_reason, &Ours::dt_reason},
-                                   Member{&Sample::dt_bid, &Ours::dt_bid},
+                                   Member{&Sample::proposed_dt, &Ours::proposed_dt},
                                    Member{&Sample::limited_by, &Ours::limited_by},
                                    Member{&Sample::compute_s, &Ours::compute_s},
                                    Member{&Sample::wait_s, &Ours::wait_s},

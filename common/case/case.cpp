@@ -56,8 +56,16 @@ void require_known_name(const Node& root, const std::string& key, const std::str
   std::string hint = did_you_mean(name, known);
   if (hint.empty())
     hint = known.empty() ? "; it has none" : fmt::format("; it has {}", fmt::join(known, ", "));
-  throw UserMistake(
-      fmt::format("{}: {} in section `{}` of the case is missing{}", option, in_ticks(name), section, hint));
+  throw UserMistake(fmt::format("{}: the case has no {} in `{}`{}", option, in_ticks(name), section, hint));
+}
+
+/// A parameter is set by its whole key; its name alone is a key of nothing.
+void refuse_bare_parameter(const Node& root, const std::string& key, const std::string& option) {
+  const Node* parameters = root.find("parameters");
+  if (parameters == nullptr || parameters->find(key) == nullptr) return;
+  if (std::ranges::find(schema::case_file.keys, key, &schema::Key::name) != schema::case_file.keys.end())
+    return;
+  throw UserMistake(fmt::format("{}: {} is a parameter; write `parameters.{}`", option, in_ticks(key), key));
 }
 
 std::pair<std::string, std::string> split_at_equals(const std::string& text, const std::string& option,
@@ -92,6 +100,7 @@ void apply_options(Node& root, const std::vector<std::string>& overrides,
   for (const std::string& text : overrides) {
     const auto [key, value] = split_at_equals(text, "--set", "--set KEY=VALUE");
     const std::string option = "--set " + shown(key);
+    refuse_bare_parameter(root, key, option);
     require_known_name(root, key, "parameters", option);
     require_known_name(root, key, "solids", option);
     require_known_name(root, key, "fluids", option);
@@ -147,6 +156,16 @@ std::vector<std::string> names_in_folders(const std::vector<std::string>& folder
   std::sort(names.begin(), names.end());
   names.erase(std::unique(names.begin(), names.end()), names.end());
   return names;
+}
+
+/// "; did you mean ..?": a file in the folder that is named, or one of the cases that are known by `names`.
+std::string case_meant(const std::string& path_or_name, const std::vector<std::string>& names) {
+  const std::filesystem::path path = path_or_name;
+  const std::filesystem::path folder = path.parent_path();
+  const std::string stem = path.stem().string();
+  const std::string near = closest(stem, names_in_folders({folder.empty() ? "." : folder.string()}));
+  if (near.empty()) return did_you_mean(stem, names);
+  return fmt::format("; did you mean {}?", in_ticks((folder / (near + ".yaml")).string()));
 }
 
 }  // namespace
@@ -236,8 +255,7 @@ std::string find_case(const std::string& path_or_name, const std::vector<std::st
   const std::string kind = kind_of_no_file(path_or_name);
   if (!kind.empty()) throw UserMistake(fmt::format("{}: is {}, not a case file", shown(path_or_name), kind));
   const std::vector<std::string> names = names_in_folders(folders);
-  const std::string stem = std::filesystem::path(path_or_name).stem().string();
-  const std::string hint = did_you_mean(stem, names);
+  const std::string hint = case_meant(path_or_name, names);
   throw UserMistake(fmt::format("{}: no such case{}", in_ticks(path_or_name),
                                 hint.empty() ? fmt::format("; there are {}", fmt::join(names, ", ")) : hint));
 }
@@ -262,16 +280,18 @@ Case load_case_within(double available, const std::string& path, const std::vect
   try {
     return case_from(root, file, available);
   } catch (const NoGridsFit& mistake) {
-    const auto valid = [&](const Node& other) {
+    const auto tried = [&](const Node& other) -> TriedCase {
       try {
         case_from(other, file, available);
-        return true;
+        return {.valid = true};
+      } catch (const NoGridsFit& still) {
+        return {.left = still.parts()};
       } catch (const Failure&) {
-        return false;
+        return {};
       }
     };
     Node evaluated = root;
-    throw with_remedy(mistake, root, evaluate_scope(evaluated).constants.at("j"), valid);
+    throw with_remedy(mistake, root, evaluate_scope(evaluated).constants.at("j"), tried);
   }
 }
 

@@ -67,15 +67,15 @@ struct CurveSpec {
 /// What holds on a side; which of it means something its kind says (common/case/schema/boundary_facts.hpp).
 struct BoundarySpec {
   BoundaryKind kind = BoundaryKind::symmetry;
-  std::string solid = {};                          ///< interface of a gas: the solid on the other side
-  std::string fluid = {};                          ///< interface of a solid: the gas on the other side
-  bool from_reference = false;                     ///< data of `reference`
-  std::optional<GasExpressions> state = {};        ///< of a gas
-  std::optional<VectorExpressions> vector = {};    ///< `value`: traction per unit area, or displacement
-  std::optional<VectorExpressions> velocity = {};  ///< time derivative of a displacement
-  bool on_reference = false;  ///< of a solid: the load belongs to the reference configuration
-  std::map<std::string, double> numbers = {};             ///< other keys of its kind: numbers
-  std::map<std::string, Expression> fields = {};          ///< the same: fields
+  std::string solid = {};                               ///< interface of a gas: the solid on the other side
+  std::string fluid = {};                               ///< interface of a solid: the gas on the other side
+  bool from_reference = false;                          ///< data of `reference`
+  std::optional<GasExpressions> state = {};             ///< of a gas
+  std::optional<VectorExpressions> vector = {};         ///< `value`: traction per unit area, or displacement
+  std::optional<VectorExpressions> velocity = {};       ///< time derivative of a displacement
+  LoadConfiguration load = LoadConfiguration::current;  ///< of a solid
+  std::map<std::string, double> numbers = {};           ///< other keys of its kind: numbers
+  std::map<std::string, Expression> fields = {};        ///< the same: fields
   std::map<std::string, VectorExpressions> vectors = {};  ///< the same: vectors
 };
 
@@ -206,12 +206,19 @@ struct OutputSpec {
 
 /// Where an exact or a fine solution comes from.
 struct ReferenceSpec {
-  std::string kind = "none";              ///< none, expressions, manufactured, or a named solution
+  ReferenceKind kind = ReferenceKind::none;
   std::map<std::string, double> numbers;  ///< data of a named solution
   std::optional<GasExpressions> fluid;    ///< expressions, manufactured
   std::optional<VectorExpressions> u;     ///< expressions, manufactured: solid displacement of x, y, t
   std::optional<VectorExpressions> v;     ///< manufactured: solid velocity where it is not du/dt
   std::optional<TensorExpressions> P;     ///< manufactured: nominal stress where it is not P(F(u))
+
+  /// By a program of its own, whose table is complete after the run.
+  bool computed() const { return kind == ReferenceKind::piston_1d || kind == ReferenceKind::rotating_disk; }
+  /// By formulas of the case.
+  bool in_formulas() const {
+    return kind == ReferenceKind::expressions || kind == ReferenceKind::manufactured;
+  }
 };
 
 struct Expectation {

@@ -32,6 +32,27 @@ enum class GasResponse {
   linear  ///< the tangent of that curve, as in (28)
 };
 
+/// The configuration whose area and normal the load of a side belongs to.
+enum class LoadConfiguration {
+  current,    ///< the deformed body: eta of paper eq. (13), a pressure along the present normal
+  reference,  ///< the undeformed body: eta = 1, a pressure along n0, as in small-strain theory. Differs from
+              ///< the paper: with the linear law, ripples of an interface that follows its load grow without
+              ///< bound, the shorter the faster, once the load is a few shear moduli (docs/theory_solid.md)
+};
+
+/// The solution that a case is compared with, and that may give it data.
+enum class ReferenceKind {
+  none,
+  elastic_piston,
+  wall_between_gases,
+  clamped_wall,
+  riemann,
+  piston_1d,      ///< a fine one-dimensional run
+  rotating_disk,  ///< a fine run in the radius alone
+  expressions,
+  manufactured  ///< formulas that forces and sources make exact
+};
+
 /// What holds an end of a beam.
 enum class BeamEnd {
   free,
@@ -85,6 +106,23 @@ template <>
 inline constexpr std::array names_of<GasResponse>{
     Named<GasResponse>{GasResponse::exact, "exact"},
     Named<GasResponse>{GasResponse::linear, "linear"},
+};
+template <>
+inline constexpr std::array names_of<LoadConfiguration>{
+    Named<LoadConfiguration>{LoadConfiguration::current, "current"},
+    Named<LoadConfiguration>{LoadConfiguration::reference, "reference"},
+};
+template <>
+inline constexpr std::array names_of<ReferenceKind>{
+    Named<ReferenceKind>{ReferenceKind::none, "none"},
+    Named<ReferenceKind>{ReferenceKind::elastic_piston, "elastic_piston"},
+    Named<ReferenceKind>{ReferenceKind::wall_between_gases, "wall_between_gases"},
+    Named<ReferenceKind>{ReferenceKind::clamped_wall, "clamped_wall"},
+    Named<ReferenceKind>{ReferenceKind::riemann, "riemann"},
+    Named<ReferenceKind>{ReferenceKind::piston_1d, "piston_1d"},
+    Named<ReferenceKind>{ReferenceKind::rotating_disk, "rotating_disk"},
+    Named<ReferenceKind>{ReferenceKind::expressions, "expressions"},
+    Named<ReferenceKind>{ReferenceKind::manufactured, "manufactured"},
 };
 template <>
 inline constexpr std::array names_of<BeamEnd>{

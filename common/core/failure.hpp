@@ -2,7 +2,7 @@
 /// Three kinds of failure that are never mixed, the exit codes they end a program with, and where in a run they are.
 ///
 ///     a kernel returns that a point is broken       its solver knows grid and point, often the time
-///     the solver throws NumbersBroke(what, place)   the time loop adds the step        Failure::know
+///     the solver throws Diverged(what, place)   the time loop adds the step        Failure::know
 ///     the program tells the others                  Abort: what, place, who            idl/amp_fsi.idl
 ///     and leaves it in its report                   `failure` of summary.json          docs/output.md
 
@@ -20,7 +20,7 @@ enum class ExitCode : int {
   internal_error =
       1,  ///< a mistake of ours; the launcher also ends with 1 where an `expect:` entry is missed
   user_mistake = 2,
-  numbers_broke = 3,
+  diverged = 3,
   peer_lost = 4,
   output_failed = 5,
   interrupted = 130,
@@ -76,11 +76,11 @@ class UserMistake : public Failure {
   explicit UserMistake(std::string message) : Failure(ExitCode::user_mistake, std::move(message)) {}
 };
 
-/// The numbers broke: what is wrong with them, and where. Exit 3.
-class NumbersBroke : public Failure {
+/// The solution diverged: what is wrong with it, and where. Exit 3.
+class Diverged : public Failure {
  public:
-  explicit NumbersBroke(std::string cause, Place place = {})
-      : Failure(ExitCode::numbers_broke, std::move(cause), std::move(place)) {}
+  explicit Diverged(std::string cause, Place place = {})
+      : Failure(ExitCode::diverged, std::move(cause), std::move(place)) {}
 };
 
 /// A program of the run is lost, silent or does not fit. Exit 4.

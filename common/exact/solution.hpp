@@ -5,11 +5,13 @@
 #include <memory>
 #include <string>
 
+#include "common/core/choices.hpp"
 #include "common/exact/state.hpp"
 
 namespace fsi::exact {
 
-/// One more exact solution is one class derived from this and one line in make_solution.
+/// One more exact solution is one class derived from this, one line in make_solution and two for its name in
+/// common/core/choices.hpp.
 class Solution {
  public:
   Solution() = default;
@@ -29,10 +31,10 @@ class Solution {
   virtual bool only_at_output_times() const { return false; }
 };
 
-/// Solution named `kind` with the data `numbers` of a case's `reference` section; a tabulated one
+/// Solution of a kind with the data `numbers` of a case's `reference` section; a tabulated one
 /// (`piston_1d`, `rotating_disk`) is read from `run_dir`/reference.h5.
-/// @throws UserMistake naming an unknown kind or number @throws OutputFailed when the table cannot be read
-std::unique_ptr<Solution> make_solution(const std::string& kind, const std::map<std::string, double>& numbers,
+/// @throws UserMistake naming an unknown number, or a kind that is none of a named solution @throws OutputFailed when the table cannot be read
+std::unique_ptr<Solution> make_solution(ReferenceKind kind, const std::map<std::string, double>& numbers,
                                         const std::string& run_dir);
 
 }  // namespace fsi::exact

@@ -172,7 +172,7 @@ void MovingGrid::keep_on_wall(std::size_t end, double t) {
   constexpr double round_off = 1e-9, most = 0.5, grazing = 0.1;
   if (std::abs(off) <= round_off * last.norm()) return;
   if (std::abs(off) > most * last.norm()) {
-    throw NumbersBroke(
+    throw Diverged(
         fmt::format("the end of its curve has left the wall it stands on, by {:.3g}; let the solid be "
                     "clamped there, or slide along the wall",
                     std::abs(off)),
@@ -213,7 +213,7 @@ Vec2 MovingGrid::common_corner(double t, const SideCommand& a, const SideCommand
                                (point_at(b.x, at_b == 0 ? 1 : at_b - 1) - corner_b).norm());
   const double apart = (corner_a - corner_b).norm();
   if (!(apart < cell)) {
-    throw NumbersBroke(
+    throw Diverged(
         fmt::format("the commands for its sides {} and {} put their corner {:.3g} apart, here and at "
                     "({:.6g}, {:.6g}), more than the cell of {:.3g} there",
                     name_of(a.side), name_of(b.side), apart, corner_b[0], corner_b[1], cell),
@@ -279,8 +279,8 @@ void MovingGrid::check(double t) const {
           std::min({corner_area(x, i, j, 1, 1), corner_area(x, i + 1, j, -1, 1),
                     corner_area(x, i, j + 1, 1, -1), corner_area(x, i + 1, j + 1, -1, -1)});
       if (!(smallest > 0)) {
-        throw NumbersBroke(fmt::format("the cell from here on is folded, corner area = {:.3g}", smallest),
-                           {.t = t, .grid = name(), .point = {i, j}, .position = {x(0, i, j), x(1, i, j)}});
+        throw Diverged(fmt::format("the cell from here on is folded, corner area = {:.3g}", smallest),
+                       {.t = t, .grid = name(), .point = {i, j}, .position = {x(0, i, j), x(1, i, j)}});
       }
     }
   }

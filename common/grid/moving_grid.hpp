@@ -50,7 +50,7 @@ struct SideCommand {
 
 class MovingGrid {
  public:
-  /// Places the vertices at time t. @throws NumbersBroke at a folded cell
+  /// Places the vertices at time t. @throws Diverged at a folded cell
   MovingGrid(GridDescription description, double t);
 
   const std::string& name() const { return description_.name; }
@@ -68,7 +68,7 @@ class MovingGrid {
   /// Moves to time t: along the mapping, then sides with a command go where they are told and the
   /// displacement fades linearly to the opposite side, continued to the ghost lines. x() becomes x_old().
   /// Where two adjacent sides are told different places for their corner, it goes to the middle between them.
-  /// @throws NumbersBroke at a folded cell, naming grid, point, t and the area; where the two places of a
+  /// @throws Diverged at a folded cell, naming grid, point, t and the area; where the two places of a
   /// corner are a cell apart
   void move(double t, std::span<const SideCommand> commands = {});
   /// Mean distance of the lines of a marched grid, where it has all its depth; 0 of others.

@@ -1,5 +1,5 @@
 #pragma once
-/// Files that are either whole or not there: written aside, synced, renamed.
+/// Files that are either whole or not there: written to a temporary file, synced, renamed.
 
 #include <string>
 
@@ -8,7 +8,7 @@ namespace fsi::io {
 /// Creates a directory and those above it. @throws OutputFailed
 void make_directory(const std::string& path);
 
-/// Name for the copy written aside of `path`, in the same directory.
+/// Name of the temporary file for `path`, in the same directory.
 std::string aside(const std::string& path);
 
 /// Syncs `aside(path)` to disk and gives it the name `path`, replacing what was there. @throws OutputFailed

@@ -5,7 +5,7 @@
 ///                                             somebody else's may leave NAME.state, in a format of its own
 ///   DIR/checkpoints/00000400/manifest.json    written last: the set is complete, and these are its checksums
 ///
-/// Files are written aside, synced and renamed. The last two complete sets are kept.
+/// Files are written to a temporary one, synced and renamed. The last two complete sets are kept.
 
 #include <cstdint>
 #include <span>

@@ -4,7 +4,7 @@
 ///   DIR/fields/fluid_000000.h5 ...   one file per output time, whole or not there
 ///   DIR/fluid.h5                   the whole series: group per output time, linked to those files
 ///
-/// All of them are written aside, synced and renamed, so
+/// All of them are written to temporary files, synced and renamed, so
 /// that a kill at any moment leaves a series that opens.
 
 #include <cstdint>

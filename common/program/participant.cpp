@@ -25,15 +25,15 @@ bus::BusOptions bus_options(const Setup& setup) {
 }
 
 wire::Telemetry telemetry_of(const Setup& setup, const io::Part& part, const Participant& solver, double dt,
-                             const TimeStepBid& bid) {
+                             const ProposedTimeStep& proposal) {
   wire::Telemetry telemetry;
   telemetry.state = part.t < setup.problem.time.end ? "computing" : "done";
   telemetry.step = part.steps;
   telemetry.t = part.t;
   telemetry.t_end = setup.problem.time.end;
   telemetry.dt = dt;
-  telemetry.dt_reason = bid.reason;
-  telemetry.dt_bid = bid.dt;
+  telemetry.dt_reason = proposal.reason;
+  telemetry.proposed_dt = proposal.dt;
   telemetry.compute_s = part.compute_s;
   telemetry.wait_s = part.wait_s;
   telemetry.health = solver.health();

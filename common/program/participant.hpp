@@ -16,7 +16,7 @@
 namespace fsi {
 
 /// Largest step the solver can take, safety factor included; infinite when it has no limit.
-struct TimeStepBid {
+struct ProposedTimeStep {
   double dt = 0;  ///< [time]
   std::string reason;
 };
@@ -38,9 +38,9 @@ class Participant {
 
   /// Role, name, law, points and interfaces.
   virtual wire::Hello hello() const = 0;
-  virtual TimeStepBid compute_time_step() const = 0;
+  virtual ProposedTimeStep compute_time_step() const = 0;
   /// Predicted state of interface number k of the hello. The driver has filled in interface, step, time and
-  /// bid, and adds health and times.
+  /// proposal, and adds health and times.
   virtual void fill(std::size_t k, wire::PredictedInterface& predicted) const = 0;
   /// Boundary and interface conditions at t.
   virtual void apply_bcs(double t, ProjectedStates projected) = 0;
@@ -57,13 +57,13 @@ class Participant {
   virtual void write_fields(double /*t*/, std::uint64_t /*step*/) {}
   /// Lines of the tables, once a step.
   virtual void write_tables(double /*t*/, double /*dt*/, ProjectedStates /*projected*/) {}
-  /// Fields at the last time t at which boundary conditions held, apart from the series: the numbers broke.
+  /// Fields at the last time t at which boundary conditions held, apart from the series: the solution diverged.
   virtual void write_last_state(double /*t*/, std::uint64_t /*step*/) {}
   /// By default that of a body that does not deform.
   virtual wire::Health health() const { return {.min_det_F = 1}; }
   /// Looks for noise in the fields at t; once in a while, at output times and at the end.
   virtual void look_for_noise(double /*t*/) {}
-  /// What to change in the case where the numbers broke: one thing, the likeliest.
+  /// What to change in the case where the solution diverged: one thing, the likeliest.
   virtual std::string remedy() const { return {}; }
   /// What was found; null for a solver without fields.
   virtual const grid::RippleWatch* noise() const { return nullptr; }

@@ -29,8 +29,8 @@ class Formulas final : public exact::Solution {
 
 std::shared_ptr<const exact::Solution> reference_from_case(const Case& problem, const std::string& run_dir) {
   const ReferenceSpec& spec = problem.reference;
-  if (spec.kind == "none") return nullptr;
-  if (spec.kind == "expressions" || spec.kind == "manufactured") {
+  if (spec.kind == ReferenceKind::none) return nullptr;
+  if (spec.in_formulas()) {
     if (!spec.fluid) return nullptr;
     return std::make_shared<Formulas>(*spec.fluid);
   }

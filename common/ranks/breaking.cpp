@@ -12,7 +12,7 @@ namespace fsi {
 namespace {
 
 /// What several ranks have in common ends in an order's list.
-std::vector<double> as_numbers(const NumbersBroke& failure) {
+std::vector<double> as_numbers(const Diverged& failure) {
   const Place& place = failure.place();
   OrderWriter record(1);
   record.list(as_values(failure.cause())).list(as_values(place.grid)).list(as_values(place.interface));
@@ -21,7 +21,7 @@ std::vector<double> as_numbers(const NumbersBroke& failure) {
   return record.take();
 }
 
-NumbersBroke as_failure(std::span<const double> numbers) {
+Diverged as_failure(std::span<const double> numbers) {
   OrderReader record(numbers);
   record.number();
   const std::string cause = as_text(record.list());
@@ -35,7 +35,7 @@ NumbersBroke as_failure(std::span<const double> numbers) {
   const bool has_t = record.whole() == 1;
   const double t = record.number();
   if (has_t) place.t = t;
-  return NumbersBroke(cause, std::move(place));
+  return Diverged(cause, std::move(place));
 }
 
 }  // namespace

@@ -20,16 +20,16 @@ class Together {
     if (failure_) return;
     try {
       action();
-    } catch (const NumbersBroke& failure) {
+    } catch (const Diverged& failure) {
       failure_ = failure;
     }
   }
-  /// All ranks come here. @throws NumbersBroke on all of them, as it was thrown on the first rank where it was
+  /// All ranks come here. @throws Diverged on all of them, as it was thrown on the first rank where it was
   void agree();
 
  private:
   Ranks* ranks_;
-  std::optional<NumbersBroke> failure_;
+  std::optional<Diverged> failure_;
 };
 
 }  // namespace fsi

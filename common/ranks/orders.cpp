@@ -37,7 +37,7 @@ void obey_orders(Ranks& ranks, const std::function<void(int word, OrderReader& o
     if (word == leave) break;
     try {
       obey(word, order);
-    } catch (const NumbersBroke&) {
+    } catch (const Diverged&) {
       continue;
     }
   }

@@ -90,7 +90,7 @@ class Foreman {
     try {
       if (!alone()) ranks_->broadcast(order);
       action();
-    } catch (const NumbersBroke&) {
+    } catch (const Diverged&) {
       throw;
     } catch (...) {
       broken_ = true;
@@ -105,7 +105,7 @@ class Foreman {
   bool broken_ = false;  ///< the ranks cannot be reached any more
 };
 
-/// The life of another rank than the first: does what it is told until it is let go. After numbers broke rank 0, which
+/// The life of another rank than the first: does what it is told until it is let go. After the solution diverged rank 0, which
 /// has found the same, says what is done.
 void obey_orders(Ranks& ranks, const std::function<void(int word, OrderReader& order)>& obey);
 

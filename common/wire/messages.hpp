@@ -12,7 +12,7 @@
 
 namespace fsi::wire {
 
-inline constexpr std::uint32_t protocol_version = 12;
+inline constexpr std::uint32_t protocol_version = 13;
 
 /// Where one program meets the gas or a solid.
 struct InterfaceInfo {
@@ -80,7 +80,7 @@ struct PredictedInterface {
   std::uint64_t step = 0;  ///< 0: initial state
   double t = 0;            ///< time of the state [time]
   /// Largest step the solver can take next, safety factor included [time]; inf = no limit
-  double dt_bid = 0;
+  double proposed_dt = 0;
   std::string dt_reason;      ///< what limits it, for people
   std::vector<double> x;      ///< solid: x_bar + u; gas: its grid's interface, n_d * n
   std::vector<double> v;      ///< velocity, n_d * n
@@ -186,8 +186,8 @@ struct Telemetry {
   std::uint64_t step = 0;
   double t = 0, t_end = 0, dt = 0;  ///< [time]
   std::string dt_reason;
-  double dt_bid = 0;       ///< the step it proposed last; inf: no limit. Coupler: the step agreed on [time]
-  std::string limited_by;  ///< coupler, or a lone solver: the program or setting that limits the step
+  double proposed_dt = 0;  ///< the step it proposed last; inf: no limit. Coupler: the step agreed on [time]
+  std::string limited_by;  ///< coupler, or a standalone solver: the program or setting that limits the step
   std::vector<StepsLimited> limits;  ///< the same of all steps since the start
   double compute_s = 0, wait_s = 0;  ///< [s]
   double point_updates_per_s = 0;    ///< [1/s]

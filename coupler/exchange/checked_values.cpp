@@ -33,7 +33,7 @@ void throw_broken(const Moment& moment, const wire::PredictedInterface& state, s
   place.point = {static_cast<int>(k)};
   const std::size_t points = state.x.size() / 2;
   if (k < points) place.position = {state.x[k], state.x[points + k]};
-  throw NumbersBroke(what, std::move(place));
+  throw Diverged(what, std::move(place));
 }
 
 void check_values(const Moment& moment, const wire::PredictedInterface& state, const char* quantity,
@@ -59,7 +59,7 @@ void check_entries(const Moment& moment, const wire::PredictedInterface& state, 
   if (all_finite(matrix.value)) return;
   for (std::size_t e = 0; e < matrix.value.size(); ++e) {
     if (std::isfinite(matrix.value[e])) continue;
-    throw NumbersBroke(
+    throw Diverged(
         fmt::format("entry ({}, {}) of {} is {}", matrix.row[e], matrix.column[e], quantity, matrix.value[e]),
         place_of(moment, state));
   }

@@ -10,11 +10,11 @@
 
 namespace fsi::coupler {
 
-/// @throws NumbersBroke naming step, t, program, interface and point k
+/// @throws Diverged naming step, t, program, interface and point k
 [[noreturn]] void throw_broken(const Moment& moment, const wire::PredictedInterface& state, std::size_t k,
                                const std::string& what);
 
-/// Throws unless `values` holds `expected` finite numbers. @throws PeerLost, NumbersBroke
+/// Throws unless `values` holds `expected` finite numbers. @throws PeerLost, Diverged
 void check_values(const Moment& moment, const wire::PredictedInterface& state, const char* quantity,
                   std::span<const double> values, std::size_t expected, std::size_t points);
 
@@ -23,7 +23,7 @@ struct MatrixSize {
 };
 
 /// Throws unless a sparse matrix has entries of its own size,
-/// with finite values. @throws PeerLost, NumbersBroke
+/// with finite values. @throws PeerLost, Diverged
 void check_entries(const Moment& moment, const wire::PredictedInterface& state, const char* quantity,
                    const wire::SparseMatrix& matrix, const MatrixSize& size);
 

@@ -245,8 +245,8 @@ void InterfaceExchange::remember(const Moment& moment, const wire::PredictedInte
 }
 
 void InterfaceExchange::measure(const wire::PredictedInterface& gas, const wire::PredictedInterface& solid) {
-  report_ = {.name = pair_.name};
   const Level& now = levels_.front();
+  report_ = {.name = pair_.name, .p_max = p_e_ - std::ranges::min(now.w_n)};
   solid_w_n_.resize(solid.w.size() / 2);
   solid_w_t_.resize(solid_w_n_.size());
   for (std::size_t k = 0; k < curve_.n; ++k) {
@@ -348,11 +348,10 @@ wire::Telemetry::Interface InterfaceExchange::profile(std::size_t most) const {
   const std::size_t n = curve_.n;
   const Level& now = levels_.front();
   const auto [v_min, v_max] = std::ranges::minmax(now.v_n);
-  const auto [w_min, w_max] = std::ranges::minmax(now.w_n);
   profile.v_min = v_min;
   profile.v_max = v_max;
-  profile.p_min = p_e_ - w_max;
-  profile.p_max = p_e_ - w_min;
+  profile.p_min = p_e_ - std::ranges::max(now.w_n);
+  profile.p_max = report_.p_max;
   std::vector<double> s(n);
   arclength(x_gas_, s);
   const std::vector<std::size_t> shown = evenly_spread(n, most);

@@ -29,6 +29,7 @@ struct InterfaceReport {
   double gap = 0;             ///< |n.(x_gas - x_solid)| [length]
   double velocity_scale = 0;  ///< largest of the gas's speed of sound and its |n.v| [velocity]
   double traction_scale = 0;  ///< largest pressure of the gas [pressure]
+  double p_max = 0;           ///< largest pressure on the solid, after the projection [pressure]
   double power = 0;  ///< of the gas on the solid, the integral of w_n v_n, after the projection [power/depth]
   std::size_t vacuum = 0;  ///< points the gas cannot follow
 };
@@ -56,7 +57,7 @@ class InterfaceExchange {
   const InterfacePair& pair() const { return pair_; }
   std::size_t points() const { return curve_.n; }
 
-  /// Takes in the predicted states, which have to live until they are projected. @throws NumbersBroke naming
+  /// Takes in the predicted states, which have to live until they are projected. @throws Diverged naming
   /// step, t, program, interface, point and quantity
   void take(const Moment& moment, const wire::PredictedInterface& gas, const wire::PredictedInterface& solid);
   /// What the solid's degrees of freedom answer, and along which points the gas answers them; a deformable
@@ -64,7 +65,7 @@ class InterfaceExchange {
   const wire::ModalResponse& modal() const { return solid_->modal; }
   ModalSide modal_side() const { return {.N = N_, .gas = gas_, .ds = ds_}; }
   /// Projects what was taken in. @param q_dot of the solid's degrees of freedom; empty for a deformable one
-  /// @throws NumbersBroke as above
+  /// @throws Diverged as above
   void project_interface(const Moment& moment, const Eigen::VectorXd& q_dot);
   /// Everything about the state just projected, as both sides get it.
   void fill_state(wire::ProjectedInterface& answer) const;

@@ -133,7 +133,7 @@ class Piston final : public fsi::Participant {
     return hello;
   }
 
-  fsi::TimeStepBid compute_time_step() const override {
+  fsi::ProposedTimeStep compute_time_step() const override {
     return {.dt = std::numeric_limits<double>::infinity(), .reason = "implicit"};
   }
 

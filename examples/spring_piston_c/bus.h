@@ -21,7 +21,7 @@ void bus_join(void);
 void bus_say_hello(amp_fsi_Hello* hello);
 /* Sends the predicted state and waits for its answer. Run, name and interface are filled in. */
 void bus_exchange(amp_fsi_PredictedInterface* state, amp_fsi_ProjectedInterface* answer);
-/* Leaves in good order. */
+/* Leaves gracefully. */
 void bus_leave(void);
 /* One line on standard error, an Abort to all others, and the end. */
 _Noreturn void bus_end(int code, const char* format, ...);

@@ -147,7 +147,7 @@ static amp_fsi_PredictedInterface state_at(uint64_t step, double t) {
   return (amp_fsi_PredictedInterface){
       .step = step,
       .t = t,
-      .dt_bid = INFINITY,
+      .proposed_dt = INFINITY,
       .dt_reason = "implicit",
       .x = numbers(x, 2 * POINTS),
       .v = numbers(v, 2 * POINTS),

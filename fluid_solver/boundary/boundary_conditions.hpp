@@ -25,7 +25,7 @@ struct BoundaryTask {
 };
 
 /// Boundary points at time t; of several grids, all get theirs before values are interpolated.
-/// @throws NumbersBroke where an interface pressure is not positive
+/// @throws Diverged where an interface pressure is not positive
 void set_boundary_points(Component& component, const BoundaryTask& task);
 
 /// The last row of a grid that is periodic across its rows is the first one again, once more: its owner may not

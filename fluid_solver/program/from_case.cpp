@@ -102,7 +102,7 @@ StateField field_of(std::shared_ptr<const exact::Solution> solution) {
 }
 
 bool is_chosen(const Case& problem, const std::shared_ptr<const exact::Solution>& reference) {
-  return reference && problem.reference.kind == "manufactured";
+  return reference && problem.reference.kind == ReferenceKind::manufactured;
 }
 
 GasSolver gas_at_start(const Case& problem, const FluidSpec& spec,

@@ -20,7 +20,7 @@ bool is_chosen(const Case& problem, const std::shared_ptr<const exact::Solution>
 bool has_budget(const Case& problem, const FluidSpec& spec,
                 const std::shared_ptr<const exact::Solution>& reference);
 
-/// The gas with its initial state. @throws UserMistake, NumbersBroke
+/// The gas with its initial state. @throws UserMistake, Diverged
 GasSolver gas_at_start(const Case& problem, const FluidSpec& spec,
                        const std::shared_ptr<const exact::Solution>& reference);
 

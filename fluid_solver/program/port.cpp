@@ -83,7 +83,7 @@ wire::Hello FluidParticipant::hello() const {
   return hello;
 }
 
-TimeStepBid FluidParticipant::compute_time_step() const {
+ProposedTimeStep FluidParticipant::compute_time_step() const {
   crew_.look();
   const TimeStep step = solver_.compute_time_step();
   return {.dt = step.dt, .reason = step.reason};

@@ -23,7 +23,7 @@ class FluidParticipant final : public Participant {
   explicit FluidParticipant(const Setup& setup);
 
   wire::Hello hello() const override;
-  TimeStepBid compute_time_step() const override;
+  ProposedTimeStep compute_time_step() const override;
   void fill(std::size_t k, wire::PredictedInterface& predicted) const override;
   void apply_bcs(double t, ProjectedStates projected) override;
   void advance(double t, double dt, int substeps, ProjectedStates projected) override;

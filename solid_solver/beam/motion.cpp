@@ -123,7 +123,7 @@ void BeamMotion::advance(double dt, const Eigen::VectorXd& own, const ModalLoad*
     const double before = std::exchange(change, improve(gas, stress));
     if (change <= converged || (change <= almost && change >= 0.5 * before)) return;
   }
-  throw NumbersBroke(fmt::format(
+  throw Diverged(fmt::format(
       "the motion of the beam in a step of {:.3g} is not found in {} iterations; take a smaller `time.dt`",
       dt, most_iterations));
 }
@@ -134,7 +134,7 @@ double BeamMotion::improve(const ModalLoad* gas, std::vector<Resultants>& stress
   const auto& [S, g] = own_response_;
   const Eigen::VectorXd q_dot = gas != nullptr ? solver_.project(S, g, *gas, dt_) : solver_.solve(S, g);
   if (q_dot.size() == 0 || !q_dot.allFinite()) {
-    throw NumbersBroke(
+    throw Diverged(
         "the beam has a motion that no mass, no stiffness and no gas resists, or its numbers are not finite");
   }
   const Eigen::VectorXd before = u_;

@@ -62,7 +62,7 @@ class BeamMotion {
   void start(const Eigen::VectorXd& u_dot);
   /// Predicts the state after a step.
   /// @param own load on the degrees of freedom at its end  @param gas what the gas answered last; null: none
-  /// @throws NumbersBroke where the iteration does not converge
+  /// @throws Diverged where the iteration does not converge
   void advance(double dt, const Eigen::VectorXd& own, const ModalLoad* gas);
   /// Ends the step with the velocities of the free motions.
   void correct(const Eigen::VectorXd& q_dot);

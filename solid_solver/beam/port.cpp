@@ -72,7 +72,7 @@ BeamParticipant::BeamParticipant(const Setup& setup, const SolidSpec& spec)
   });
 }
 
-TimeStepBid BeamParticipant::compute_time_step() const {
+ProposedTimeStep BeamParticipant::compute_time_step() const {
   return {.dt = std::numeric_limits<double>::infinity(), .reason = "a beam is integrated implicitly"};
 }
 

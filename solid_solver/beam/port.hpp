@@ -18,7 +18,7 @@ class BeamParticipant final : public bodies::BodyParticipant {
  public:
   BeamParticipant(const Setup& setup, const SolidSpec& spec);
 
-  TimeStepBid compute_time_step() const override;
+  ProposedTimeStep compute_time_step() const override;
   void fill(std::size_t k, wire::PredictedInterface& predicted) const override;
   void apply_bcs(double t, ProjectedStates projected) override;
   void advance(double t, double dt, int substeps, ProjectedStates projected) override;

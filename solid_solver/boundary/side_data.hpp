@@ -3,9 +3,9 @@
 /// with
 ///
 ///     facts              what it tells others: SolidBoundaryFacts
-///     from(SideData)     the condition that the scheme is to keep (Boundary::Kind), and its values as functions
+///     from(SideData)     the condition that the scheme is to keep, as answers to its questions (`Condition`), and its values as functions
 ///
-/// The scheme knows the conditions alone: a load, a motion, a wall, mirror images, a state, a period.
+/// The scheme knows the answers alone.
 
 #include <functional>
 #include <map>

@@ -143,10 +143,10 @@ inline Tensor2 plus(const Tensor2& a, const Tensor2& b) {
   return {a.a11 + b.a11, a.a12 + b.a12, a.a21 + b.a21, a.a22 + b.a22};
 }
 
-/// Corner of two sides with known traction: the F next to the given one for which P(F) is the stress that has
-/// both tractions; four unknowns, Newton's method. Nothing when it does not converge or leaves det F > 0.
+/// The F next to `start` for which P(F) is this stress; four unknowns, Newton's method. Nothing when it does not
+/// converge or leaves det F > 0.
 template <Law L>
-std::optional<Tensor2> match_corner(const L& law, const Tensor2& P, const Tensor2& start) {
+std::optional<Tensor2> strain_with(const L& law, const Tensor2& P, const Tensor2& start) {
   constexpr int most_iterations = 20;
   constexpr double strain_tolerance = 1e-12;
   Tensor2 F = start;
@@ -158,6 +158,22 @@ std::optional<Tensor2> match_corner(const L& law, const Tensor2& P, const Tensor
     if (size < strain_tolerance) return F;
   }
   return std::nullopt;
+}
+
+/// The rotation nearest to F.
+inline Tensor2 rotation_of(const Tensor2& F) {
+  const double c = F.a11 + F.a22, s = F.a21 - F.a12, size = std::hypot(c, s);
+  return {c / size, -s / size, s / size, c / size};
+}
+
+/// Corner of two sides with known traction: the F next to the given one for which P(F) is the stress that has
+/// both tractions. `start` was extrapolated: it may stretch areas so far that the tension there, lambda ln J, takes the
+/// stiffness against shear away (ln J = 2 mu / lambda for a neo-Hookean one, 4 % at a Poisson's ratio of 0.49), and
+/// Newton's steps from there lead anywhere. The search then begins without strain, turned as `start` is.
+template <Law L>
+std::optional<Tensor2> match_corner(const L& law, const Tensor2& P, const Tensor2& start) {
+  const std::optional<Tensor2> F = strain_with(law, P, start);
+  return F ? F : strain_with(law, P, rotation_of(start));
 }
 
 /// Stress whose tractions on the normals n1 and n2 are T1 and T2: P = sum of dual normals times tractions.

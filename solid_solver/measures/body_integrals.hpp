@@ -128,7 +128,7 @@ SideLoad load_on_side(const SolidComponent<L>& component, Side side) {
   const ConstFieldView x = component.grid().x();
   SideLoad load_of_side;
   for (int k = 0; k < line.n; ++k) {
-    const SideMetrics& m = component.boundary().at(side, k);
+    const SideMetrics& m = component.boundary().sides().at(side, k);
     const SolidState s = load(component.q(), line.at(k, 0));
     const Vec2 position = Vec2(x.plane(0)[line.at(k, 0)], x.plane(1)[line.at(k, 0)]) + s.u;
     const Vec2 force = (k == 0 || k == line.n - 1 ? 0.5 : 1.0) * m.spacing * traction_of(s.P, m.n0);
@@ -156,10 +156,10 @@ SolidState shown_state(const SolidComponent<L>& component, const InterfaceMoment
   const ConstFieldView x = component.grid().x();
   const ChosenSolution* chosen = component.chosen();
   SolidState s = load(component.q(), component.layout().at(p.i, p.j));
-  const auto given = component.boundary().given_motion(side, k, moment.t);
+  const auto given = given_motion(component.boundary().sides(), side, k, moment.t);
   if (given) s.u = given->u, s.v = given->v;
   if (chosen != nullptr) s = sum_of(s, -1.0, chosen->state(x(0, p.i, p.j), x(1, p.i, p.j), moment.t));
-  const auto wall = component.boundary().wall_of(side, k);
+  const auto wall = wall_of(component.boundary().sides(), side, k);
   if (wall && !given) s.u -= *wall * wall->dot(s.u), s.v -= *wall * wall->dot(s.v);
   return s;
 }
@@ -167,14 +167,14 @@ SolidState shown_state(const SolidComponent<L>& component, const InterfaceMoment
 /// How free a point is, of wire::Freedom.
 template <Law L>
 std::uint8_t freedom_of(const SolidComponent<L>& component, double t, Side side, int k) {
-  const SolidBoundary<L>& boundary = component.boundary();
-  if (boundary.given_motion(side, k, t)) return wire::Freedom::fixed;
-  const auto wall = boundary.wall_of(side, k);
-  const bool slides = wall && std::abs(wall->dot(boundary.normal(side, k))) < right_angle;
+  const Sides& sides = component.boundary().sides();
+  if (given_motion(sides, side, k, t)) return wire::Freedom::fixed;
+  const auto wall = wall_of(sides, side, k);
+  const bool slides = wall && std::abs(wall->dot(sides.at(side, k).n0)) < right_angle;
   return slides ? wire::Freedom::slides : wire::Freedom::free;
 }
 
-/// @throws NumbersBroke at the first point whose traction is no number
+/// @throws Diverged at the first point whose traction is no number
 template <Law L>
 void check_tractions(const SolidComponent<L>& component, double t, Side side, std::span<const double> w) {
   const std::size_t n = w.size() / 2;
@@ -182,20 +182,20 @@ void check_tractions(const SolidComponent<L>& component, double t, Side side, st
   for (std::size_t k = 0; k < n; ++k) {
     if (std::isfinite(w[k]) && std::isfinite(w[n + k])) continue;
     const GridPoint p = grid_point(component.layout(), side, static_cast<int>(k));
-    throw NumbersBroke(fmt::format("the stress is not a number any more, det F = {:.3g}",
-                                   determinant(component.deformation_gradient(p.i, p.j))),
-                       {.t = t,
-                        .grid = component.grid().name(),
-                        .point = {p.i, p.j},
-                        .position = {x(0, p.i, p.j), x(1, p.i, p.j)},
-                        .of_reference = true});
+    throw Diverged(fmt::format("the stress is not a number any more, det F = {:.3g}",
+                               determinant(component.deformation_gradient(p.i, p.j))),
+                   {.t = t,
+                    .grid = component.grid().name(),
+                    .point = {p.i, p.j},
+                    .position = {x(0, p.i, p.j), x(1, p.i, p.j)},
+                    .of_reference = true});
   }
 }
 
 /// Fills `state` for the points of a side; of a body with a chosen solution, the differences to it. Uses no
 /// ghost points, so that it may be called on a predicted state; a point that also lies on a side whose motion
 /// is given has that motion, not the predicted one, and one that slides along a wall does not leave it.
-/// @throws NumbersBroke where the stress is not finite
+/// @throws Diverged where the stress is not finite
 template <Law L>
 void gather_interface(const SolidComponent<L>& component, const L& law, const InterfaceMoment& moment,
                       Side side, SolidInterface& state) {
@@ -217,11 +217,11 @@ void gather_interface(const SolidComponent<L>& component, const L& law, const In
                               .Z12 = Z + n,
                               .Z22 = Z + 2 * n,
                               .n = points,
-                              .follows = component.boundary().follows(side)};
+                              .follows = component.boundary().sides().follows(side)};
   for (std::size_t k = 0; k < n; ++k) {
     const int point = static_cast<int>(k);
     const GridPoint p = grid_point(component.layout(), side, point);
-    const Vec2 n0 = component.boundary().normal(side, point);
+    const Vec2 n0 = component.boundary().sides().at(side, point).n0;
     const SolidState s = shown_state(component, moment, side, point);
     const Tensor2 F = component.deformation_gradient(p.i, p.j);
     rows.F.set(point, F.a11, F.a12, F.a21, F.a22);

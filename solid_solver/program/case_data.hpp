@@ -55,11 +55,11 @@ class CaseData {
       if (reference.v) fields.v = function_of(*reference.v);
       if (reference.P) fields.P = function_of(*reference.P);
       manufactured_ = std::make_shared<Manufactured<L>>(std::move(fields), law, spec.rho, size_of(spec.grid));
-      if (reference.kind == "manufactured") {
+      if (reference.kind == ReferenceKind::manufactured) {
         chosen_ = reference.v || reference.P || reference.fluid;
         forced_ = !chosen_;
       }
-    } else if (reference.kind == "expressions" || reference.kind == "manufactured") {
+    } else if (reference.in_formulas()) {
       solution_ = nullptr;  // formulas for the gas only
     }
   }
@@ -158,7 +158,7 @@ class CaseData {
     if (!result)
       throw UserMistake(
           fmt::format("solid \"{}\": boundary {} has a condition for gases", spec_.name, name_of(side)));
-    result->load = spec.on_reference ? LoadConfiguration::reference : LoadConfiguration::current;
+    result->load = spec.load;
     return *std::move(result);
   }
 
@@ -181,7 +181,7 @@ class CaseData {
           fmt::format("solid \"{}\": traction from the reference needs its displacement u", spec_.name));
     auto x = grid.side_points(side);
     auto n = grid::normals(x, curve_along(grid, side), grid::outward(side));
-    const bool on_reference = spec.on_reference;
+    const bool on_reference = spec.load == LoadConfiguration::reference;
     return
         [=, m = manufactured_, x = std::move(x), n = std::move(n)](double x1, double x2, double t) -> Vec2 {
           const std::size_t count = x.size() / 2;

@@ -55,7 +55,7 @@ class SolidParticipant final : public Participant {
     return hello;
   }
 
-  TimeStepBid compute_time_step() const override {
+  ProposedTimeStep compute_time_step() const override {
     const TimeStep step = solver_.compute_time_step();
     return {.dt = step.dt, .reason = step.reason};
   }

@@ -70,7 +70,7 @@ std::vector<Need> SolidSolver<L>::lines_of_interfaces() const {
     const Layout layout = component(k).layout();
     for (const Side side : all_sides) {
       const auto is_interface = [&](Side s) {
-        return component(k).boundary().kind(s) == Boundary::Kind::interface;
+        return component(k).boundary().sides().condition(s).meets_gas();
       };
       if (!is_interface(side)) continue;
       // An interface that goes round corners is closed as a whole by every rank.
@@ -107,9 +107,9 @@ void SolidSolver<L>::share_out_anew() {
 // --- a step
 
 template <Law L>
-NumbersBroke SolidSolver<L>::breakdown(const SolidComponent<L>& component, double dt) {
-  const std::optional<NumbersBroke> point = component.breakdown(dt);
-  return point ? *point : NumbersBroke("not a number", {.grid = component.grid().name()});
+Diverged SolidSolver<L>::breakdown(const SolidComponent<L>& component, double dt) {
+  const std::optional<Diverged> point = component.breakdown(dt);
+  return point ? *point : Diverged("not a number", {.grid = component.grid().name()});
 }
 
 /// Grids are predicted one after the other, and none after the one that broke.
@@ -140,7 +140,7 @@ void SolidSolver<L>::predict_on_ranks(double t, double dt, Look look) {
   }
 }
 
-/// What was found in grids from `first` on becomes what all ranks found. @throws NumbersBroke naming the first point
+/// What was found in grids from `first` on becomes what all ranks found. @throws Diverged naming the first point
 /// that broke
 template <Law L>
 void SolidSolver<L>::agree_on_prediction(std::size_t first, double dt) {
@@ -178,7 +178,7 @@ void SolidSolver<L>::fetch(std::vector<Strip> strips) {
   if (alone()) return;
   for (int k = 0; k < grids(); ++k) {
     for (const Side side : all_sides) {
-      if (component(k).boundary().kind(side) == Boundary::Kind::interface)
+      if (component(k).boundary().sides().condition(side).meets_gas())
         add_lines(component(k).layout(), side, k, 1, strips);
     }
   }

@@ -27,7 +27,7 @@ RigidParticipant::RigidParticipant(const Setup& setup, const SolidSpec& spec)
   begin(std::move(shape), "body", [&](std::size_t, std::size_t) { return body_.reference_centre(); });
 }
 
-TimeStepBid RigidParticipant::compute_time_step() const {
+ProposedTimeStep RigidParticipant::compute_time_step() const {
   return {.dt = std::numeric_limits<double>::infinity(), .reason = "a rigid body has no waves"};
 }
 

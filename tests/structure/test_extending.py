@@ -96,7 +96,7 @@ struct Shaken {
   static Boundary from(const SideData& data) {
     const auto found = data.numbers.find("amplitude");
     const double far = found == data.numbers.end() ? 1 : found->second;
-    Boundary result{.kind = Boundary::Kind::displacement};
+    Boundary result{.condition = {.motion = Condition::Motion::given}};
     result.vector = [far](double, double, double t) -> Vec2 { return {far * std::sin(t), 0}; };
     result.velocity = rate_of(result.vector, data.time_scale);
     return result;

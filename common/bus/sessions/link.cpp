@@ -25,8 +25,8 @@ constexpr double longest_repetition_s = 1;
 constexpr double repetitions_per_timeout = 4;
 
 ExitCode exit_code_of(std::int32_t number) {
-  constexpr std::array known = {ExitCode::user_mistake,  ExitCode::numbers_broke, ExitCode::peer_lost,
-                                ExitCode::output_failed, ExitCode::interrupted,   ExitCode::terminated};
+  constexpr std::array known = {ExitCode::user_mistake,  ExitCode::diverged,    ExitCode::peer_lost,
+                                ExitCode::output_failed, ExitCode::interrupted, ExitCode::terminated};
   const auto* found = std::ranges::find(known, static_cast<ExitCode>(number));
   return found == known.end() ? ExitCode::internal_error : *found;
 }

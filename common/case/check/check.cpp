@@ -107,7 +107,7 @@ std::vector<std::string> solid_names(const Case& problem) {
 
 /// Whether the reference describes the gas, or the solids.
 bool describes(const ReferenceSpec& reference, bool gas) {
-  if (reference.kind != "expressions" && reference.kind != "manufactured") return true;
+  if (!reference.in_formulas()) return true;
   return gas ? reference.fluid.has_value() : reference.u.has_value();
 }
 
@@ -120,13 +120,13 @@ void check_start(const ReferenceSpec& reference, bool gas, const std::string& ow
 }
 
 void check_reference(const Case& problem, const Node& root) {
-  if (problem.reference.kind == "riemann" && !problem.solids.empty())
+  if (problem.reference.kind == ReferenceKind::riemann && !problem.solids.empty())
     fail(node_at(root, {"reference", "kind"}).place, "reference",
          "`riemann` is a solution for a gas alone; leave it out");
-  const bool computed = problem.reference.kind == "piston_1d" || problem.reference.kind == "rotating_disk";
-  if (computed && problem.fluids.size() > 1)
+  if (problem.reference.computed() && problem.fluids.size() > 1)
     fail(node_at(root, {"reference", "kind"}).place, "reference",
-         fmt::format("`{}` is computed with one gas and one solid; leave it out", problem.reference.kind));
+         fmt::format("`{}` is computed with one gas and one solid; leave it out",
+                     name_of(problem.reference.kind)));
   if (!problem.reference.u) {
     for (const auto& [key, is_there] :
          {std::pair{"v", problem.reference.v.has_value()}, std::pair{"P", problem.reference.P.has_value()}}) {
@@ -139,10 +139,10 @@ void check_reference(const Case& problem, const Node& root) {
                         const Node& node) {
     if (!spec.from_reference) return;
     const std::string path = fmt::format("{}.boundary.{}", owner, name_of(side));
-    if (problem.reference.kind == "piston_1d" || problem.reference.kind == "rotating_disk") {
+    if (problem.reference.computed()) {
       fail(node.place, path,
            fmt::format("reference `{}` is known at output times only; give the boundary data here",
-                       problem.reference.kind));
+                       name_of(problem.reference.kind)));
     }
     if (!describes(problem.reference, is_gas))
       fail(node.place, path,
@@ -190,7 +190,8 @@ std::vector<Vec2> meeting_points(const SolidSpec& solid) {
 /// A chosen solution of gas and solid and a given path of the interface belong together.
 void check_motion(const Case& problem, const Node& root) {
   const ReferenceSpec& reference = problem.reference;
-  const bool chosen = reference.kind == "manufactured" && !problem.fluids.empty() && !problem.solids.empty();
+  const bool chosen =
+      reference.kind == ReferenceKind::manufactured && !problem.fluids.empty() && !problem.solids.empty();
   if (!problem.interface.motion) {
     if (!chosen) return;
     fail(node_at(root, {"reference"}).place, "reference",

@@ -78,6 +78,25 @@ void check_line(const SolidSpec& solid, const Node& beam, double thickness) {
   }
 }
 
+/// Where both feet of the outline are the two sides of one section, an end of the line stands between them: the
+/// section that holds the outline on the wall is that of the end.
+void check_between_feet(const SolidSpec& solid, const Node& beam, double thickness) {
+  const CurveSpec& curve = solid.body_fitted.front().curve;
+  const std::size_t n = curve.x.size() / 2;
+  const Vec2 foot(curve.x[0], curve.x[n]), other(curve.x[n - 1], curve.x[2 * n - 1]);
+  constexpr double one_section = 4;  // thicknesses; the feet of an arch are farther apart
+  if ((other - foot).norm() > one_section * thickness) return;
+  const Vec2 middle = 0.5 * (foot + other);
+  const bool last = (solid.beam->line.back() - middle).norm() < (solid.beam->line.front() - middle).norm();
+  const Vec2& x = last ? solid.beam->line.back() : solid.beam->line.front();
+  if ((x - middle).norm() <= thickness) return;
+  fail(beam.find("line")->place, fmt::format("solids.{}.beam.line", solid.name),
+       fmt::format("its {} end ({:.4g}, {:.4g}) is {:.3g} away from the foot of the outline, more than the "
+                   "thickness, {:.3g}; let that end be ({:.4g}, {:.4g}), in the middle of the foot",
+                   last ? "last" : "first", x.x(), x.y(), (x - middle).norm(), thickness, middle.x(),
+                   middle.y()));
+}
+
 /// The end of the line that is nearest to an end of the outline.
 void check_foot(const SolidSpec& solid, const Node& beam, std::size_t end) {
   const CurveSpec& curve = solid.body_fitted.front().curve;
@@ -152,7 +171,8 @@ void check_beams(const Case& problem, const Node& root) {
   for (const SolidSpec& solid : problem.solids) {
     if (solid.law != beam_law || !solid.beam) continue;
     const Node& beam = *root.find("solids")->find(solid.name)->find("beam");
-    check_line(solid, beam, check_thickness(solid, beam));
+    const double thickness = check_thickness(solid, beam);
+    check_line(solid, beam, thickness);
     if (problem.fluids.empty() && !problem.time.dt) {
       fail(root.find("time")->place, "time",
            "a beam without a gas has no largest step of its own; write `dt` [time]");
@@ -164,6 +184,7 @@ void check_beams(const Case& problem, const Node& root) {
         check_corner(solid, fluid, *side, end, *root.find("solids")->find(solid.name));
     }
     if (solid.body_fitted.empty() || solid.body_fitted.front().curve.closed() || solid.beam->closed) continue;
+    check_between_feet(solid, beam, thickness);
     for (const std::size_t end : {0U, 1U}) check_foot(solid, beam, end);
   }
 }

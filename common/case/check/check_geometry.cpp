@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -325,6 +326,29 @@ void check_foot(const SolidSpec& solid, const Case& problem, const Node& root) {
            name_of(foot)));
 }
 
+/// Sharp corners of a body that hardly changes its volume: a stretch of areas that differences at a corner are wrong
+/// by is a tension of lambda times as much there. Free blocks ran at lambda / mu = 199 and broke at 499, on every
+/// grid (docs/theory_grids.md, "Corners").
+void check_volume_changes_at_corners(const SolidSpec& solid, const Node& root) {
+  constexpr double most = 200;
+  if (!is_block(solid) || solid.lambda <= most * solid.mu) return;
+  const Node& node = *root.find("solids")->find(solid.name);
+  const Node* shape = node.find("shape");
+  const CheckedOutline outline = outline_of(solid, root);
+  double shortest = std::numeric_limits<double>::infinity();  // of the sides between corners
+  for (std::size_t k = 1; k < outline.curve.corners.size(); ++k) {
+    const auto at = [&](std::size_t c) {
+      return outline.point(static_cast<std::size_t>(outline.curve.corners[c]));
+    };
+    shortest = std::min(shortest, (at(k) - at(k - 1)).norm());
+  }
+  fail(shape != nullptr ? shape->place : node.place, fmt::format("solids.{}.shape", solid.name),
+       fmt::format(
+           "with sharp corners a body must change its volume more easily than with lambda / mu = {:.4g} "
+           "({:g} at most, a Poisson's ratio of 0.4975); write `radius: {:.2g}`, or another material",
+           solid.lambda / solid.mu, most, 0.25 * shortest));
+}
+
 }  // namespace
 
 void check_geometry(const Case& problem, const Node& root) {
@@ -333,6 +357,7 @@ void check_geometry(const Case& problem, const Node& root) {
     check_crossing_itself(outline_of(solid, root));
     const bool has_core = is_continuum(solid.law) && !is_block(solid);
     check_foot(solid, problem, root);
+    check_volume_changes_at_corners(solid, root);
     if (has_core) check_corners_inside(outline_of(solid, root));
     if (has_core && is_upright(solid.grid)) check_core(solid, root);
   }

@@ -152,9 +152,10 @@ void check_named(const Case& problem, const SolidSpec& solid, const std::string&
 void check_grid_sides(const Case& problem, const SolidSpec& solid, const Node& root) {
   const std::string path = fmt::format("solids.{}.boundary", solid.name);
   const Node& place = node_at(root, {"solids", solid.name, "boundary"});
-  const bool displaced = solid.initial_from_reference && problem.reference.kind != "elastic_piston" &&
-                         problem.reference.kind != "wall_between_gases" &&
-                         problem.reference.kind != "clamped_wall";
+  const bool displaced = solid.initial_from_reference &&
+                         problem.reference.kind != ReferenceKind::elastic_piston &&
+                         problem.reference.kind != ReferenceKind::wall_between_gases &&
+                         problem.reference.kind != ReferenceKind::clamped_wall;
   std::vector<Side> sides;
   for (const Side side : all_sides) {
     const BoundarySpec& spec = solid.boundary[static_cast<std::size_t>(side)];

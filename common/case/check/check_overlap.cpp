@@ -78,7 +78,7 @@ void check_overlap(const OverlapCheck& check) {
       if (spec.map) check_curve(spec, grid::MovingGrid(grid_of(spec), 0));
     }
     connect_once(check.background, check.body_fitted);
-  } catch (const NumbersBroke& failure) {
+  } catch (const Diverged& failure) {
     const Advice advice = advice_for(check);
     const std::string cause =
         advice.fact.empty() ? failure.what() : fmt::format("{}; {}", failure.what(), advice.fact);

@@ -144,18 +144,16 @@ void check_probe_places(const Case& problem, const Node& root) {
 }
 
 void check_laws(const Case& problem, const Node& root) {
-  const std::string& kind = problem.reference.kind;
-  const bool computed = kind == "piston_1d" || kind == "rotating_disk";
   for (const SolidSpec& solid : problem.solids) {
     const Node& node = *root.find("solids")->find(solid.name);
     if (solid.law == rigid_law || solid.law == beam_law) check_initial(solid, node);
     if (solid.law == rigid_law) check_rigid(solid, node);
-    if (!computed || is_continuum(solid.law)) continue;
+    if (!problem.reference.computed() || is_continuum(solid.law)) continue;
     fail(node.find("law")->place, fmt::format("solids.{}.law", solid.name),
          fmt::format(
              "reference `{}` is computed with a law of deformation, not with `{}`; write another law, or "
              "reference.kind: none, and leave out the errors in `expect`",
-             kind, solid.law));
+             name_of(problem.reference.kind), solid.law));
   }
 }
 

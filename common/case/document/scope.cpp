@@ -91,6 +91,8 @@ class Parameters {
     }
     const bool circle = std::find(chain_.begin(), chain_.end(), name) != chain_.end();
     chain_.push_back(name);
+    if (circle && name == "j")
+      fail(node.place, key, "h = 1 / (10 j) and j come from this number; it cannot use them");
     if (circle) fail(node.place, key, fmt::format("parameters go round in a circle: {}", chain_text(chain_)));
     if (chain_.size() > longest_chain) {
       fail(

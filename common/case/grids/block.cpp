@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "common/case/grids/grid_points.hpp"
+#include "common/case/grids/node_tools.hpp"
 
 namespace fsi {
 
@@ -95,6 +96,14 @@ BlockCorners block_corners(const CurveSpec& outline) {
   const std::size_t first = closed ? 4 - bottom_among(x) : turn_of(outline.walls->front()) + 1;
   for (std::size_t k = 0; k < 4; ++k) placed[(first + k) % 4] = x[k];
   return {.at = placed};
+}
+
+bool leaves_block_open(const config::Node& solid) {
+  const config::Node* grid = solid.find("grid");
+  const config::Node* kind = grid == nullptr ? nullptr : grid->find("kind");
+  if (kind != nullptr && kind->text == "block") return true;
+  return config::lacks(grid, {"x", "y", "map", "kind"}) &&
+         config::lacks(solid.find("body_fitted"), {"lines", "spacing", "growth", "concave_smoothing", "map"});
 }
 
 std::array<int, 2> block_points(const std::array<Vec2, 4>& corners, double h) {

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "common/case/case.hpp"
+#include "common/core/input/config.hpp"
 
 namespace fsi {
 
@@ -24,6 +25,9 @@ struct BlockCorners {
 
 /// @param outline seen closely, the body to its left. A body that stands on a wall has the side of that name there
 BlockCorners block_corners(const CurveSpec& outline);
+
+/// Nothing is said of a ring or a core: a body of four straight sides takes one grid from corner to corner.
+bool leaves_block_open(const config::Node& solid);
 
 /// Points of a grid between these corners, h apart on the mean, five at least in each direction.
 std::array<int, 2> block_points(const std::array<Vec2, 4>& corners, double h);

@@ -9,6 +9,7 @@
 #include "common/case/document/fluid_sections.hpp"
 #include "common/case/document/reader.hpp"
 #include "common/case/grids/block.hpp"
+#include "common/case/grids/choose_corners.hpp"
 #include "common/case/grids/fit_grids.hpp"
 #include "common/case/grids/no_grids_fit.hpp"
 #include "common/case/grids/node_tools.hpp"
@@ -21,14 +22,10 @@ namespace fsi {
 
 namespace {
 
+using config::lacks;
 using config::Node;
 using config::number_node;
 using config::word_node;
-
-bool lacks(const Node* section, std::initializer_list<std::string_view> keys) {
-  return section == nullptr ||
-         std::ranges::none_of(keys, [&](std::string_view key) { return section->find(key) != nullptr; });
-}
 
 /// Does the file leave the grids of a solid open?
 bool is_open(const Node& solid) {
@@ -75,15 +72,6 @@ void write_body(Node& solid, const BodyGrids& chosen) {
     put(grid, "y", pair(chosen.core.y_a, chosen.core.y_b));
   }
   put(grid, "points", pair(chosen.core.n1, chosen.core.n2));
-}
-
-/// Nothing is said of a ring or a core: a body of four straight sides takes one grid from corner to corner.
-bool leaves_block_open(const Node& solid) {
-  const Node* grid = solid.find("grid");
-  const Node* kind = grid == nullptr ? nullptr : grid->find("kind");
-  if (kind != nullptr && kind->text == "block") return true;
-  return lacks(grid, {"x", "y", "map", "kind"}) &&
-         lacks(solid.find("body_fitted"), {"lines", "spacing", "growth", "concave_smoothing", "map"});
 }
 
 /// Distance of points along an outline.
@@ -235,6 +223,7 @@ void choose_for_gas(Node& root, std::size_t index, const Scope& scope, std::vect
 
 std::vector<std::string> choose_grids(Node& root, const Scope& scope) {
   std::vector<std::string> chosen;
+  choose_corners(root, Reader(root, scope), chosen);
   choose_for_solids(root, Reader(root, scope), chosen);
   add_rings(root);
   const std::size_t gases = fluid_sections(root).size();

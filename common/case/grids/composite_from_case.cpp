@@ -44,9 +44,10 @@ bool comes_down_flat(const BodyFittedSpec& spec, const Vec2& wall, std::size_t e
   return away.dot(along) > cosine * away.norm() * along.norm();
 }
 
-std::optional<grid::CrowdedCorner> crowded_elastic_corner(const BodyFittedSpec& spec, ConstFieldView x) {
-  if (!spec.curve.elastic_corners || spec.side != Side::top) return std::nullopt;
-  return grid::most_crowded_elastic_corner(x, spec.side, spec.curve.corners);
+std::optional<grid::CrowdedCorner> crowded_at_corners(const BodyFittedSpec& spec, ConstFieldView x) {
+  const bool yields = spec.curve.elastic_corners && spec.side == Side::top;
+  const double least = yields ? grid::least_share_of_elastic_corners : grid::least_share_of_turns;
+  return grid::most_crowded_corner(x, spec.side, spec.curve.corners, least);
 }
 
 /// What is wrong with the ghost lines behind a curve, through which fluxes go and from which values are
@@ -54,7 +55,7 @@ std::optional<grid::CrowdedCorner> crowded_elastic_corner(const BodyFittedSpec& 
 std::optional<std::string> trouble_behind(const BodyFittedSpec& spec, ConstFieldView x) {
   auto corner = grid::crowded_corner(x, spec.side);
   if (!corner) corner = grid::most_crowded_bend(x, spec.side, spec.curve.corners);
-  if (const auto elastic = crowded_elastic_corner(spec, x); elastic && elastic->part < 1) corner = elastic;
+  if (const auto sharp = crowded_at_corners(spec, x); sharp && sharp->part < 1) corner = sharp;
   if (corner && corner->part < 1) {
     return fmt::format("its curve turns too sharply at ({:.4g}, {:.4g}) for the distance of its lines",
                        corner->x[0], corner->x[1]);
@@ -94,7 +95,7 @@ BodyFittedSpec first_that_holds(const BodyFittedSpec& spec, double estimate) {
 constexpr double margin = 0.95;  // of an estimate: shares are not quite in proportion to distances
 
 void check_behind(const BodyFittedSpec& spec, ConstFieldView x) {
-  if (const auto trouble = trouble_behind(spec, x)) throw NumbersBroke(*trouble, {.grid = spec.name});
+  if (const auto trouble = trouble_behind(spec, x)) throw Diverged(*trouble, {.grid = spec.name});
 }
 
 /// An end of a grid lies on a wall, as far as the grid is deep.
@@ -161,7 +162,7 @@ BodyFittedSpec with_sound_lines(const BodyFittedSpec& spec) {
   try {
     const grid::MovingGrid grid(grid_of(thin), 0);
     const auto bend = grid::most_crowded_bend(grid.x(), spec.side, spec.curve.corners);
-    const auto corner = crowded_elastic_corner(spec, grid.x());
+    const auto corner = crowded_at_corners(spec, grid.x());
     const double slant = grid::most_slanted_line(grid.x(), spec.side).slant;
     part = std::min({bend ? bend->part : any, corner ? corner->part : any,
                      slant > 0 ? grid::largest_slant / slant : any});
@@ -267,14 +268,13 @@ void connect_once(const GridSpec& background, const std::vector<BodyFittedSpec>&
   composite.connect(views, 0);
   const grid::OverlapRecord& worst = composite.record();
   if (worst.amplification <= grid::CompositeGrid::sound_amplification) return;
-  throw NumbersBroke(
-      fmt::format("it and points of other grids interpolate from each other so that errors arrive "
-                  "{:.3g} times as large (up to {:.3g} is sound): the overlap is too small",
-                  worst.amplification, grid::CompositeGrid::sound_amplification),
-      {.t = 0,
-       .grid = composite.name(worst.grid),
-       .point = {worst.i, worst.j},
-       .position = {worst.x[0], worst.x[1]}});
+  throw Diverged(fmt::format("it and points of other grids interpolate from each other so that errors arrive "
+                             "{:.3g} times as large (up to {:.3g} is sound): the overlap is too small",
+                             worst.amplification, grid::CompositeGrid::sound_amplification),
+                 {.t = 0,
+                  .grid = composite.name(worst.grid),
+                  .point = {worst.i, worst.j},
+                  .position = {worst.x[0], worst.x[1]}});
 }
 
 bool connects(const GridSpec& background, const std::vector<BodyFittedSpec>& specs) {

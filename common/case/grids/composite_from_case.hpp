@@ -30,11 +30,11 @@ int lines_to(double depth, double spacing, double growth);
 BodyFittedSpec with_sound_lines(const BodyFittedSpec& spec);
 
 /// The grids of all curves at t = 0, with the room they leave each other.
-/// @throws NumbersBroke for folds
+/// @throws Diverged for folds
 std::vector<grid::MovingGrid> grids_at_start(const std::vector<BodyFittedSpec>& specs);
 
 /// Marches the grids from their curves and connects them with the background at t = 0, to see whether that
-/// can be done. @throws NumbersBroke for folds, curves nearer to each other than is computed, points without
+/// can be done. @throws Diverged for folds, curves nearer to each other than is computed, points without
 /// donors, and where points that interpolate from each other amplify errors more than is sound
 void connect_once(const GridSpec& background, const std::vector<BodyFittedSpec>& specs);
 

@@ -3,7 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <initializer_list>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "common/core/input/config.hpp"
@@ -21,6 +24,12 @@ inline Node number_node(double value, const std::string& place) {
 /// A word as the file would have it.
 inline Node word_node(const std::string& text, const std::string& place) {
   return {.kind = Node::Kind::scalar, .place = place, .text = text, .entries = {}};
+}
+
+/// None of the keys is there.
+inline bool lacks(const Node* section, std::initializer_list<std::string_view> keys) {
+  return section == nullptr ||
+         std::ranges::none_of(keys, [&](std::string_view key) { return section->find(key) != nullptr; });
 }
 
 /// The value under a key, whether there was one before or not.

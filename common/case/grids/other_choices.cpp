@@ -4,7 +4,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <functional>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -142,6 +144,43 @@ std::vector<OtherChoice> choices_for(const NoGridsFit::Parts& parts, const Node&
   return choices;
 }
 
+/// A case that a choice has brought on: the grids of another body do not fit now.
+struct HalfMended {
+  OtherChoice choice;
+  Node root;
+  NoGridsFit::Parts left;
+};
+
+/// The same choice for another body.
+OtherChoice moved(OtherChoice choice, const std::string& from, const std::string& to) {
+  const auto move = [&](std::string& key) {
+    if (key.starts_with(from + ".")) key.replace(0, from.size(), to);
+  };
+  for (auto& [key, value] : choice.written) move(key);
+  for (std::string& key : choice.left_out) move(key);
+  return choice;
+}
+
+/// The other bodies with which a choice makes the case valid; none where it does not.
+std::vector<std::string> bodies_that_take(HalfMended& half, const std::string& first,
+                                          const std::function<TriedCase(const Node&)>& tried) {
+  const auto is_body = [](const std::string& owner) { return owner.starts_with("solids."); };
+  std::vector<std::string> bodies;
+  NoGridsFit::Parts left = half.left;
+  while (is_body(first) && is_body(left.owner) && left.owner != first &&
+         std::ranges::find(bodies, left.owner) == bodies.end()) {
+    std::optional<Node> other = changed(half.root, moved(half.choice, first, left.owner));
+    if (!other) break;
+    bodies.push_back(left.owner);
+    half.root = std::move(*other);
+    TriedCase found = tried(half.root);
+    if (found.valid) return bodies;
+    if (!found.left) break;
+    left = std::move(*found.left);
+  }
+  return {};
+}
+
 }  // namespace
 
 NoGridsFit::NoGridsFit(Parts parts)
@@ -150,22 +189,32 @@ NoGridsFit::NoGridsFit(Parts parts)
       parts_(std::move(parts)) {}
 
 UserMistake with_remedy(const NoGridsFit& mistake, const Node& root, double factor,
-                        const std::function<bool(const Node&)>& valid) {
+                        const std::function<TriedCase(const Node&)>& tried) {
   const NoGridsFit::Parts& parts = mistake.parts();
+  const auto told = [&](const std::string& words) {
+    return UserMistake(config::located(parts.place, parts.key, parts.cause + "; " + words));
+  };
+  const auto works = [&](const std::string& words) {
+    return told(fmt::format("{} (tried: valid), or {}", words, parts.otherwise));
+  };
   std::vector<std::string> in_vain;
+  std::vector<HalfMended> half_mended;
   std::string last;  // the case that was tried last
   for (const OtherChoice& choice : choices_for(parts, root, factor)) {
-    const std::optional<Node> other = changed(root, choice);
+    std::optional<Node> other = changed(root, choice);
     if (!other || std::exchange(last, config::emit(*other)) == config::emit(*other)) continue;
-    if (valid(*other))
-      return UserMistake(config::located(
-          parts.place, parts.key,
-          fmt::format("{}; {} (tried: valid), or {}", parts.cause, choice.words, parts.otherwise)));
+    TriedCase found = tried(*other);
+    if (found.valid) return works(choice.words);
     in_vain.push_back(choice.words);
+    if (found.left) half_mended.push_back({choice, std::move(*other), std::move(*found.left)});
   }
-  return UserMistake(config::located(
-      parts.place, parts.key,
-      fmt::format("{}; {} (tried in vain: {})", parts.cause, parts.otherwise, fmt::join(in_vain, "; "))));
+  for (HalfMended& half : half_mended) {
+    const std::vector<std::string> bodies = bodies_that_take(half, parts.owner, tried);
+    if (!bodies.empty())
+      return works(fmt::format("{}, and the same for {}", half.choice.words, fmt::join(bodies, ", ")));
+  }
+  return told(
+      fmt::format("{} (tried in vain, one at a time: {})", parts.otherwise, fmt::join(in_vain, "; ")));
 }
 
 }  // namespace fsi

@@ -2,21 +2,28 @@
 /// What else a case file could say where its grids do not fit: changes that are tried before they are named.
 
 #include <functional>
-#include <string>
+#include <optional>
 
 #include "common/case/grids/no_grids_fit.hpp"
 #include "common/core/input/config.hpp"
 
 namespace fsi {
 
+/// What became of a case with another choice.
+struct TriedCase {
+  bool valid = false;
+  std::optional<NoGridsFit::Parts> left = {};  ///< grids of it that still do not fit
+};
+
 /// Tries one change of the case after the other: those that the mistake brings, numbers of grids left out (they
 /// are then chosen), rounder corners of polygons, for a gas grid.factor twice and four times what it is, for a body
-/// a rigid one that is held.
+/// a rigid one that is held. Where a change mends one body and grids of another do not fit then, it is tried at both
+/// in the end, and so on.
 /// @param root   the case as it was written, with what the command line says
 /// @param factor grid.factor of the case [-]
-/// @param valid  whether a case with such a tree is valid
+/// @param tried  what becomes of a case with such a tree
 /// @returns the mistake with the first change that is, or with what was tried in vain
 UserMistake with_remedy(const NoGridsFit& mistake, const config::Node& root, double factor,
-                        const std::function<bool(const config::Node&)>& valid);
+                        const std::function<TriedCase(const config::Node&)>& tried);
 
 }  // namespace fsi

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 
 #include "common/case/grids/node_tools.hpp"
 #include "common/case/schema/boundary_facts.hpp"
+#include "common/core/failure.hpp"
 
 namespace fsi {
 
@@ -17,6 +19,9 @@ using config::Node;
 
 /// A body nearer than that to a wall, in spacings of the background: more than grids of eight lines are deep.
 constexpr double near = 10;
+
+/// And so near that no gas fits between them: it is meant to stand there.
+constexpr double touching = 0.5;
 
 double end_of_box(const GridSpec& box, Side side) {
   if (direction_of(side) == 0) return at_upper_end(side) ? box.x_b : box.x_a;
@@ -36,15 +41,28 @@ bool has_an_end_on(const CurveSpec& curve, Side side) {
   return curve.walls && std::ranges::find(*curve.walls, side) != curve.walls->end();
 }
 
+void refuse_touching(const BodyFittedSpec& ring, const Node& item, Side side, double distance) {
+  throw UserMistake(config::located(
+      item.place, fmt::format("solids.{}.shape", ring.solid),
+      fmt::format(
+          "the outline of solid `{0}` comes within {2:.3g} of the {1} side of the gas, less than half a "
+          "cell; if it stands there, write `walls: [{1}, {1}]` into the shape, with its first and its "
+          "last point on that side; if not, move it away, or take grid.factor greater",
+          ring.solid, name_of(side), std::max(distance, 0.0))));
+}
+
 /// The curve whose body is near to a wall that has no grid of its own.
 const Node* body_near(const Node& list, const FluidSpec& fluid, const std::vector<std::size_t>& open,
                       Side side) {
   const GridSpec& box = fluid.grid;
-  const double spacing = std::max((box.x_b - box.x_a) / (box.n1 - 1), (box.y_b - box.y_a) / (box.n2 - 1));
+  const double across = (box.x_b - box.x_a) / (box.n1 - 1), up = (box.y_b - box.y_a) / (box.n2 - 1);
+  const double cell = std::min(across, up), spacing = std::max(across, up);
   for (const std::size_t k : open) {
     const BodyFittedSpec& ring = fluid.body_fitted[k];
     if (!ring.curve.closed() || ring.side != Side::top) continue;
     const double distance = distance_to_side(ring.curve, box, side);
+    if (std::abs(distance) < touching * cell && !ring.solid.empty())
+      refuse_touching(ring, list.items[k], side, distance);
     if (distance > 0 && distance < near * spacing) return &list.items[k];
   }
   return nullptr;

@@ -181,7 +181,7 @@ ReferenceSpec reference_of(const Reader& reader) {
   if (node == nullptr) return result;
   for (const config::Entry& entry : node->entries) {
     if (entry.key == "kind") {
-      result.kind = entry.value.text;
+      result.kind = named<ReferenceKind>(entry.value.text).value();
     } else if (entry.key == "fluid") {
       result.fluid = reader.gas_state(entry.value, "reference.fluid");
     } else if (entry.key == "u") {

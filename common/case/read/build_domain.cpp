@@ -119,9 +119,7 @@ BoundarySpec build_boundary(const Reader& reader, const Owner& owner, const Node
   result.kind = named<BoundaryKind>(node.find("kind")->text).value();
   Reader::assign(node, "solid", result.solid);
   Reader::assign(node, "fluid", result.fluid);
-  std::string load = "current";
-  Reader::assign(node, "load", load);
-  result.on_reference = load == "reference";
+  Reader::assign(node, "load", result.load);
   for (const Key& key : keys_of(owner, result.kind)) {
     const Node* value = node.find(key.name);
     if (value == nullptr) continue;

@@ -221,8 +221,8 @@ std::string cost_text(const RunCost& cost) {
     if (program.usual_dt > few * program.dt)
       warning += fmt::format(
           "  {}: a twentieth of the cells, near that place, makes the step {:.2g} times smaller than "
-          "the others need: round the outline more there, or write a greater `spacing` or fewer "
-          "`points` for that grid\n",
+          "the others need: round the outline more there, or not at all (`radius: 0` of a polygon), or "
+          "write a greater `spacing` or fewer `points` for that grid\n",
           program.program, program.usual_dt / program.dt);
   }
   const bool levels =

@@ -141,7 +141,7 @@ std::string summary_as_json(const Case& problem) {
       {"time", time_json(problem.time)},
       {"projection", name_of(problem.interface.projection)},
       {"output_times", problem.output.times},
-      {"reference", {{"kind", problem.reference.kind}, {"numbers", problem.reference.numbers}}},
+      {"reference", {{"kind", name_of(problem.reference.kind)}, {"numbers", problem.reference.numbers}}},
       {"expect", expect_json(problem.expect)},
       {"resolved", problem.resolved}};
   return summary.dump(2, ' ', false, ordered_json::error_handler_t::replace);

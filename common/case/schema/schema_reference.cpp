@@ -2,6 +2,7 @@
 
 #include "common/case/schema/boundary_facts.hpp"
 #include "common/case/schema/schema.hpp"
+#include "common/core/choices.hpp"
 
 namespace fsi::schema {
 
@@ -222,18 +223,20 @@ constexpr array rotating_disk_keys{
         .range = {.low = 100, .high = 1e6}},
 };
 constexpr array reference_variants{
-    Variant{"none", "no reference solution, no errors", {}},
-    Variant{"elastic_piston", "exact solution of the elastic piston", elastic_piston_keys},
-    Variant{"wall_between_gases", "exact solution of sound that meets a wall between two gases",
-            wall_between_gases_keys},
-    Variant{"clamped_wall", "exact solution of sound that meets a wall whose far face is clamped",
-            clamped_wall_keys},
-    Variant{"riemann", "exact solution of the Riemann problem", riemann_keys},
-    Variant{"piston_1d", "a fine one-dimensional run of the same case", piston_1d_keys},
-    Variant{"rotating_disk", "a fine run of the unit disk that turns in a gas, in the radius alone",
-            rotating_disk_keys},
-    Variant{"expressions", "formulas", expressions_keys},
-    Variant{"manufactured", "chosen fields made exact by forces and sources", manufactured_keys},
+    Variant{name_of(ReferenceKind::none), "no reference solution, no errors", {}},
+    Variant{name_of(ReferenceKind::elastic_piston), "exact solution of the elastic piston",
+            elastic_piston_keys},
+    Variant{name_of(ReferenceKind::wall_between_gases),
+            "exact solution of sound that meets a wall between two gases", wall_between_gases_keys},
+    Variant{name_of(ReferenceKind::clamped_wall),
+            "exact solution of sound that meets a wall whose far face is clamped", clamped_wall_keys},
+    Variant{name_of(ReferenceKind::riemann), "exact solution of the Riemann problem", riemann_keys},
+    Variant{name_of(ReferenceKind::piston_1d), "a fine one-dimensional run of the same case", piston_1d_keys},
+    Variant{name_of(ReferenceKind::rotating_disk),
+            "a fine run of the unit disk that turns in a gas, in the radius alone", rotating_disk_keys},
+    Variant{name_of(ReferenceKind::expressions), "formulas", expressions_keys},
+    Variant{name_of(ReferenceKind::manufactured), "chosen fields made exact by forces and sources",
+            manufactured_keys},
 };
 
 }  // namespace

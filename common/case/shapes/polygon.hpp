@@ -21,7 +21,7 @@ struct Polygon {
                   .meaning = "corners become arcs of this radius between edges that stay where they are; 0: "
                              "sharp corners",
                   .unit = "length",
-                  .fallback = "from `sharpness`",
+                  .fallback = "from `sharpness`; 0 of a thin body",
                   .range = {.low = 0}},
       schema::Key{
           .name = "sharpness",

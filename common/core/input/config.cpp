@@ -11,6 +11,7 @@
 #include <charconv>
 #include <sstream>
 
+#include "common/core/input/decimal_comma.hpp"
 #include "common/core/input/suggest.hpp"
 #include "common/core/input/text_file.hpp"
 
@@ -50,12 +51,12 @@ class Builder : public YAML::EventHandler {
   }
   void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
                        YAML::EmitterStyle::value) override {
-    open(make(Node::Kind::list, mark));
+    open(make(Node::Kind::list, mark), false);
   }
   void OnSequenceEnd() override { close(); }
   void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
-                  YAML::EmitterStyle::value) override {
-    open(make(Node::Kind::map, mark));
+                  YAML::EmitterStyle::value style) override {
+    open(make(Node::Kind::map, mark), style == YAML::EmitterStyle::Flow);
   }
   void OnMapEnd() override { close(); }
 
@@ -63,6 +64,7 @@ class Builder : public YAML::EventHandler {
   struct Open {
     Node node;
     bool has_key = false;  ///< a map whose next event is the value of its last key
+    bool in_braces = false;
   };
 
   std::string place(const YAML::Mark& mark) const {
@@ -97,10 +99,10 @@ class Builder : public YAML::EventHandler {
     if (count > most) throw UserMistake(fmt::format("{}: more than {} {}", node.place, most, what));
   }
 
-  void open(Node node) {
+  void open(Node node, bool in_braces) {
     limit(open_.size() + 1, deepest, node, "sections and lists within each other");
     if (wants_key()) throw UserMistake(node.place + ": a key must be a word; " + quote_hint);
-    open_.push_back({std::move(node), false});
+    open_.push_back({std::move(node), false, in_braces});
   }
 
   void close() {
@@ -122,6 +124,8 @@ class Builder : public YAML::EventHandler {
     } else {
       open_.back().node.entries.back().value = std::move(node);
       open_.back().has_key = false;
+      const std::vector<Entry>& all = open_.back().node.entries;
+      if (open_.back().in_braces && all.size() > 1) refuse_decimal_comma(*(all.end() - 2), all.back());
     }
   }
 
@@ -193,6 +197,13 @@ void refuse_bad_bytes(const std::string& text, const std::string& file) {
                   bad - begin + 1, static_cast<unsigned char>(text[bad])));
 }
 
+/// What people mostly have done where the parser says this.
+std::string_view usual_cause(const std::string& said) {
+  if (said == YAML::ErrorMsg::MAP_VALUE) return "; put a formula with a colon in quotes";
+  if (said == YAML::ErrorMsg::END_OF_MAP) return "; indent the line as its neighbours";
+  return "";
+}
+
 Node parse_text(const std::string& text, const std::string& file, bool with_marks) {
   std::istringstream stream(text);
   Builder builder(text, file, with_marks);
@@ -210,7 +221,7 @@ Node parse_text(const std::string& text, const std::string& file, bool with_mark
     const std::string place = with_marks && error.mark.line >= 0
                                   ? fmt::format("{}:{}:{}", file, error.mark.line + 1, error.mark.column + 1)
                                   : file;
-    throw UserMistake(fmt::format("{}: not YAML: {}", place, error.msg));
+    throw UserMistake(fmt::format("{}: not YAML: {}{}", place, error.msg, usual_cause(error.msg)));
   }
 }
 

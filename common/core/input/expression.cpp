@@ -52,6 +52,22 @@ std::size_t end_of_number(const std::string& text, std::size_t i) {
   return i;
 }
 
+/// True where a number ends just before `i`, spaces aside, as in `5 ms`: what follows is meant as its unit.
+bool is_behind_number(const std::string& text, int i) {
+  const auto end = static_cast<std::size_t>(std::max(i, 0));
+  for (std::size_t k = 0; k < std::min(end, text.size());) {
+    if (starts_name(text[k])) {
+      while (k < text.size() && continues_name(text[k])) ++k;
+    } else if (is_digit(text[k]) || text[k] == '.') {
+      k = end_of_number(text, k);
+      if (text.find_first_not_of(' ', k) == end) return true;
+    } else {
+      ++k;
+    }
+  }
+  return false;
+}
+
 /// muParser would let a formula assign to a variable, and a list of formulas pass as its last one.
 void refuse_assignment(const std::string& text) {
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -272,6 +288,9 @@ struct Expression::Implementation {
       const std::string name =
           token.substr(0, static_cast<std::size_t>(
                               std::find_if_not(token.begin(), token.end(), continues_name) - token.begin()));
+      if (is_behind_number(formula, error.GetPos()))
+        return fmt::format("unknown name `{}` at position {} of {}; numbers have no units here, write 1e-3",
+                           name, error.GetPos() + 1, in_ticks(formula));
       std::vector<std::string> known = reserved_names();
       for (const auto& entry : constants) known.push_back(entry.first);
       for (const auto& entry : definitions) known.push_back(entry.first);

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double smallest_part = 1e-11;  ///< of the run's length: below, the step counts as vanished
 /// Of the run's length: over a step so short, the round-off of positions is a velocity of grids and walls
-/// that lowers the following bids.
+/// that lowers the following proposals.
 constexpr double same_time = 1e-8;
 
 }  // namespace
@@ -36,7 +36,7 @@ TimeSchedule::TimeSchedule(Options options) : options_(std::move(options)) {
   options_.output_times = distinct_times(std::move(options_.output_times), options_.end);
 }
 
-std::string name_of(StepLimit limit, const std::string& bidder) {
+std::string name_of(StepLimit limit, const std::string& proposer) {
   switch (limit) {
     case StepLimit::growth:
       return "time.growth";
@@ -45,7 +45,7 @@ std::string name_of(StepLimit limit, const std::string& bidder) {
     case StepLimit::output:
       return "output.times";
     default:
-      return bidder;
+      return proposer;
   }
 }
 
@@ -75,21 +75,21 @@ bool TimeSchedule::is_end(double t) const {
   return t >= options_.end * (1 - same_time);
 }
 
-PlannedStep TimeSchedule::plan(double t, double bid, const std::string& reason) {
-  StepLimit limit = StepLimit::bid;
-  if (std::isinf(bid) && bid > 0) {
-    bid = options_.end;
+PlannedStep TimeSchedule::plan(double t, double proposal, const std::string& reason) {
+  StepLimit limit = StepLimit::proposal;
+  if (std::isinf(proposal) && proposal > 0) {
+    proposal = options_.end;
     limit = StepLimit::output;
   }
-  if (!(bid > smallest_part * options_.end) || std::isnan(bid)) {
-    if (bid > 0 && previous_ == 0 && t == 0)
+  if (!(proposal > smallest_part * options_.end) || std::isnan(proposal)) {
+    if (proposal > 0 && previous_ == 0 && t == 0)
       throw UserMistake(fmt::format(
           "time.end = {:g} is {:.2g} steps of {:.3g} ({}) away, more than any run can take (1e11): write "
           "a smaller time.end, or find out what makes the steps so small",
-          options_.end, options_.end / bid, bid, reason));
-    throw NumbersBroke(fmt::format("the time step has collapsed to {:.3g} ({})", bid, reason), {.t = t});
+          options_.end, options_.end / proposal, proposal, reason));
+    throw Diverged(fmt::format("the time step has collapsed to {:.3g} ({})", proposal, reason), {.t = t});
   }
-  double dt = bid;
+  double dt = proposal;
   const auto lower = [&](double most, StepLimit by) {
     if (most < dt) limit = by;
     dt = std::min(dt, most);

@@ -14,19 +14,19 @@ namespace fsi {
 std::vector<double> distinct_times(std::vector<double> times, double end);
 
 /// What keeps a step from being longer.
-enum class StepLimit { bid, growth, largest, output };
+enum class StepLimit { proposal, growth, largest, output };
 
-/// Its name in the case file, `bidder` for a bid.
-std::string name_of(StepLimit limit, const std::string& bidder);
-/// What it is, for people; `reason` for a bid.
+/// Its name in the case file, `proposer` for a proposal.
+std::string name_of(StepLimit limit, const std::string& proposer);
+/// What it is, for people; `reason` for a proposal.
 std::string words_for(StepLimit limit, const std::string& reason);
 
 struct PlannedStep {
-  double dt = 0;                     ///< [time]
-  double t_next = 0;                 ///< exactly an output time when the step reaches one [time]
-  bool output = false;               ///< fields are wanted at t_next
-  bool end = false;                  ///< t_next is the end of the run
-  StepLimit limit = StepLimit::bid;  ///< `output` where a wanted time makes the step shorter than half
+  double dt = 0;                          ///< [time]
+  double t_next = 0;                      ///< exactly an output time when the step reaches one [time]
+  bool output = false;                    ///< fields are wanted at t_next
+  bool end = false;                       ///< t_next is the end of the run
+  StepLimit limit = StepLimit::proposal;  ///< `output` where a wanted time makes the step shorter than half
 };
 
 class TimeSchedule {
@@ -41,11 +41,11 @@ class TimeSchedule {
   explicit TimeSchedule(Options options);
 
   bool output_at_start() const;
-  /// The step from t when `bid` is the largest stable one (named by `reason`). What remains until the next
+  /// The step from t when `proposal` is the largest stable one (named by `reason`). What remains until the next
   /// wanted time is divided evenly, so that no sliver of a step is left over.
-  /// @throws NumbersBroke when the bid is not a positive number or vanishes against the length of the run, in
+  /// @throws Diverged when the proposal is not a positive number or vanishes against the length of the run, in
   /// which the first step did not; UserMistake when that already did
-  PlannedStep plan(double t, double bid, const std::string& reason);
+  PlannedStep plan(double t, double proposal, const std::string& reason);
   /// Whether t, planned by another schedule, is an output time or the end of this one: that of a run that
   /// goes on with another end.
   bool is_output(double t) const;

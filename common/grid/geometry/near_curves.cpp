@@ -93,7 +93,7 @@ void report_too_near(const NearCurves& near, const CompositeGrid& composite, dou
     const BodyFittedGrid& body = composite.body(static_cast<int>(k) + 1);
     return body.of.empty() ? fmt::format("the curve of grid \"{}\"", body.name) : body.of;
   };
-  throw NumbersBroke(
+  throw Diverged(
       fmt::format(
           "{} and {} are {:.3g} apart, less than {} of a cell of the gas's background ({:.3g}): gas is not "
           "computed between bodies so near to each other, nor is contact; let the run end before, or let "

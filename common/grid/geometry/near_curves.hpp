@@ -66,11 +66,11 @@ class NearCurves {
 };
 
 /// Where the nearest two curves have less than NearCurves::fewest_cells cells of the background between them.
-/// @throws NumbersBroke then: who, how far from whom, where
+/// @throws Diverged then: who, how far from whom, where
 void report_too_near(const NearCurves& near, const CompositeGrid& composite, double t);
 
 /// The curves of body-fitted grids where they are now; the grids are marched again from them, at time t, with
-/// the room they leave each other. @throws NumbersBroke at a folded cell
+/// the room they leave each other. @throws Diverged at a folded cell
 NearCurves leave_room(std::span<MovingGrid* const> grids, std::span<const BodyFittedGrid> bodies, double t);
 
 }  // namespace fsi::grid

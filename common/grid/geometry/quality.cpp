@@ -95,8 +95,8 @@ void check_cells(ConstFieldView x, const std::string& name, double t) {
     for (int i = 0; i + 1 < x.layout.n1; ++i) {
       const double smallest = cells.smallest(i);
       if (smallest > 0 && std::isfinite(smallest)) continue;
-      throw NumbersBroke(fmt::format("the cell from here on is folded, corner area = {:.3g}", smallest),
-                         {.t = t, .grid = name, .point = {i, j}, .position = {x(0, i, j), x(1, i, j)}});
+      throw Diverged(fmt::format("the cell from here on is folded, corner area = {:.3g}", smallest),
+                     {.t = t, .grid = name, .point = {i, j}, .position = {x(0, i, j), x(1, i, j)}});
     }
   }
 }
@@ -128,8 +128,7 @@ namespace {
 
 /// Of the points next to corners, or of all others.
 std::optional<CrowdedCorner> most_crowded(ConstFieldView x, Side curve, std::span<const int> corners,
-                                          bool at_corners) {
-  const double least = at_corners ? least_share_of_elastic_corners : least_share_of_bends;
+                                          bool at_corners, double least) {
   const int period = x.layout.n1 - 1;
   const auto is_beside_corner = [&](int i) {
     return std::ranges::any_of(corners, [&](int corner) {
@@ -149,12 +148,12 @@ std::optional<CrowdedCorner> most_crowded(ConstFieldView x, Side curve, std::spa
 }  // namespace
 
 std::optional<CrowdedCorner> most_crowded_bend(ConstFieldView x, Side curve, std::span<const int> corners) {
-  return most_crowded(x, curve, corners, false);
+  return most_crowded(x, curve, corners, false, least_share_of_turns);
 }
 
-std::optional<CrowdedCorner> most_crowded_elastic_corner(ConstFieldView x, Side curve,
-                                                         std::span<const int> corners) {
-  return most_crowded(x, curve, corners, true);
+std::optional<CrowdedCorner> most_crowded_corner(ConstFieldView x, Side curve, std::span<const int> corners,
+                                                 double least) {
+  return most_crowded(x, curve, corners, true, least);
 }
 
 SlantedLine most_slanted_line(ConstFieldView x, Side curve) {

@@ -25,7 +25,7 @@ GridQuality quality_of(ConstFieldView x);
 /// mean sides. 1 where all cells are rectangles, 0 where one is about to fold, negative where one is folded.
 double cell_quality(ConstFieldView x);
 
-/// @throws NumbersBroke naming grid, cell, position, t and the corner area of the first folded cell
+/// @throws Diverged naming grid, cell, position, t and the corner area of the first folded cell
 void check_cells(ConstFieldView x, const std::string& name, double t);
 
 /// Where a grid cannot hold a convex corner or bend of its curve: behind the curve, where its ghost lines
@@ -39,10 +39,10 @@ struct CrowdedCorner {
   Vec2 x = Vec2::Zero();
 };
 
-/// What must be left [-]: of any curve, for fluxes go through it; and where a curve bends over several points,
-/// whose ghosts would change places otherwise: there the gas grows out of bounds with less than a half, and
-/// a body that yields to it earlier. A margin for bodies that bend is included.
-inline constexpr double least_share = 0.1, least_share_of_bends = 0.55;
+/// What must be left [-]: of any curve, for fluxes go through it; and where a curve turns, at a sharp corner or over
+/// several points, whose ghosts would change places otherwise: there the gas grows out of bounds with a half or
+/// less, and a body that yields to it earlier. A margin for bodies that bend is included.
+inline constexpr double least_share = 0.1, least_share_of_turns = 0.55;
 /// At sharp corners of elastic bodies: with 0.6 a shock makes the gas at the corner grow out of bounds within some
 /// hundred steps, with 0.65 it does not (docs/theory_grids.md, "Corners").
 inline constexpr double least_share_of_elastic_corners = 0.7;
@@ -54,9 +54,9 @@ std::optional<CrowdedCorner> crowded_corner(ConstFieldView x, Side curve);
 /// shorter.
 std::optional<CrowdedCorner> most_crowded_bend(ConstFieldView x, Side curve, std::span<const int> corners);
 
-/// The most crowded point of the corners of an elastic body and those next to them.
-std::optional<CrowdedCorner> most_crowded_elastic_corner(ConstFieldView x, Side curve,
-                                                         std::span<const int> corners);
+/// The most crowded one of the corners and the points next to them, where `least` must be left.
+std::optional<CrowdedCorner> most_crowded_corner(ConstFieldView x, Side curve, std::span<const int> corners,
+                                                 double least);
 
 /// Where lines leave a curve so slantingly, as at a wall that it meets at a flat angle, that a ghost point
 /// lies beside another point of the curve than its own.

@@ -95,8 +95,8 @@ void HyperbolicMarch::march(std::span<const double> curve, FieldView x, double t
   fill_ghosts(x);
   try {
     check_cells(x, grid_.name, t);
-  } catch (const NumbersBroke& folded) {
-    throw NumbersBroke(folded.what() + flat_on_wall(x, t));
+  } catch (const Diverged& folded) {
+    throw Diverged(folded.what() + flat_on_wall(x, t));
   }
 }
 

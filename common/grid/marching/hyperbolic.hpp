@@ -66,7 +66,7 @@ class HyperbolicMarch {
   void leave_part(std::span<const double> part) { grid_.part.assign(part.begin(), part.end()); }
 
   /// Fills x (planes x1, x2, ghost lines included) from the points of the curve, 2 n component-major.
-  /// Ghosts: periodic or third-order extrapolation. @throws NumbersBroke at a folded cell
+  /// Ghosts: periodic or third-order extrapolation. @throws Diverged at a folded cell
   void march(std::span<const double> curve, FieldView x, double t);
 
  private:

@@ -264,12 +264,11 @@ std::string CompositeGrid::nearest_curves(const Vec2& x, double t) const {
 
 void CompositeGrid::report_orphans(double t, const char* what) const {
   if (orphans_.count == 0) return;
-  throw NumbersBroke(
-      fmt::format("{} ({} such points){}", what, orphans_.count, nearest_curves(orphans_.x, t)),
-      {.t = t,
-       .grid = name(orphans_.grid),
-       .point = {orphans_.i, orphans_.j},
-       .position = {orphans_.x[0], orphans_.x[1]}});
+  throw Diverged(fmt::format("{} ({} such points){}", what, orphans_.count, nearest_curves(orphans_.x, t)),
+                 {.t = t,
+                  .grid = name(orphans_.grid),
+                  .point = {orphans_.i, orphans_.j},
+                  .position = {orphans_.x[0], orphans_.x[1]}});
 }
 
 }  // namespace fsi::grid

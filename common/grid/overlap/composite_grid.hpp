@@ -83,12 +83,12 @@ class CompositeGrid {
   /// Grid 0 is the background, grid k > 0 is bodies[k - 1]. @throws UserMistake
   CompositeGrid(CartesianGrid background, std::vector<BodyFittedGrid> bodies, OverlapOptions options = {});
 
-  /// Connects the grids where they are, without a past. @throws NumbersBroke at points without donors, and
+  /// Connects the grids where they are, without a past. @throws Diverged at points without donors, and
   /// where points are donors of nothing but each other
   void connect(std::span<const ConstFieldView> x, double t);
   /// Connects the moved grids and finds the points that were unused
   /// before. The views must stay valid for the call only.
-  /// @throws NumbersBroke at points without donors, or uncovered by a motion of more than a cell
+  /// @throws Diverged at points without donors, or uncovered by a motion of more than a cell
   void update(std::span<const GridPositions> x, double t);
 
   int grids() const { return static_cast<int>(parts_.size()); }

@@ -101,7 +101,7 @@ void CompositeGrid::archive(Archive& archive) {
 
 void CompositeGrid::report_unsolved(const ImplicitPoint& point, double t) const {
   const auto [grid, i, j, x] = point_of(point);
-  throw NumbersBroke(
+  throw Diverged(
       fmt::format("it and points of grid \"{}\" take their values from nothing but each other: the "
                   "overlap is too small",
                   name(interpolation_[point.list].donor_grid)),

@@ -41,8 +41,8 @@ Vec2 beyond(const CartesianGrid& grid, const Vec2& end, const std::string& name,
                                        std::abs(end[1] - grid.y_a), std::abs(end[1] - grid.y_b)};
   const auto side = static_cast<int>(std::ranges::min_element(distance) - distance.begin());
   if (!(distance[static_cast<std::size_t>(side)] < 1e-3 * h)) {
-    throw NumbersBroke(fmt::format("its curve ends here, off the boundary of grid \"{}\"", grid.name),
-                       {.t = t, .grid = name, .position = {end[0], end[1]}});
+    throw Diverged(fmt::format("its curve ends here, off the boundary of grid \"{}\"", grid.name),
+                   {.t = t, .grid = name, .position = {end[0], end[1]}});
   }
   const double step = (side % 2 == 0 ? -2 : 2) * h;
   return end + (side < 2 ? Vec2(step, 0) : Vec2(0, step));
@@ -188,7 +188,7 @@ void CurveCut::find_starts(const CuttingCurve& curve, int rows, const std::strin
   }
   if (start(0) != unknown) return;
   if (curve.ends == Curve::open && !curve.on_wall) {
-    throw NumbersBroke("its curve meets no line of the background", {.t = t, .grid = name});
+    throw Diverged("its curve meets no line of the background", {.t = t, .grid = name});
   }
   const bool domain_inside = (area_of(curve) > 0) == curve.domain_left;
   std::ranges::fill(starts_behind_, static_cast<unsigned char>(domain_inside ? 1 : 0));

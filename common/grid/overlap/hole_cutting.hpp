@@ -38,7 +38,7 @@ struct Crossing {
 /// The side of a Cartesian grid's points against one curve.
 class CurveCut {
  public:
-  /// Recomputes everything for the curve where it is. @throws NumbersBroke where an open curve does not end
+  /// Recomputes everything for the curve where it is. @throws Diverged where an open curve does not end
   /// on the boundary of the grid, or a curve leaves it unclear which part is the domain
   void cut(const CartesianGrid& grid, const CuttingCurve& curve, const std::string& name, double t);
 

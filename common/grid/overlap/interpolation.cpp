@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace fsi::grid {
 
@@ -19,14 +20,21 @@ template <int width>
   return sum;
 }
 
+constexpr int most_planes = 16;
+
+/// What a sweep did to the values of each plane, which may have other units than the next one's.
+struct Sweep {
+  std::array<double, most_planes> change{};  ///< largest one
+  std::array<double, most_planes> size{};    ///< of the largest value
+};
+
 template <int width>
-double apply_width(const InterpolationList& list, FieldView target, ConstFieldView donor) {
+void apply_width(const InterpolationList& list, FieldView target, ConstFieldView donor, Sweep* told) {
   const std::ptrdiff_t stride = donor.layout.stride;
   const auto from_next = static_cast<std::ptrdiff_t>(donor.layout.plane_size()),
              to_next = static_cast<std::ptrdiff_t>(target.layout.plane_size());
   const std::int32_t *at = list.target.data(), *donor_at = list.donor.data();
   const double* w = list.weight.data();
-  double change = 0;
   constexpr auto points = static_cast<std::size_t>(width) * width;  // of a donor
   for (std::size_t k = 0; k < list.size(); ++k, w += points) {
     std::array<double, points> weights;  // not in memory that `to` might overwrite
@@ -35,24 +43,31 @@ double apply_width(const InterpolationList& list, FieldView target, ConstFieldVi
     double* to = target.data + at[k];
     for (int plane = 0; plane < target.planes; ++plane, from += from_next, to += to_next) {
       const double sum = weighted<width>(weights.data(), from, stride);
-      change = std::max(change, std::abs(sum - *to));
+      if (told != nullptr) {
+        const auto p = static_cast<std::size_t>(plane);
+        told->change[p] = std::max(told->change[p], std::abs(sum - *to));
+        told->size[p] = std::max(told->size[p], std::abs(sum));
+      }
       *to = sum;
     }
   }
-  return change;
 }
 
-/// Largest magnitude at the points of the implicit lists.
-double largest_value(std::span<const InterpolationList> lists, std::span<const FieldView> fields) {
-  double most = 0;
-  for (const InterpolationList& list : lists) {
-    if (!list.implicit) continue;
-    const FieldView field = fields[static_cast<std::size_t>(list.target_grid)];
-    for (int plane = 0; plane < field.planes; ++plane) {
-      for (const std::int32_t at : list.target) most = std::max(most, std::abs(field.plane(plane)[at]));
-    }
+void apply(const InterpolationList& list, std::span<const FieldView> fields, Sweep* told) {
+  const FieldView target = fields[static_cast<std::size_t>(list.target_grid)];
+  const ConstFieldView donor = fields[static_cast<std::size_t>(list.donor_grid)];
+  if (list.width == 3)
+    apply_width<3>(list, target, donor, told);
+  else
+    apply_width<2>(list, target, donor, told);
+}
+
+/// Whether the changes of each plane are at most this part of what they were, or of its values.
+bool below(const Sweep& last, const Sweep& first, double of_first, double of_size) {
+  for (std::size_t p = 0; p < last.change.size(); ++p) {
+    if (last.change[p] > std::max(of_first * first.change[p], of_size * last.size[p])) return false;
   }
-  return most;
+  return true;
 }
 
 }  // namespace
@@ -105,29 +120,24 @@ void InterpolationList::append(std::ptrdiff_t at, std::ptrdiff_t donor_at, const
   }
 }
 
-double apply(const InterpolationList& list, FieldView target, ConstFieldView donor) {
-  return list.width == 3 ? apply_width<3>(list, target, donor) : apply_width<2>(list, target, donor);
-}
-
-double apply(const InterpolationList& list, std::span<const FieldView> fields) {
-  return apply(list, fields[static_cast<std::size_t>(list.target_grid)],
-               fields[static_cast<std::size_t>(list.donor_grid)]);
+void apply(const InterpolationList& list, std::span<const FieldView> fields) {
+  apply(list, fields, nullptr);
 }
 
 bool settle_implicit(std::span<const InterpolationList> lists, std::span<const FieldView> fields) {
   constexpr int most_sweeps = 50;
-  constexpr double settled = 1e-13, tolerable = 1e-9;
-  double first_change = 0, change = 0;
+  constexpr double settled = 1e-13, round_off = 4 * std::numeric_limits<double>::epsilon(), tolerable = 1e-9;
+  Sweep first, last;
   for (int sweep = 0; sweep < most_sweeps; ++sweep) {
-    change = 0;
+    last = {};
     for (const InterpolationList& list : lists) {
-      if (list.implicit) change = std::max(change, apply(list, fields));
+      if (list.implicit) apply(list, fields, &last);
     }
-    first_change = std::max(first_change, change);
-    if (!(change > settled * first_change)) return true;
+    for (std::size_t p = 0; p < last.change.size(); ++p)
+      first.change[p] = std::max(first.change[p], last.change[p]);
+    if (below(last, first, settled, round_off)) return true;
   }
-  // Where hardly anything changed to begin with, round-off alone keeps it from settling.
-  return change <= tolerable * largest_value(lists, fields);
+  return below(last, first, 0, tolerable);
 }
 
 }  // namespace fsi::grid

@@ -43,13 +43,11 @@ struct InterpolationList {
   bool operator==(const InterpolationList&) const = default;
 };
 
-/// Sets the points of a list in all planes. @returns the largest change of a value
-double apply(const InterpolationList& list, FieldView target, ConstFieldView donor);
-/// The same with one field per grid.
-double apply(const InterpolationList& list, std::span<const FieldView> fields);
+/// Sets the points of a list in all planes; one field per grid.
+void apply(const InterpolationList& list, std::span<const FieldView> fields);
 
 /// Sets the points of the implicit lists, which are donors of each other, to their common solution: sweeps
-/// over the lists until nothing changes but the last digits. Does where their weights on one another add up
+/// over the lists until nothing changes but the last digits of each plane, whatever its unit. Does where their weights on one another add up
 /// to less than about a half in size; ImplicitSystem decides. @returns whether they settled within 50 sweeps
 bool settle_implicit(std::span<const InterpolationList> lists, std::span<const FieldView> fields);
 

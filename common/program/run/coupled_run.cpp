@@ -75,7 +75,7 @@ class CoupledRun {
       clock_.lap(io::Work::advance);
       if (answer.write_checkpoint) checkpoints_.save(at_);
       clock_.lap(io::Work::output);
-      if (session_.telemetry_due()) session_.publish(telemetry_of(setup_, part_, solver_, at_.dt, bid_));
+      if (session_.telemetry_due()) session_.publish(telemetry_of(setup_, part_, solver_, at_.dt, proposal_));
       obey_signals();
       check_heard();
     }
@@ -97,22 +97,22 @@ class CoupledRun {
     if (!answer.stop) return true;
     if (!answer.stop_reason.empty()) part_.status = "stopped";
     part_.reason = answer.stop_reason;
-    wire::Telemetry last = telemetry_of(setup_, part_, solver_, at_.dt, bid_);
+    wire::Telemetry last = telemetry_of(setup_, part_, solver_, at_.dt, proposal_);
     last.state = "done";
     session_.publish(last);
     return false;
   }
 
   void publish_predicted() {
-    bid_ = solver_.compute_time_step();
+    proposal_ = solver_.compute_time_step();
     clock_.lap(io::Work::time_step);
     for (std::size_t k = 0; k < predicted_.size(); ++k) {
       wire::PredictedInterface& message = predicted_[k];
       message.interface = hello_.interfaces[k].name;
       message.step = at_.step;
       message.t = at_.t;
-      message.dt_bid = bid_.dt;
-      message.dt_reason = bid_.reason;
+      message.proposed_dt = proposal_.dt;
+      message.dt_reason = proposal_.reason;
       solver_.fill(k, message);
       message.health = solver_.health();
       message.compute_s = part_.compute_s;
@@ -145,7 +145,7 @@ class CoupledRun {
   bus::SolverSession session_;
   std::vector<wire::PredictedInterface> predicted_;
   std::vector<const wire::ProjectedInterface*> projected_;
-  TimeStepBid bid_;
+  ProposedTimeStep proposal_;
   WorkClock clock_;
 };
 

@@ -18,7 +18,7 @@ void run_coupled(const Setup& setup, io::Part& part, Participant& solver);
 void run_alone(const Setup& setup, io::Part& part, Participant& solver);
 
 wire::Telemetry telemetry_of(const Setup& setup, const io::Part& part, const Participant& solver, double dt,
-                             const TimeStepBid& bid);
+                             const ProposedTimeStep& proposal);
 
 /// Draws the solver's present state, that of `at`.
 bus::Draw draw_of(const io::Part& part, Participant& solver, const io::Standing& at);
@@ -46,13 +46,13 @@ void with_last_state(Participant& solver, const LastState& last, const Loop& loo
   };
   try {
     loop();
-  } catch (NumbersBroke& broke) {
+  } catch (Diverged& broke) {
     leave_state();
     broke.know({.step = last.step + 1});
     if (const std::string remedy = solver.remedy(); !remedy.empty()) broke.advise(remedy);
     throw;
   } catch (const Failure& failure) {
-    if (failure.code() == ExitCode::numbers_broke) leave_state();  // those of somebody else
+    if (failure.code() == ExitCode::diverged) leave_state();  // those of somebody else
     throw;
   }
 }

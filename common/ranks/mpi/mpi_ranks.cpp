@@ -153,14 +153,20 @@ class MpiRanks final : public Ranks {
     wait();
   }
 
+  using Clock = std::chrono::steady_clock;
+
+  /// An eighth of what one has waited: a nap makes no wait much longer, though messages longer than MPI's buffers take several
+  /// rounds, in which both sides must be awake.
+  static Clock::duration nap_after(Clock::duration waited) {
+    constexpr std::chrono::microseconds shortest{50}, longest{1000}, of_a_pause{10000};
+    constexpr std::chrono::seconds pause{1};  // whoever waits for longer need not be quick
+    return std::clamp<Clock::duration>(waited / 8, shortest, waited < pause ? longest : of_a_pause);
+  }
+
   /// Until all requests are done. First it only looks, then it lets others run, then it sleeps.
   void wait() {
-    using Clock = std::chrono::steady_clock;
-    constexpr std::chrono::microseconds looking{50}, yielding{500}, shortest{50}, longest{1000},
-        of_a_pause{10000};
-    constexpr std::chrono::seconds pause{1};          // whoever waits for longer need not be quick
+    constexpr std::chrono::microseconds looking{50}, yielding{500};
     constexpr std::chrono::milliseconds between{10};  // of what one does while waiting
-    std::chrono::microseconds nap = shortest;
     Clock::time_point begin{}, next{};
     bool first = true;
     for (int look = 0;; ++look) {
@@ -175,8 +181,7 @@ class MpiRanks final : public Ranks {
         std::this_thread::yield();
         continue;
       }
-      std::this_thread::sleep_for(nap);
-      nap = std::min(2 * nap, now - begin < pause ? longest : of_a_pause);
+      std::this_thread::sleep_for(nap_after(now - begin));
       if (now < next) continue;
       next = now + between;
       look_around(first);

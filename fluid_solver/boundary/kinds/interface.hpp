@@ -61,7 +61,7 @@ struct Interface {
       const auto at = side.points.at(static_cast<int>(k), 0);
       const double p_I = side.options.p_e - values.w_n[k];
       if (!(p_I > 0 && std::isfinite(p_I) && std::isfinite(values.v_n[k]))) {
-        throw NumbersBroke(
+        throw Diverged(
             fmt::format(
                 "p^I = {:.3g}, v_n^I = {:.3g}{}", p_I, values.v_n[k],
                 side.options.wave_curve ? "" : "; write interface.riemann: exact, for jumps of this size"),

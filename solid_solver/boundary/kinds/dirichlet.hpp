@@ -17,10 +17,9 @@ struct Dirichlet {
   };
   static constexpr SolidBoundaryFacts facts{
       .meaning = "u, v and P are imposed, ghost points too", .keys = keys, .holds = Hold::motion};
+  static constexpr Condition condition{.ghosts = Condition::Ghosts::state};
 
-  static Boundary from(const SideData& data) {
-    return {.kind = Boundary::Kind::dirichlet, .state = data.exact()};
-  }
+  static Boundary from(const SideData& data) { return {.condition = condition, .state = data.exact()}; }
 };
 
 }  // namespace fsi::solid

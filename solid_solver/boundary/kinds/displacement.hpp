@@ -25,9 +25,10 @@ struct Displacement {
                                             .keys = keys,
                                             .holds = Hold::motion,
                                             .word_for_zero = "clamped"};
+  static constexpr Condition condition{.motion = Condition::Motion::given};
 
   static Boundary from(const SideData& data) {
-    Boundary result{.kind = Boundary::Kind::displacement};
+    Boundary result{.condition = condition};
     if (data.from_reference) {
       const StateFunction exact = data.exact();
       result.vector = [exact](double x, double y, double t) { return exact(x, y, t).u; };

@@ -18,8 +18,9 @@ struct Interface {
   };
   static constexpr SolidBoundaryFacts facts{
       .meaning = "the gas is on the other side", .keys = keys, .holds = Hold::others};
+  static constexpr Condition condition{.traction = Condition::Traction::projected};
 
-  static Boundary from(const SideData& /*data*/) { return {.kind = Boundary::Kind::interface}; }
+  static Boundary from(const SideData& /*data*/) { return {.condition = condition}; }
 };
 
 }  // namespace fsi::solid

@@ -8,8 +8,9 @@ namespace fsi::solid {
 struct Periodic {
   static constexpr SolidBoundaryFacts facts{.meaning = "continues at the opposite side",
                                             .holds = Hold::others};
+  static constexpr Condition condition{.ghosts = Condition::Ghosts::repeated};
 
-  static Boundary from(const SideData& /*data*/) { return {.kind = Boundary::Kind::periodic}; }
+  static Boundary from(const SideData& /*data*/) { return {.condition = condition}; }
 };
 
 }  // namespace fsi::solid

@@ -8,8 +8,9 @@ namespace fsi::solid {
 struct SlipWall {
   static constexpr SolidBoundaryFacts facts{.meaning = "no displacement along the normal, no shear",
                                             .holds = Hold::normal};
+  static constexpr Condition condition{.motion = Condition::Motion::along_wall};
 
-  static Boundary from(const SideData& /*data*/) { return {.kind = Boundary::Kind::slip}; }
+  static Boundary from(const SideData& /*data*/) { return {.condition = condition}; }
 };
 
 }  // namespace fsi::solid

@@ -20,10 +20,10 @@ struct Traction {
   };
   static constexpr SolidBoundaryFacts facts{
       .meaning = "the traction is imposed", .keys = keys, .word_for_zero = "free"};
+  static constexpr Condition condition{.traction = Condition::Traction::given};
 
   static Boundary from(const SideData& data) {
-    return {.kind = Boundary::Kind::traction,
-            .vector = data.from_reference ? data.exact_traction() : data.value};
+    return {.condition = condition, .vector = data.from_reference ? data.exact_traction() : data.value};
   }
 };
 

@@ -8,6 +8,7 @@
 #include "common/grid/marching/hyperbolic.hpp"
 #include "common/grid/overlap/composite_grid.hpp"
 #include "common/grid/shapes/circle.hpp"
+#include "solid_solver/boundary/every_boundary.hpp"
 #include "solid_solver/solid_component.hpp"
 
 namespace fsi::solid::test {
@@ -25,10 +26,10 @@ inline DiskGrids body_of(const grid::PlaneCurve& outline, int cells, Boundary ri
   const int points = static_cast<int>(grid::length_of(outline) / unit * cells) + 1;
   const grid::HyperbolicGrid annulus{.name = "annulus", .points = points, .lines = lines, .spacing = h};
   Boundaries nothing, sides;
-  for (Boundary& boundary : nothing) boundary.kind = Boundary::Kind::none;
-  sides[0].kind = sides[1].kind = Boundary::Kind::periodic;
+  for (Boundary& boundary : nothing) boundary.condition = no_condition;
+  sides[0].condition = sides[1].condition = Periodic::condition;
   sides[2] = std::move(rim);
-  sides[3].kind = Boundary::Kind::none;
+  sides[3].condition = no_condition;
   const double low = -1.25 * unit, high = 1.25 * unit;
   const int n = static_cast<int>(std::lround((high - low) / h)) + 1;
   DiskGrids disk;

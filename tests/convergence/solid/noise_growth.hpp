@@ -7,6 +7,7 @@
 #include <cmath>
 #include <random>
 
+#include "solid_solver/boundary/every_boundary.hpp"
 #include "tests/convergence/solid/solvers.hpp"
 
 namespace fsi::solid::test {
@@ -26,7 +27,7 @@ inline Boundaries noise_boundaries(const NoiseCase& noise, const Tensor2& P) {
   const Tensor2 F = noise.F;
   Boundaries boundaries;
   for (Boundary& boundary : boundaries) {
-    boundary.kind = Boundary::Kind::displacement;
+    boundary.condition = Displacement::condition;
     boundary.vector = [F](double x, double y, double) -> Vec2 {
       return {(F.a11 - 1) * x + F.a12 * y, F.a21 * x + (F.a22 - 1) * y};
     };
@@ -35,7 +36,7 @@ inline Boundaries noise_boundaries(const NoiseCase& noise, const Tensor2& P) {
                                     Vec2(P.a21, P.a22)};
   for (std::size_t side = 0; side < 4; ++side) {
     if (!noise.loaded[side]) continue;
-    boundaries[side] = {.kind = Boundary::Kind::traction, .load = LoadConfiguration::reference};
+    boundaries[side] = {.condition = Traction::condition, .load = LoadConfiguration::reference};
     boundaries[side].vector = [at = load[side]](double, double, double) { return at; };
   }
   return boundaries;
@@ -107,7 +108,7 @@ double growth_of_noise(const NoiseCase& noise, int steps) {
       if (step >= steps - 100) last = std::max(last, deviation(solver.state(), P));
       if (step % 500 == 499 && deviation(solver.state(), P) > 1e4 * first) return HUGE_VAL;
     }
-  } catch (const NumbersBroke&) {
+  } catch (const Diverged&) {
     return HUGE_VAL;
   }
   return last / first;

@@ -14,6 +14,7 @@
 #include <numbers>
 #include <utility>
 
+#include "solid_solver/boundary/every_boundary.hpp"
 #include "tests/convergence/solid/solvers.hpp"
 
 namespace fsi::solid::test {
@@ -47,7 +48,7 @@ grid::MovingGrid upright(int cells_across) {
 /// Clamped at its bottom; `load` per unit area of the undeformed top.
 Boundaries clamped(VectorFunction load = {}) {
   Boundaries boundaries;
-  boundaries[static_cast<std::size_t>(Side::bottom)].kind = Boundary::Kind::displacement;
+  boundaries[static_cast<std::size_t>(Side::bottom)].condition = Displacement::condition;
   boundaries[static_cast<std::size_t>(Side::top)].vector = std::move(load);
   boundaries[static_cast<std::size_t>(Side::top)].load = LoadConfiguration::reference;
   return boundaries;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "solid_solver/boundary/every_boundary.hpp"
 #include "tests/convergence/solid/disk.hpp"
 #include "tests/convergence/solid/errors_in_time.hpp"
 #include "tests/convergence/solid/manufactured_motion.hpp"
@@ -21,10 +22,10 @@ constexpr SolidOptions small_dissipation = {.rho = 1.2,
 
 /// Outline with given displacement or given traction.
 template <class L>
-Boundary outline_of(Boundary::Kind kind, const ManufacturedMotion<L>& motion) {
+Boundary outline_of(Condition kind, const ManufacturedMotion<L>& motion) {
   Boundary rim;
-  rim.kind = kind;
-  if (kind == Boundary::Kind::displacement) {
+  rim.condition = kind;
+  if (kind == Displacement::condition) {
     rim.vector = [motion](double x, double y, double t) { return motion.u(x, y, t); };
     rim.velocity = [motion](double x, double y, double t) { return motion.v(x, y, t); };
   } else {
@@ -37,7 +38,7 @@ Boundary outline_of(Boundary::Kind kind, const ManufacturedMotion<L>& motion) {
 
 /// Largest errors over many times: those of a single one go up and down with the waves of the error.
 template <class L>
-Errors run(Boundary::Kind kind, int cells) {
+Errors run(Condition kind, int cells) {
   constexpr double t_end = 0.8;
   constexpr int checks = 16;
   const L law{.lambda = 1.1, .mu = 0.7};
@@ -58,7 +59,7 @@ Errors run(Boundary::Kind kind, int cells) {
 /// grid to grid, and the errors with it. Bounds about one and a half times what is measured; the amplitude
 /// of u is 0.03, of v 0.09 and of P about 0.2.
 template <class L>
-void expect_second_order(Boundary::Kind kind) {
+void expect_second_order(Condition kind) {
   const Errors coarse = run<L>(kind, 16), fine = run<L>(kind, 64);
   const std::string what = fmt::format("u {:.2e} {:.2e} v {:.2e} {:.2e} P {:.2e} {:.2e}", coarse.u, fine.u,
                                        coarse.v, fine.v, coarse.P, fine.P);
@@ -76,10 +77,10 @@ using Laws = testing::Types<LinearElastic, SaintVenantKirchhoff, NeoHookean>;
 TYPED_TEST_SUITE(Eq32DiskOnTwoGrids, Laws);
 
 TYPED_TEST(Eq32DiskOnTwoGrids, IsSecondOrderWithGivenDisplacement) {
-  expect_second_order<TypeParam>(Boundary::Kind::displacement);
+  expect_second_order<TypeParam>(Displacement::condition);
 }
 TYPED_TEST(Eq32DiskOnTwoGrids, Eq43IsSecondOrderWithGivenTraction) {
-  expect_second_order<TypeParam>(Boundary::Kind::traction);
+  expect_second_order<TypeParam>(Traction::condition);
 }
 
 /// Twenty times the p-wave's way across. Interpolation between grids does not keep energy, and nothing tells

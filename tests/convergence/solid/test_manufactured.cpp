@@ -9,6 +9,7 @@
 #include <memory>
 #include <string>
 
+#include "solid_solver/boundary/every_boundary.hpp"
 #include "solid_solver/measures/manufactured.hpp"
 #include "tests/convergence/solid/errors_in_time.hpp"
 #include "tests/convergence/solid/manufactured_motion.hpp"
@@ -31,19 +32,19 @@ Boundary boundary_of(const Setup& setup, Side side, const ManufacturedMotion<L>&
   Boundary boundary;
   const char letter = setup.sides[static_cast<std::size_t>(side)];
   if (letter == 'x') {
-    boundary.kind = Boundary::Kind::dirichlet;
+    boundary.condition = Dirichlet::condition;
     boundary.state = [motion](double x, double y, double t) { return motion.state(x, y, t); };
   } else if (letter == 'd') {
-    boundary.kind = Boundary::Kind::displacement;
+    boundary.condition = Displacement::condition;
     boundary.vector = [motion](double x, double y, double t) { return motion.u(x, y, t); };
     boundary.velocity = [motion](double x, double y, double t) { return motion.v(x, y, t); };
   } else if (letter == 't') {
-    boundary.kind = Boundary::Kind::traction;
+    boundary.condition = Traction::condition;
     boundary.vector = [motion, side, shape = setup.shape](double x, double y, double t) {
       return motion.traction(normal_of(shape, side, x, y), x, y, t);
     };
   } else {
-    boundary.kind = Boundary::Kind::slip;
+    boundary.condition = SlipWall::condition;
   }
   return boundary;
 }
@@ -143,16 +144,16 @@ ChosenFields trigonometric_fields() {
 }
 
 /// Kinds of the sides left, right, bottom, top; traction per unit reference area.
-Boundaries chosen_sides(const std::array<Boundary::Kind, 4>& kinds, const ChosenFields& fields,
+Boundaries chosen_sides(const std::array<Condition, 4>& kinds, const ChosenFields& fields,
                         const StateFunction& state) {
   const Vec2 normals[] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
   Boundaries boundaries;
   for (std::size_t k = 0; k < 4; ++k) {
     Boundary& side = boundaries[k];
-    side.kind = kinds[k];
-    if (side.kind == Boundary::Kind::dirichlet) side.state = state;
-    if (side.kind == Boundary::Kind::displacement) side.vector = fields.u, side.velocity = fields.v;
-    if (side.kind != Boundary::Kind::traction) continue;
+    side.condition = kinds[k];
+    if (side.condition == Dirichlet::condition) side.state = state;
+    if (side.condition == Displacement::condition) side.vector = fields.u, side.velocity = fields.v;
+    if (side.condition != Traction::condition) continue;
     side.load = LoadConfiguration::reference;
     side.vector = [P = fields.P, n = normals[k]](double x, double y, double t) -> Vec2 {
       return traction_of(P(x, y, t), n);
@@ -162,7 +163,7 @@ Boundaries chosen_sides(const std::array<Boundary::Kind, 4>& kinds, const Chosen
 }
 
 template <class L>
-Errors run_chosen(const std::array<Boundary::Kind, 4>& kinds, int cells) {
+Errors run_chosen(const std::array<Condition, 4>& kinds, int cells) {
   const L law{.lambda = 1.1, .mu = 0.7};
   const SolidOptions options = {.rho = 1.2,
                                 .tangential_stress = {.scaled = 0.1},
@@ -184,8 +185,7 @@ Errors run_chosen(const std::array<Boundary::Kind, 4>& kinds, int cells) {
 
 /// Between mirrors, which hold for the difference to the fields.
 TYPED_TEST(Eq32ManufacturedMotion, Eq46FieldsThatDoNotBelongTogetherAreExactToSecondOrder) {
-  using Kind = Boundary::Kind;
-  const std::array kinds{Kind::dirichlet, Kind::traction, Kind::symmetry, Kind::symmetry};
+  const std::array kinds{Dirichlet::condition, Traction::condition, Symmetry::condition, Symmetry::condition};
   const Errors coarse = run_chosen<TypeParam>(kinds, 20), fine = run_chosen<TypeParam>(kinds, 40);
   EXPECT_GE(std::log2(coarse.u / fine.u), 1.8);
   EXPECT_GE(std::log2(coarse.v / fine.v), 1.8);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <string>
 
+#include "solid_solver/boundary/every_boundary.hpp"
 #include "solid_solver/mooney_rivlin_solver.hpp"
 #include "tests/convergence/solid/errors_in_time.hpp"
 #include "tests/convergence/solid/skewed_grid.hpp"
@@ -69,7 +70,7 @@ class AreaPreservingMotion {
 };
 
 template <class L>
-Errors errors_of_incompressible(Boundary::Kind sides, double relaxation, int cells) {
+Errors errors_of_incompressible(Condition sides, double relaxation, int cells) {
   L law{.lambda = 70, .mu = 0.7};
   if constexpr (requires { law.c01; }) law.c01 = 0.2;
   const SolidOptions options = {.rho = 1.2,
@@ -80,13 +81,12 @@ Errors errors_of_incompressible(Boundary::Kind sides, double relaxation, int cel
   Boundaries boundaries;
   for (const Side side : all_sides) {
     Boundary& boundary = boundaries[static_cast<std::size_t>(side)];
-    boundary.kind = sides;
+    boundary.condition = sides;
     boundary.vector = [=](double x, double y, double t) {
-      return sides == Boundary::Kind::traction
-                 ? motion.traction(normal_of(skewed_position, side, x, y), x, y, t)
-                 : motion.u(x, y, t);
+      return sides == Traction::condition ? motion.traction(normal_of(skewed_position, side, x, y), x, y, t)
+                                          : motion.u(x, y, t);
     };
-    if (sides == Boundary::Kind::displacement)
+    if (sides == Displacement::condition)
       boundary.velocity = [=](double x, double y, double t) { return motion.v(x, y, t); };
   }
   SolidSolver<L> solver(skewed_grid(cells), law, options, boundaries, 0);
@@ -99,7 +99,7 @@ Errors errors_of_incompressible(Boundary::Kind sides, double relaxation, int cel
 /// Rates of 1.9 at least, and errors below one and a half times what is measured. The amplitude of u is 0.04, of v
 /// 0.12; P is up to 0.3.
 template <class L>
-void expect_second_order_of_incompressible(Boundary::Kind sides, double relaxation, const Errors& most) {
+void expect_second_order_of_incompressible(Condition sides, double relaxation, const Errors& most) {
   const Errors coarse = errors_of_incompressible<L>(sides, relaxation, 16),
                fine = errors_of_incompressible<L>(sides, relaxation, 32);
   const std::string what =
@@ -118,14 +118,14 @@ using RubberLaws = testing::Types<NeoHookean, MooneyRivlin>;
 TYPED_TEST_SUITE(Eq32NearlyIncompressible, RubberLaws);
 
 TYPED_TEST(Eq32NearlyIncompressible, IsSecondOrderWithGivenDisplacement) {
-  expect_second_order_of_incompressible<TypeParam>(Boundary::Kind::displacement, 0.2,
+  expect_second_order_of_incompressible<TypeParam>(Displacement::condition, 0.2,
                                                    {.u = 1.5e-5, .v = 2.4e-4, .P = 3.8e-3});
 }
 
 /// Without (41), which shakes the traction of loaded sides, the more the stiffer the solid is against changes of
 /// its area: with it the rates are 1.5 to 1.9 (docs/theory_solid.md).
 TYPED_TEST(Eq32NearlyIncompressible, Eq43IsSecondOrderWithGivenTraction) {
-  expect_second_order_of_incompressible<TypeParam>(Boundary::Kind::traction, 0,
+  expect_second_order_of_incompressible<TypeParam>(Traction::condition, 0,
                                                    {.u = 4.3e-5, .v = 2.6e-4, .P = 6e-4});
 }
 

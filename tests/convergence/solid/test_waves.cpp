@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "solid_solver/boundary/every_boundary.hpp"
 #include "tests/convergence/solid/errors_in_time.hpp"
 #include "tests/convergence/solid/skewed_grid.hpp"
 #include "tests/convergence/solid/solvers.hpp"
@@ -45,7 +46,7 @@ Errors run(int axis, int cells) {
   const StateFunction exact = plane_wave(law, axis);
   Boundaries boundaries;
   for (Boundary& boundary : boundaries) {
-    boundary.kind = Boundary::Kind::dirichlet;
+    boundary.condition = Dirichlet::condition;
     boundary.state = exact;
   }
   SolidSolver<L> solver(unit_square(cells), law, {.rho = rho}, boundaries, 0);

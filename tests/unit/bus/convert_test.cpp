@@ -33,7 +33,7 @@ TEST(Convert, PredictedStateKeepsEveryField) {
                                      .interface = "i",
                                      .step = 9,
                                      .t = 1,
-                                     .dt_bid = 2,
+                                     .proposed_dt = 2,
                                      .dt_reason = "why",
                                      .x = {1, 2},
                                      .v = {3},
@@ -55,8 +55,8 @@ TEST(Convert, PredictedStateKeepsEveryField) {
                                      .compute_s = 21,
                                      .wait_s = 22};
   const wire::PredictedInterface in = carried(out);
-  EXPECT_EQ(std::tie(in.run, in.from, in.interface, in.step, in.t, in.dt_bid, in.dt_reason),
-            std::tie(out.run, out.from, out.interface, out.step, out.t, out.dt_bid, out.dt_reason));
+  EXPECT_EQ(std::tie(in.run, in.from, in.interface, in.step, in.t, in.proposed_dt, in.dt_reason),
+            std::tie(out.run, out.from, out.interface, out.step, out.t, out.proposed_dt, out.dt_reason));
   EXPECT_EQ(
       std::tie(in.x, in.v, in.w, in.p, in.z_f, in.rho, in.gamma, in.Z, in.z_p, in.fixed, in.p_e),
       std::tie(out.x, out.v, out.w, out.p, out.z_f, out.rho, out.gamma, out.Z, out.z_p, out.fixed, out.p_e));
@@ -143,7 +143,7 @@ wire::Telemetry telemetry() {
           .t_end = 3,
           .dt = 4,
           .dt_reason = "gas",
-          .dt_bid = 4.5,
+          .proposed_dt = 4.5,
           .limited_by = "fluid",
           .limits = {{.by = "fluid", .steps = 40}, {.by = "time.growth", .steps = 2}},
           .compute_s = 5,
@@ -202,7 +202,7 @@ TEST(Convert, TelemetryKeepsEveryField) {
                      in.round_trip_p50_us, in.round_trip_p99_us, in.health.floors, in.noise),
             std::tie(out.compute_s, out.wait_s, out.point_updates_per_s, out.messages, out.bytes,
                      out.round_trip_p50_us, out.round_trip_p99_us, out.health.floors, out.noise));
-  EXPECT_EQ(std::tie(in.dt_bid, in.limited_by), std::tie(out.dt_bid, out.limited_by));
+  EXPECT_EQ(std::tie(in.proposed_dt, in.limited_by), std::tie(out.proposed_dt, out.limited_by));
   ASSERT_EQ(in.limits.size(), 2U);
   EXPECT_EQ(std::tie(in.limits[0].by, in.limits[1].by), std::tie(out.limits[0].by, out.limits[1].by));
   EXPECT_EQ(std::pair(in.limits[0].steps, in.limits[1].steps), std::pair(40UL, 2UL));

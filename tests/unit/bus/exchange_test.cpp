@@ -162,13 +162,13 @@ TEST(Exchange, AbortReachesEverybodyWithItsCodeAndReason) {
   const std::string run = own_run();
   auto fluid = in_thread([&] {
     SolverSession session(options(run), gas());
-    session.abort(NumbersBroke("det F = -0.02", {.step = 412, .t = 1.37, .grid = "beam", .point = {14, 3}}));
+    session.abort(Diverged("det F = -0.02", {.step = 412, .t = 1.37, .grid = "beam", .point = {14, 3}}));
   });
   auto beam = in_thread([&] { SolverSession(options(run), solid()).receive("beam", 0); });
   auto coupler = in_thread([&] { CouplerSession(options(run), gas_and_solid(), "one case").gather(0); });
   fluid.get();
   for (const End& end : {beam.get(), coupler.get()}) {
-    EXPECT_EQ(end.code, ExitCode::numbers_broke);
+    EXPECT_EQ(end.code, ExitCode::diverged);
     EXPECT_EQ(end.reason, "fluid: step 412, t = 1.37, grid \"beam\", point (14, 3): det F = -0.02");
     EXPECT_EQ(end.place.point, (std::vector{14, 3}));
     EXPECT_EQ(end.origin, "fluid");
@@ -232,7 +232,7 @@ TEST(Exchange, ListenerHearsTheNewestTelemetryOfEveryProgram) {
     for (const wire::Telemetry& heard : listener.wait(10))
       (heard.from == "fluid" ? newest_one : newest_two) = heard.step;
   }
-  one.abort(NumbersBroke("p < 0"));
+  one.abort(Diverged("p < 0"));
   while (!listener.aborted()) listener.wait(10);
   EXPECT_EQ(listener.aborted().value_or(wire::Abort{}).reason(), "p < 0");
 }

@@ -155,7 +155,7 @@ TEST(LostAbort, ItsSenderIsNamed) {
   const std::string run = own_run();
   auto fluid = in_thread([&] {
     SolverSession session(losing(run, {.topics = {"amp_fsi/abort"}, .count = for_ever}), gas());
-    session.abort(NumbersBroke("rho < 0"));
+    session.abort(Diverged("rho < 0"));
   });
   auto coupler = in_thread(
       [&] { CouplerSession(options(run), {{.role = "fluid", .name = "fluid"}}, "one case").gather(0); });

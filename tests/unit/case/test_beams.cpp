@@ -48,6 +48,11 @@ TEST(Beams, MistakesSayWhereAndWhatToWrite) {
             "is -0.6094 at (0, 0.3906); let it be positive along the line"},
            {panel, "solids.panel.beam.line=[[100, 0], [100, 50]]",
             "(100, 0) is not in the body, which lies in (-0.5"},
+           {panel, "solids.panel.beam.line=[[0, 10], [0, 50]]",
+            "solids.panel.beam.line: its first end (0, 10) is 10 away from the foot of the outline, more "
+            "than "
+            "the thickness, 1; let that end be (0, 0), in the middle of the foot"},
+           {panel, "solids.panel.beam.line=[[0, 0.5], [0, 50]]", ""},
            {plate, "solids.plate.beam.line=[[1, 0], [1, 0.1]]",
             "is not in the body, which lies in (0, 0) .. (0.05, 0.1)"},
            {plate, "solids.plate.boundary.top=free", ""},  // guided: it stays on the wall

@@ -83,7 +83,7 @@ TEST(ElasticPiston, HasTheDataOfItsParameters) {
   EXPECT_EQ(side_of(solid.boundary, Side::right).kind, BoundaryKind::interface);
   EXPECT_EQ(solid.scheme.limiter, SolidLimiter::none);
   EXPECT_DOUBLE_EQ(solid.scheme.relaxation.rate, 0.5);
-  EXPECT_EQ(problem.reference.kind, "elastic_piston");
+  EXPECT_EQ(problem.reference.kind, ReferenceKind::elastic_piston);
   EXPECT_DOUBLE_EQ(problem.reference.numbers.at("density_ratio"), 0.01);
 }
 

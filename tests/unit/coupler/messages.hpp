@@ -83,7 +83,7 @@ inline wire::PredictedInterface gas_state(std::size_t n, std::uint64_t step,
   state.from = "fluid";
   state.interface = interface;
   state.step = step;
-  state.dt_bid = 0.1;
+  state.proposed_dt = 0.1;
   state.dt_reason = "sound";
   state.x = vertical_line(n, 0);
   state.v = everywhere(n, 0, 0);
@@ -99,7 +99,7 @@ inline wire::PredictedInterface solid_state(std::size_t n, std::uint64_t step,
   state.from = name;
   state.interface = name;
   state.step = step;
-  state.dt_bid = 0.1;
+  state.proposed_dt = 0.1;
   state.dt_reason = "p-wave";
   state.x = vertical_line(n, 0);
   state.v = everywhere(n, 0, 0);

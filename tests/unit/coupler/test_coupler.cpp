@@ -116,7 +116,7 @@ TEST(Coupler, RobinDataUseTheNewestImpedanceOfTheGasForEveryTime) {
     const double z_f = 1.0 + static_cast<double>(k);
     gas.z_f.assign(n, z_f);
     gas.v = everywhere(n, 0.1 * z_f, 0);
-    solid.dt_bid = 0.03;
+    solid.proposed_dt = 0.03;
     const auto answers = coupler.step(std::vector{gas, solid});
     v_n.push_back(answers[1].v_n[0]);
     w_n.push_back(answers[1].w_n[0]);
@@ -137,7 +137,7 @@ TEST(Coupler, SendsNobodyWhatOnlyTheOtherSideNeeds) {
     options.multirate = true;
     Coupler coupler(options, piston_hellos(n));
     auto solid = solid_state(n, 0);
-    solid.dt_bid = substeps ? 0.03 : 1;
+    solid.proposed_dt = substeps ? 0.03 : 1;
     const auto answers = coupler.step(std::vector{gas_state(n, 0), solid});
     EXPECT_EQ(answers[0].x_next.size(), 2 * n);
     EXPECT_EQ(answers[0].v.size() + answers[0].a.size(), 4 * n);
@@ -231,7 +231,7 @@ TEST(Coupler, SeveralSolidsInOneGasAreIndependentOfEachOther) {
   at_b.p.assign(n, 1.5);
   auto b = solid_state(n, 0, "b");
   b.x = at_b.x;
-  b.dt_bid = 0.02;
+  b.proposed_dt = 0.02;
   const auto answers = coupler.step(std::vector{gas_state(n, 0, "a"), at_b, solid_state(n, 0, "a"), b});
   ASSERT_EQ(answers.size(), 4U);
   EXPECT_EQ(answers[0].v_n, std::vector<double>(n, 0.0));
@@ -293,17 +293,17 @@ TEST(Coupler, WhoWatchesSeesFewPointsBothEndsAndTheExtremesOfAll) {
 TEST(Coupler, NumbersThatAreNotFiniteAreNamed) {
   auto gas = gas_state(n, 0);
   gas.p[2] = std::nan("");
-  std::string message = failure<NumbersBroke>(gas, solid_state(n, 0));
+  std::string message = failure<Diverged>(gas, solid_state(n, 0));
   for (const char* part : {"step 0", "\"fluid\"", "\"solid\"", "point 2", "pressure"}) {
     EXPECT_NE(message.find(part), std::string::npos) << part << " in: " << message;
   }
   auto solid = solid_state(n, 0);
   solid.w[n + 3] = std::numeric_limits<double>::infinity();
-  message = failure<NumbersBroke>(gas_state(n, 0), solid);
+  message = failure<Diverged>(gas_state(n, 0), solid);
   EXPECT_NE(message.find("point 3 at (0, 1): the traction is inf"), std::string::npos) << message;
   solid = solid_state(n, 0);
   solid.Z[1] = -1;
-  EXPECT_NE(failure<NumbersBroke>(gas_state(n, 0), solid).find("hyperbolic"), std::string::npos);
+  EXPECT_NE(failure<Diverged>(gas_state(n, 0), solid).find("hyperbolic"), std::string::npos);
 }
 
 TEST(Coupler, MessagesThatDoNotFitAreNamed) {
@@ -320,8 +320,8 @@ std::vector<wire::PredictedInterface> start_with(double v) {
   auto solid = solid_state(n, 0);
   gas.rho.assign(n, 1.0);
   gas.gamma.assign(n, 1.4);
-  gas.dt_bid = 0.01;
-  solid.dt_bid = 0.02;
+  gas.proposed_dt = 0.01;
+  solid.proposed_dt = 0.02;
   solid.v = everywhere(n, v, 0);
   for (double& z : solid.Z) z *= 1e9;
   solid.z_p *= 1e9;
@@ -337,8 +337,8 @@ TEST(Coupler, NoSideGoesFurtherInTheFirstStepThanWavesWould) {
       const auto predicted = start_with(v);
       const auto answers = coupler.step(predicted);
       const double way = std::abs(answers[0].x_next[1] - predicted[0].x[1]);
-      EXPECT_LE(way, predicted[0].dt_bid * (1 + 1e-12)) << v;
-      EXPECT_GT(way, 0.9 * predicted[0].dt_bid) << v;
+      EXPECT_LE(way, predicted[0].proposed_dt * (1 + 1e-12)) << v;
+      EXPECT_GT(way, 0.9 * predicted[0].proposed_dt) << v;
     }
   }
 }

@@ -25,7 +25,7 @@ CouplerOptions restart_options() {
   return options;
 }
 
-/// Both sides at an exchange: everything changes from step to step, the bids up and down.
+/// Both sides at an exchange: everything changes from step to step, the proposals up and down.
 std::vector<wire::PredictedInterface> exchange(std::uint64_t step, bool modal) {
   const auto s = static_cast<double>(step);
   auto gas = gas_state(n, step);
@@ -38,8 +38,8 @@ std::vector<wire::PredictedInterface> exchange(std::uint64_t step, bool modal) {
     gas.z_f[k] = 1 + 0.05 * s;
     solid.w[k] = 0.02 * std::sin(3 * s);
   }
-  gas.dt_bid = step == stop - 1 ? 0.01 : 0.1;  // the step has to grow again after the restart
-  solid.dt_bid = 0.03;
+  gas.proposed_dt = step == stop - 1 ? 0.01 : 0.1;  // the step has to grow again after the restart
+  solid.proposed_dt = 0.03;
   if (modal) {
     solid.w.clear();
     solid.Z.clear();

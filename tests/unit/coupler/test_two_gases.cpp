@@ -117,8 +117,8 @@ TEST(TwoGases, TheStepIsThatOfTheFasterGasAndOnlyTheSolidTakesSubsteps) {
   Coupler coupler(options, hellos());
   std::vector states{gas_at(faces[0], 0, 1, 1), gas_at(faces[1], 0, 1, 1), wall_at(faces[0], 0),
                      wall_at(faces[1], 0)};
-  states[1].dt_bid = 0.05;
-  states[2].dt_bid = states[3].dt_bid = 0.01;
+  states[1].proposed_dt = 0.05;
+  states[2].proposed_dt = states[3].proposed_dt = 0.01;
   const auto answers = coupler.step(states);
   EXPECT_EQ(coupler.next().limited_by, "right");
   EXPECT_NEAR(coupler.next().plan.dt, 0.05, 1e-12);

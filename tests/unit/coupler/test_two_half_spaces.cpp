@@ -114,7 +114,7 @@ class ModelProblem {
     state.v = along_normal(gas_.v(0));
     state.p.assign(points, 1 - gas_.s(0));
     state.z_f.assign(points, gas_.medium().z());
-    state.dt_bid = gas_.largest_step();
+    state.proposed_dt = gas_.largest_step();
     return state;
   }
   wire::PredictedInterface solid_message(std::uint64_t step) {
@@ -132,7 +132,7 @@ class ModelProblem {
       state.Z[2 * points + k] = z_p * s * s + z_s * c * c;
     }
     state.z_p = z_p;
-    state.dt_bid = solid_.largest_step();
+    state.proposed_dt = solid_.largest_step();
     return state;
   }
 

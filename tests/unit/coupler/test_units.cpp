@@ -61,7 +61,7 @@ wire::PredictedInterface gas_in(const Units& units, int step) {
   gas.z_f = times(units.impedance(), odd_values(scaled_points, 1.3, 0.1, 5 * step));
   gas.gamma.assign(scaled_points, 1.4);
   gas.p_e = units.pressure();
-  gas.dt_bid = units.time * (0.1 + 0.01 * odd(step));
+  gas.proposed_dt = units.time * (0.1 + 0.01 * odd(step));
   return gas;
 }
 
@@ -73,7 +73,7 @@ wire::PredictedInterface solid_in(const Units& units, int step) {
   solid.w = times(units.pressure(), odd_values(2 * scaled_points, 0.1, 0.1, 11 * step));
   solid.Z = times(units.impedance(), solid.Z);
   solid.z_p = 2 * units.impedance();
-  solid.dt_bid = units.time * (0.03 + 0.002 * odd(step));
+  solid.proposed_dt = units.time * (0.03 + 0.002 * odd(step));
   return solid;
 }
 

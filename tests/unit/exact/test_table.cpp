@@ -74,7 +74,7 @@ class PistonTableFile : public testing::Test {
 };
 
 TEST_F(PistonTableFile, IsTheSolutionNamedPiston1d) {
-  const auto solution = make_solution("piston_1d", {}, directory);
+  const auto solution = make_solution(ReferenceKind::piston_1d, {}, directory);
   EXPECT_TRUE(solution->only_at_output_times());
   EXPECT_NEAR(solution->gas(1.25, 7, 0.5).rho, 1.25, 1e-14);
   const SolidState solid = solution->solid(-0.5, 7, 0.5);
@@ -116,7 +116,7 @@ TEST_F(PistonTableFile, OfARunThatBrokeSaysWhyNothingIsKnownBeyond) {
 
 TEST(PistonTable, SaysWhichFileIsMissing) {
   try {
-    make_solution("piston_1d", {}, "/nowhere");
+    make_solution(ReferenceKind::piston_1d, {}, "/nowhere");
     FAIL() << "a missing table must be refused";
   } catch (const OutputFailed& failure) {
     EXPECT_NE(std::string(failure.what()).find("/nowhere/reference.h5"), std::string::npos);

@@ -44,7 +44,7 @@ TEST(GasSolverFailure, SaysWhenWhereAndWhatBroke) {
   try {
     gas.advance_fluid(1, 1);  // a hundred times the stable step
     FAIL() << "the step should have broken the numbers";
-  } catch (const NumbersBroke& broke) {
+  } catch (const Diverged& broke) {
     const std::string what = broke.what();
     EXPECT_EQ(broke.place().t, 1);
     EXPECT_EQ(broke.place().grid, "grid");

@@ -67,7 +67,7 @@ HyperbolicGrid deep_grid(const PlaneCurve& shape, int lines, Side side, double c
 double worst_cell(const PlaneCurve& shape, const HyperbolicGrid& grid) {
   try {
     return cell_quality(march(shape, grid).x.view());
-  } catch (const NumbersBroke&) {
+  } catch (const Diverged&) {
     return 0;
   }
 }

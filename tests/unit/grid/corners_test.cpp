@@ -191,6 +191,27 @@ TEST(MostCrowdedBend, SharpCornersAreNone) {
   EXPECT_TRUE(!beside || beside->part > 1);
 }
 
+TEST(MostCrowdedCorner, AtARightAngleNothingIsLeftOfTheFirstGhostLineWhereLinesAreAsFarApartAsPoints) {
+  const auto x = points_on(sharp({{-1, 0}, {0, 0}, {0, -1}}, Curve::open), 41);
+  const std::vector<int> corner{20};
+  const auto at = [&](double spacing) {
+    HyperbolicMarch march(
+        {.points = 41, .lines = 6, .curve = Side::bottom, .ends = Curve::open, .spacing = spacing});
+    Field grid(march.layout(), 2);
+    march.march(x, grid.view(), 0);
+    const ConstFieldView view = grid.view();
+    const double ghosts = std::hypot(view(0, 21, -1) - view(0, 19, -1), view(1, 21, -1) - view(1, 19, -1));
+    return std::pair(most_crowded_corner(view, Side::bottom, corner, least_share_of_turns).value(), ghosts);
+  };
+  const auto [wide, none] = at(0.05);
+  EXPECT_EQ(wide.point, 20);
+  EXPECT_LT(wide.part, 1);
+  EXPECT_LT(none, 0.02);
+  const auto [held, some] = at(wide.spacing);
+  EXPECT_GT(held.part, 0.99);
+  EXPECT_GT(some, none);
+}
+
 TEST(MostSlantedLine, IsThatAtAFlatEndOnAWall) {
   // The curve rises from the wall y = 0 at an angle; its first line leaves it along the wall.
   for (const double angle : {0.2, 0.5, 1.2}) {
@@ -226,7 +247,7 @@ TEST(FlatOnAWall, AFoldWhereTheCurveHasComeDownToItsWallSaysSo) {
     Field grid(march.layout(), 2);
     try {
       march.march(x, grid.view(), t);
-    } catch (const NumbersBroke& folded) {
+    } catch (const Diverged& folded) {
       return folded.what();
     }
     return "";

@@ -201,7 +201,7 @@ TEST(HyperbolicMarch, LinesStayParallelToACurveThatComesDownFlatOnItsWall) {
       EXPECT_NEAR((0.2 * x(0, i, j) - x(1, i, j)) / slope, 2e-3 * j, 1e-4 * j) << i << " " << j;
     }
   }
-  EXPECT_THROW(wedge_inside(false), NumbersBroke);  // lines along normals run into the wall
+  EXPECT_THROW(wedge_inside(false), Diverged);  // lines along normals run into the wall
 }
 
 TEST(CellQuality, IsOneOfRectanglesTheSineOfAParallelogramsAngleAndZeroWhereACellFolds) {
@@ -285,7 +285,7 @@ TEST(HyperbolicMarch, NamesGridCellPlaceAndTimeOfAFold) {
   try {
     march(beam_outline(), beam_grid(200, 10, Side::top, 0.02), 1.5);
     FAIL() << "a grid deeper than the beam is thick went unnoticed";
-  } catch (const NumbersBroke& broke) {
+  } catch (const Diverged& broke) {
     const std::string words = broke.what();
     EXPECT_NE(words.find("t = 1.5, grid \"beam\", point ("), std::string::npos) << words;
     EXPECT_NE(words.find("the cell from here on is folded"), std::string::npos);
@@ -297,7 +297,7 @@ TEST(HyperbolicMarch, NamesACurveThatIsNoNumber) {
   auto curve = points_on(circle({0, 0}, 1), 65);
   curve[17] = std::nan("");
   Field x(marcher.layout(), 2);
-  EXPECT_THROW(marcher.march(curve, x.view(), 0), NumbersBroke);
+  EXPECT_THROW(marcher.march(curve, x.view(), 0), Diverged);
 }
 
 TEST(HyperbolicMarch, MistakesAreTheUsers) {

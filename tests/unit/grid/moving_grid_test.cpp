@@ -108,7 +108,7 @@ TEST(MovingGrid, NamesTheSidesThatAreToldPlacesACellApartForTheirCorner) {
   try {
     grid.move(0.1, commands);
     FAIL() << "the corner has two places";
-  } catch (const NumbersBroke& broke) {
+  } catch (const Diverged& broke) {
     const std::string words = broke.what();
     EXPECT_NE(words.find("square"), std::string::npos);
     EXPECT_NE(words.find("right and top"), std::string::npos) << words;
@@ -156,7 +156,7 @@ TEST(MovingGrid, NamesGridPointAndTimeOfAFoldedCell) {
   try {
     grid.move(0.5);
     FAIL() << "the fold went unnoticed";
-  } catch (const NumbersBroke& broke) {
+  } catch (const Diverged& broke) {
     const std::string words = broke.what();
     EXPECT_NE(words.find("square"), std::string::npos);
     EXPECT_NE(words.find("t = 0.5"), std::string::npos);
@@ -209,7 +209,7 @@ TEST(MovingGrid, AnEndFarFromItsWallEndsTheRunByName) {
   try {
     grid.move(0.1, std::array{SideCommand{Side::bottom, curve}});
     FAIL() << "the end is two cells from its wall";
-  } catch (const NumbersBroke& failure) {
+  } catch (const Diverged& failure) {
     EXPECT_NE(std::string(failure.what()).find("has left the wall it stands on, by 0.1"), std::string::npos)
         << failure.what();
   }

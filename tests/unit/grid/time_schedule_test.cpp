@@ -12,14 +12,14 @@
 namespace fsi {
 namespace {
 
-TEST(TimeSchedule, HitsEveryOutputTimeExactlyAndNeverExceedsTheBid) {
+TEST(TimeSchedule, HitsEveryOutputTimeExactlyAndNeverExceedsTheProposal) {
   TimeSchedule schedule({.end = 1.0, .output_times = {0.3, 0.7}, .growth = 10, .dt_max = 0});
   std::vector<double> hit;
   double t = 0;
   for (bool end = false; !end;) {
     const PlannedStep step = schedule.plan(t, 0.043, "gas");
     EXPECT_LE(step.dt, 0.043 * (1 + 1e-12));
-    // The remainder is spread: no step is much shorter than the bid allows for.
+    // The remainder is spread: no step is much shorter than the proposal allows for.
     EXPECT_GT(step.dt, 0.043 * 0.8);
     t = step.t_next;
     if (step.output) hit.push_back(t);
@@ -31,21 +31,22 @@ TEST(TimeSchedule, HitsEveryOutputTimeExactlyAndNeverExceedsTheBid) {
 
 TEST(TimeSchedule, SaysWhatKeepsAStepFromBeingLonger) {
   TimeSchedule schedule({.end = 1.0, .output_times = {0.05}, .growth = 1.5, .dt_max = 0.2});
-  EXPECT_EQ(schedule.plan(0, 0.04, "gas").limit, StepLimit::bid);  // two even steps to the output time
+  EXPECT_EQ(schedule.plan(0, 0.04, "gas").limit, StepLimit::proposal);  // two even steps to the output time
   EXPECT_EQ(schedule.plan(0.045, 0.04, "gas").limit, StepLimit::output);
-  EXPECT_EQ(schedule.plan(0.05, 0.4, "gas").limit, StepLimit::growth);  // from the bid, not what was left
+  EXPECT_EQ(schedule.plan(0.05, 0.4, "gas").limit,
+            StepLimit::growth);  // from the proposal, not what was left
   for (int k = 0; k < 5; ++k) schedule.plan(0.1, 0.4, "gas");
   EXPECT_EQ(schedule.plan(0.1, 0.4, "gas").limit, StepLimit::largest);
-  EXPECT_EQ(name_of(StepLimit::bid, "gas"), "gas");
+  EXPECT_EQ(name_of(StepLimit::proposal, "gas"), "gas");
   EXPECT_EQ(name_of(StepLimit::largest, "gas"), "time.dt");
 }
 
-/// The steps of a whole run with an even bid: each has a length.
-std::vector<double> sizes_of_steps(TimeSchedule schedule, double bid) {
+/// The steps of a whole run with an even proposal: each has a length.
+std::vector<double> sizes_of_steps(TimeSchedule schedule, double proposal) {
   std::vector<double> sizes;
   double t = 0;
   for (bool end = false; !end && sizes.size() < 1000;) {
-    const PlannedStep step = schedule.plan(t, bid, "gas");
+    const PlannedStep step = schedule.plan(t, proposal, "gas");
     sizes.push_back(step.dt);
     t = step.t_next;
     end = step.end;
@@ -84,10 +85,10 @@ TEST(TimeSchedule, LimitsTheGrowthOfTheStep) {
 
 TEST(TimeSchedule, CallsAVanishedStepBroken) {
   TimeSchedule schedule({.end = 1, .output_times = {}, .growth = 1.2, .dt_max = 0});
-  EXPECT_THROW(schedule.plan(0, std::numeric_limits<double>::quiet_NaN(), "gas"), NumbersBroke);
-  // A body without waves bids no limit: then only the end of the run counts.
+  EXPECT_THROW(schedule.plan(0, std::numeric_limits<double>::quiet_NaN(), "gas"), Diverged);
+  // A body without waves proposes no limit: then only the end of the run counts.
   EXPECT_EQ(schedule.plan(0, std::numeric_limits<double>::infinity(), "body").t_next, 1.0);
-  EXPECT_THROW(schedule.plan(0.5, 1e-14, "gas"), NumbersBroke);
+  EXPECT_THROW(schedule.plan(0.5, 1e-14, "gas"), Diverged);
 }
 
 /// Nothing has been computed yet: it is the case that asks for too much.

@@ -114,7 +114,7 @@ TEST_F(PartFile, OfAFailureSaysWhyAndKeepsTheJsonValid) {
   Part part;
   part.participant = part.role = "coupler";
   part.status = "failed";
-  part.exit_code = ExitCode::numbers_broke;
+  part.exit_code = ExitCode::diverged;
   part.reason = "step 412, t = 1.37, grid \"beam\", point (14, 3): det F = -0.02";
   part.failure = {.place = {.step = 412,
                             .t = 1.37,
@@ -134,7 +134,7 @@ TEST_F(PartFile, OfAFailureSaysWhyAndKeepsTheJsonValid) {
 }
 
 TEST(FailureWithItsPlace, LearnsWhatWasNotKnownAndKeepsWhatWas) {
-  NumbersBroke failure("det F = -0.02", {.t = 1.5, .grid = "beam", .point = {14, 3}});
+  Diverged failure("det F = -0.02", {.t = 1.5, .grid = "beam", .point = {14, 3}});
   failure.know({.step = 412, .t = 9, .position = {0.5, 0.25}, .of_reference = true});
   EXPECT_STREQ(failure.what(),
                "step 412, t = 1.5, grid \"beam\", point (14, 3) of the reference (0.5, 0.25): det F = -0.02");
@@ -147,7 +147,7 @@ TEST(FailureWithItsPlace, IsToldInWordsWithoutWhatIsNotKnown) {
   EXPECT_EQ(sentence_of({.t = 0.5, .program = "disk", .interface = "disk", .point = {7}}, "p is nan"),
             "t = 0.5, \"disk\" at interface \"disk\", point 7: p is nan");
   EXPECT_EQ(sentence_of({.position = {1, 2}}, "folded"), "at (1, 2): folded");
-  const Failure heard(ExitCode::numbers_broke, "p < 0", {.step = 3}, "fluid");
+  const Failure heard(ExitCode::diverged, "p < 0", {.step = 3}, "fluid");
   EXPECT_STREQ(heard.what(), "fluid: step 3: p < 0");
 }
 

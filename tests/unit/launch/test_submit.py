@@ -17,7 +17,7 @@ from fsi_launch.failure import UserMistake
 
 CASE = SimpleNamespace(name="shock", programs={"fluid": "fluid_solver", "disk": "solid_solver_svk", "plate": "solid_solver_beam",
                                                "coupler": "coupler"})
-LONE = SimpleNamespace(name="sod", programs={"fluid": "fluid_solver"})
+STANDALONE = SimpleNamespace(name="sod", programs={"fluid": "fluid_solver"})
 
 SLURM = {
     "scontrol": '[ "$1 $2" = "show hostnames" ] || exit 9\necho "$3" | sed "s/\\[0*\\([0-9]*\\).*/\\1/"\necho another\n',
@@ -60,7 +60,7 @@ class Script(unittest.TestCase):
         self.assertFalse(any(line.startswith("#SBATCH") for line in lines[first:]))
 
     def test_what_cannot_be(self):
-        for words, case, given in (("has a single program", LONE, {"nodes": 2}), ("one node more than those", CASE, {"nodes": 5}),
+        for words, case, given in (("has a single program", STANDALONE, {"nodes": 2}), ("one node more than those", CASE, {"nodes": 5}),
                                    ("no time for Slurm", CASE, {"time": "soon"}), ("counts the cores of this machine", CASE, {"ranks": "auto"}),
                                    ("plate (solid_solver_beam) computes in one process only", CASE, {"ranks": "plate=2"})):
             with self.subTest(words), self.assertRaisesRegex(UserMistake, words.replace("(", r"\(").replace(")", r"\)")):

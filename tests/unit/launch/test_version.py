@@ -30,10 +30,12 @@ class Build(InScratch):
         self.root.mkdir()
         self.bin.mkdir()
         (self.root / "a.cpp").write_text("one\n")
+        (self.root / "docs").mkdir()
+        (self.root / "docs" / "results.md").write_text("one\n")
 
     def commit(self):
         self.git("init", "-q")
-        self.git("add", "a.cpp")
+        self.git("add", "a.cpp", "docs")
         self.git("commit", "-q", "-m", "first")
         return self.git("rev-parse", "HEAD")
 
@@ -57,6 +59,11 @@ class Build(InScratch):
         (self.root / "a.cpp").write_text("two\n")
         self.assertTrue(self.built()["modified"])
         self.assertIn(f"commit {commit[:12]}, modified\n", version.describe(self.bin))
+
+    def test_a_page_changes_nothing_that_is_built(self):
+        self.commit()
+        (self.root / "docs" / "results.md").write_text("two\n")
+        self.assertIs(self.built()["modified"], False)
 
     def test_a_file_that_git_does_not_know_changes_nothing(self):
         self.commit()

@@ -64,17 +64,17 @@ TEST(Limiters, HoldTheChangesOnlyInBoundedMemory) {
 TEST(History, TheTableSaysWhatWasProposedWhereAStepBeganAndWhoLimitedIt) {
   const auto path =
       std::filesystem::temp_directory_path() / ("fsi-proposals-" + std::to_string(getpid()) + ".csv");
-  std::ofstream(path) << "step,t [time],dt [time],fluid.dt_bid [time],limited_by\n0,0,0,nan,none\n"
+  std::ofstream(path) << "step,t [time],dt [time],fluid.proposed_dt [time],limited_by\n0,0,0,nan,none\n"
                          "1,0.25,0.25,0.3,time.growth\n2,0.5,0.25,0.25,fluid\n3,0.75,0.25,inf,fluid\n";
   History history;
   history.read_table(path.string());
   std::filesystem::remove(path);
-  const auto& bids = history.of("fluid.dt_bid").points();
-  ASSERT_EQ(bids.size(), 3U);
-  EXPECT_EQ(bids[0].at, 0);
-  EXPECT_EQ(bids[0].value, 0.3);
-  EXPECT_EQ(bids[2].at, 0.5);
-  EXPECT_TRUE(std::isinf(bids[2].value));
+  const auto& proposals = history.of("fluid.proposed_dt").points();
+  ASSERT_EQ(proposals.size(), 3U);
+  EXPECT_EQ(proposals[0].at, 0);
+  EXPECT_EQ(proposals[0].value, 0.3);
+  EXPECT_EQ(proposals[2].at, 0.5);
+  EXPECT_TRUE(std::isinf(proposals[2].value));
   const auto& changes = history.limiters().changes();
   ASSERT_EQ(changes.size(), 2U);
   EXPECT_EQ(changes[0].by, "time.growth");

@@ -157,6 +157,30 @@ TEST(Screen, RoundOffIsDrawnFlatAndZeroHasALine) {
   EXPECT_GT(dots, 10) << "the line of zero, a quarter from below";
 }
 
+TEST(Screen, PowersOfRoundOffAreDrawnFlat) {
+  const auto rows_of_powers = [](double size) {
+    RunState state(entry("r-1"));
+    for (int k = 0; k < 40; ++k) {
+      auto coupler = with_interface("beam", 40);
+      coupler.t = 0.1 * k;
+      coupler.interfaces[0].power = k % 2 == 0 ? size : -size;
+      state.hear(coupler, 0.1 * k);
+    }
+    const Frame frame = screen(state, 4, {}, {.columns = 80, .rows = 40});
+    int rows = 0;
+    for (int row = 30; row < 39; ++row) {
+      bool drawn = false;
+      for (int column = 60; column < 80; ++column)
+        drawn = drawn ||
+                (frame.at(column, row).style == Style::projected && frame.at(column, row).character > 0x2800);
+      rows += drawn ? 1 : 0;
+    }
+    return rows;
+  };
+  EXPECT_GT(rows_of_powers(1e-3), 2);
+  EXPECT_LE(rows_of_powers(1e-25), 2);
+}
+
 TEST(Screen, NoTimeIsLeftWhileARunIsPaused) {
   RunState state = coupled();
   EXPECT_FALSE(shows(screen(state, 2, {}, {}), "left -"));

@@ -36,14 +36,14 @@ TEST_F(Log, EverythingGoesToTheFileWithItsTimeAndTroubleToStandardErrorToo) {
   testing::internal::CaptureStderr();
   log_info("begun {}");
   log_warning("a disk is full");
-  log_error("the numbers broke");
+  log_error("the solution diverged");
   EXPECT_EQ(testing::internal::GetCapturedStderr(),
-            "fluid: warning: a disk is full\nfluid: error: the numbers broke\n");
+            "fluid: warning: a disk is full\nfluid: error: the solution diverged\n");
   const std::string written = text();
   constexpr std::size_t length_of_time = sizeof("2026-01-31 23:59:59.999") - 1;
   EXPECT_EQ(written.find(" info begun {}\n"), length_of_time) << written;
   EXPECT_NE(written.find(" warning a disk is full\n"), std::string::npos);
-  EXPECT_NE(written.find(" error the numbers broke\n"), std::string::npos);
+  EXPECT_NE(written.find(" error the solution diverged\n"), std::string::npos);
 }
 
 TEST_F(Log, ARunThatGoesOnKeepsWhatItsLogSays) {

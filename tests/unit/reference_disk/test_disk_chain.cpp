@@ -164,7 +164,7 @@ TEST(RotatingDisk, SaysWhereTheSolidFolds) {
   try {
     solve_disk(disk, 50);
     FAIL() << "a folded solid must be noticed";
-  } catch (const NumbersBroke& broke) {
+  } catch (const Diverged& broke) {
     EXPECT_NE(std::string(broke.what()).find("r_bar"), std::string::npos);
   }
 }

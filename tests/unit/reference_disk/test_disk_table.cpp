@@ -26,7 +26,8 @@ class DiskFile : public testing::Test {
   void TearDown() override { std::filesystem::remove_all(directory); }
 
   std::unique_ptr<exact::Solution> read() const {
-    return exact::make_solution("rotating_disk", {{"omega_0", 0.3}, {"points", 100}}, directory.string());
+    return exact::make_solution(ReferenceKind::rotating_disk, {{"omega_0", 0.3}, {"points", 100}},
+                                directory.string());
   }
 
   std::filesystem::path directory;
@@ -115,7 +116,7 @@ TEST_F(DiskFile, EstimatedErrorIsTheDistanceToAMuchFinerRun) {
 
 TEST(DiskTable, SaysWhichFileIsMissing) {
   try {
-    exact::make_solution("rotating_disk", {}, "/nowhere");
+    exact::make_solution(ReferenceKind::rotating_disk, {}, "/nowhere");
     FAIL() << "a missing table must be refused";
   } catch (const OutputFailed& failure) {
     EXPECT_NE(std::string(failure.what()).find("/nowhere/reference.h5"), std::string::npos);

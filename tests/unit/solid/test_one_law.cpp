@@ -8,13 +8,12 @@
 #include <string>
 #include <utility>
 
+#include "solid_solver/boundary/every_boundary.hpp"
 #include "solid_solver/neo_hookean_solver.hpp"
 #include "tests/convergence/solid/skewed_grid.hpp"
 
 namespace fsi::solid {
 namespace {
-
-using Kind = Boundary::Kind;
 using Solver = SolidSolver<NeoHookean>;
 
 constexpr int n = 13;
@@ -34,14 +33,14 @@ Mat2 turn_by(double angle) {
 }
 
 /// Sides of the square, and what is given there turned with it.
-using Kinds = std::array<Kind, 4>;
+using Kinds = std::array<Condition, 4>;
 
 /// State at the points after some steps from a velocity that varies over the body.
 Field moved(const Mat2& turn, const Kinds& kinds, const SolidOptions& options) {
   Boundaries boundaries;
   for (std::size_t side = 0; side < 4; ++side) {
-    boundaries[side].kind = kinds[side];
-    if (kinds[side] == Kind::traction) {
+    boundaries[side].condition = kinds[side];
+    if (kinds[side] == Traction::condition) {
       boundaries[side].vector = [turn](double x, double y, double t) -> Vec2 {
         const Vec2 at = turn.transpose() * Vec2(x, y);
         return turn * Vec2(-0.02 * at.y(), 0.01 + 0.05 * t * at.x());
@@ -116,16 +115,17 @@ TEST_P(OneLaw, Eq4AQuarterTurnIsNotSeenByTheLimiterEither) {
 
 INSTANTIATE_TEST_SUITE_P(
     EveryKindOfSide, OneLaw,
-    testing::Values(Kinds{Kind::traction, Kind::traction, Kind::traction, Kind::traction},
-                    Kinds{Kind::displacement, Kind::traction, Kind::slip, Kind::traction},
-                    Kinds{Kind::interface, Kind::displacement, Kind::symmetry, Kind::interface},
-                    Kinds{Kind::slip, Kind::interface, Kind::displacement, Kind::symmetry},
-                    Kinds{Kind::periodic, Kind::periodic, Kind::displacement, Kind::traction}),
+    testing::Values(
+        Kinds{Traction::condition, Traction::condition, Traction::condition, Traction::condition},
+        Kinds{Displacement::condition, Traction::condition, SlipWall::condition, Traction::condition},
+        Kinds{Interface::condition, Displacement::condition, Symmetry::condition, Interface::condition},
+        Kinds{SlipWall::condition, Interface::condition, Displacement::condition, Symmetry::condition},
+        Kinds{Periodic::condition, Periodic::condition, Displacement::condition, Traction::condition}),
     [](const auto& kinds) { return "Set" + std::to_string(kinds.index); });
 
 TEST(BulkDiffusion, TakesEnergyOutOfTheShortestWavesOfABodyAndLeavesItsMomentum) {
   Boundaries boundaries;
-  for (Boundary& boundary : boundaries) boundary.kind = Kind::periodic;
+  for (Boundary& boundary : boundaries) boundary.condition = Periodic::condition;
   const auto energy_after = [&](double diffusion) {
     Solver solver(test::unit_square(16), law, {.rho = 1, .bulk_diffusion = diffusion}, boundaries, 0);
     solver.assign_initial_conditions(

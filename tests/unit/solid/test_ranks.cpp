@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "common/core/failure.hpp"
+#include "solid_solver/boundary/every_boundary.hpp"
 #include "solid_solver/neo_hookean_solver.hpp"
 #include "tests/convergence/solid/disk.hpp"
 #include "tests/convergence/solid/skewed_grid.hpp"
@@ -19,9 +20,7 @@
 
 namespace fsi::solid {
 namespace {
-
-using Kind = Boundary::Kind;
-using Kinds = std::array<Kind, 4>;
+using Kinds = std::array<Condition, 4>;
 using Solver = SolidSolver<NeoHookean>;
 using MakeSolid = std::function<std::unique_ptr<Solver>()>;
 
@@ -48,8 +47,8 @@ void shake(Solver& solver, double size) {
 std::unique_ptr<Solver> block(const Kinds& kinds, int n1, int n2, const SolidOptions& options = damped) {
   Boundaries boundaries;
   for (std::size_t side = 0; side < 4; ++side) {
-    boundaries[side].kind = kinds[side];
-    if (kinds[side] == Kind::traction) {
+    boundaries[side].condition = kinds[side];
+    if (kinds[side] == Traction::condition) {
       boundaries[side].vector = [](double x, double y, double t) -> Vec2 {
         return {-0.02 * y, 0.01 + 0.05 * t * x};
       };
@@ -59,8 +58,8 @@ std::unique_ptr<Solver> block(const Kinds& kinds, int n1, int n2, const SolidOpt
       .name = "block", .n1 = n1, .n2 = n2, .mapping = [](double r, double s, double) -> Vec2 {
         return {r + 0.1 * s, s + 0.05 * r};
       }};
-  grid.periodic1 = kinds[0] == Kind::periodic;
-  grid.periodic2 = kinds[2] == Kind::periodic;
+  grid.periodic1 = kinds[0] == Periodic::condition;
+  grid.periodic2 = kinds[2] == Periodic::condition;
   if (grid.periodic1 || grid.periodic2)
     grid.mapping = [](double r, double s, double) -> Vec2 { return {r, s}; };
   auto solver = std::make_unique<Solver>(grid::MovingGrid(std::move(grid), 0), law, options, boundaries, 0);
@@ -68,9 +67,9 @@ std::unique_ptr<Solver> block(const Kinds& kinds, int n1, int n2, const SolidOpt
   return solver;
 }
 
-std::unique_ptr<Solver> disk(Kind rim_kind) {
+std::unique_ptr<Solver> disk(Condition rim_kind) {
   Boundary rim;
-  rim.kind = rim_kind;
+  rim.condition = rim_kind;
   test::DiskGrids grids = test::disk_of(20, std::move(rim));
   auto solver = std::make_unique<Solver>(std::move(grids.parts), grids.bodies, law, damped, 0);
   shake(*solver, 0.01);
@@ -109,7 +108,7 @@ double step(Solver& solver, Ranks& ranks, double t, Look look) {
   std::vector<InterfaceValues> values;
   for (int grid = 0; grid < solver.grids(); ++grid) {
     for (const Side side : all_sides) {
-      if (solver.kind(side, grid) != Kind::interface) continue;
+      if (solver.condition(side, grid) != Interface::condition) continue;
       Shown one;
       if (ranks.first()) one = shown(solver, side, grid);
       for (std::vector<double>* list : {&one.n, &one.v_n, &one.w_n}) ranks.broadcast(*list);
@@ -171,24 +170,26 @@ TEST_P(SolidOnRanks, OneGrid) {
 
 INSTANTIATE_TEST_SUITE_P(
     EveryKindOfSide, SolidOnRanks,
-    testing::Values(Kinds{Kind::traction, Kind::traction, Kind::traction, Kind::traction},
-                    Kinds{Kind::displacement, Kind::traction, Kind::slip, Kind::traction},
-                    Kinds{Kind::interface, Kind::displacement, Kind::symmetry, Kind::interface},
-                    Kinds{Kind::slip, Kind::interface, Kind::displacement, Kind::symmetry},
-                    Kinds{Kind::interface, Kind::interface, Kind::periodic, Kind::periodic},
-                    Kinds{Kind::periodic, Kind::periodic, Kind::displacement, Kind::traction},
-                    Kinds{Kind::interface, Kind::traction, Kind::displacement, Kind::slip}),
+    testing::Values(
+        Kinds{Traction::condition, Traction::condition, Traction::condition, Traction::condition},
+        Kinds{Displacement::condition, Traction::condition, SlipWall::condition, Traction::condition},
+        Kinds{Interface::condition, Displacement::condition, Symmetry::condition, Interface::condition},
+        Kinds{SlipWall::condition, Interface::condition, Displacement::condition, Symmetry::condition},
+        Kinds{Interface::condition, Interface::condition, Periodic::condition, Periodic::condition},
+        Kinds{Periodic::condition, Periodic::condition, Displacement::condition, Traction::condition},
+        Kinds{Interface::condition, Traction::condition, Displacement::condition, SlipWall::condition}),
     [](const auto& kinds) { return "Set" + std::to_string(kinds.index); });
 
 TEST(SolidOnSeveralRanks, OverlappingGrids) {
-  for (const Kind rim : {Kind::interface, Kind::traction})
+  for (const Condition rim : {Interface::condition, Traction::condition})
     expect_same_on_ranks([rim] { return disk(rim); }, 8);
 }
 
 /// A body whose motion is chosen: sources in all equations, here those that leave it as it is.
 TEST(SolidOnSeveralRanks, AChosenSolution) {
   const MakeSolid make = [] {
-    auto solver = block({Kind::traction, Kind::displacement, Kind::slip, Kind::traction}, 15, 23);
+    auto solver = block(
+        {Traction::condition, Displacement::condition, SlipWall::condition, Traction::condition}, 15, 23);
     solver->choose(
         {.state =
              [](double x, double y, double t) {
@@ -220,16 +221,18 @@ TEST(SolidOnSeveralRanks, NumbersBreakOnAllOfThemAlike) {
           solver->advance_solid(k, 1);
           solver->apply_solid_bcs(k + 1);
         }
-      } catch (const NumbersBroke& failure) {
+      } catch (const Diverged& failure) {
         if (mine->rank() == mine->size() - 1) words = failure.what();
       }
     });
     return words;
   };
-  for (const MakeSolid& make : {MakeSolid([] {
-                                  return block({Kind::slip, Kind::slip, Kind::slip, Kind::slip}, 15, 21);
-                                }),
-                                MakeSolid([] { return disk(Kind::traction); })}) {
+  for (const MakeSolid& make :
+       {MakeSolid([] {
+          return block({SlipWall::condition, SlipWall::condition, SlipWall::condition, SlipWall::condition},
+                       15, 21);
+        }),
+        MakeSolid([] { return disk(Traction::condition); })}) {
     EXPECT_NE(broken(1, make), "");
     EXPECT_EQ(broken(1, make), broken(4, make));
   }

@@ -9,13 +9,12 @@
 #include <utility>
 #include <vector>
 
+#include "solid_solver/boundary/every_boundary.hpp"
 #include "tests/convergence/solid/disk.hpp"
 #include "tests/convergence/solid/solvers.hpp"
 
 namespace fsi::solid {
 namespace {
-
-using Kind = Boundary::Kind;
 
 /// Factors of lengths, times and densities.
 struct Units {
@@ -109,7 +108,7 @@ void expect_same(SolidSolver<L>& one, SolidSolver<L>& other, const Units& units)
 template <class L>
 SolidSolver<L> disk(const Units& units) {
   Boundary rim;
-  rim.kind = Kind::interface;
+  rim.condition = Interface::condition;
   test::DiskGrids grids = test::disk_of(12, std::move(rim), 9, units.length);
   return {std::move(grids.parts), grids.bodies, law_in<L>(units), options_in(units), 0};
 }
@@ -119,11 +118,11 @@ template <class L>
 SolidSolver<L> block(const Units& units) {
   const double length = units.length;
   Boundaries sides;
-  sides[0].kind = Kind::displacement;
+  sides[0].condition = Displacement::condition;
   sides[1].vector = in(units, units.pressure(), [](double, double y, double t) -> Vec2 {
     return {-0.05 * t, 0.03 * y};
   });
-  sides[2].kind = Kind::slip;
+  sides[2].condition = SlipWall::condition;
   return {grid::MovingGrid({.name = "block",
                             .n1 = 21,
                             .n2 = 15,

@@ -1,0 +1,359 @@
+// Grids that a case leaves open, and what a run with them costs.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "common/case/grids/composite_from_case.hpp"
+#include "common/case/report/cost.hpp"
+#include "common/core/failure.hpp"
+#include "tests/unit/case/cases.hpp"
+
+namespace fsi {
+namespace {
+
+using tests::load_text;
+using tests::mistake_in;
+
+constexpr auto head =
+    "time: {end: 1}\ngrid: {factor: 2}\n"
+    "fluid:\n"
+    "  grid: {x: [-2, 2], y: [-2, 2]}\n"
+    "  boundary: {left: outflow, right: outflow, bottom: slip_wall, top: outflow}\n"
+    "  initial: {rho: 1, v: [0, 0], p: 1}\n";
+
+/// Bodies in a gas, with nothing but their outlines; `more`: lines of each of them.
+std::string bodies_case(const std::vector<std::string>& shapes, const std::string& more = "") {
+  std::string text = std::string(head) + "solids:\n";
+  for (std::size_t k = 0; k < shapes.size(); ++k) {
+    text += "  body_" + std::to_string(k) +
+            ":\n    law: neo_hookean\n    rho: 1\n    lambda: 1\n    mu: 1\n    shape: " + shapes[k] + "\n" +
+            more;
+  }
+  return text;
+}
+
+/// A rigid wall in a gas.
+std::string wall_case(const std::string& corners, const std::string& walls) {
+  return std::string(head) +
+         "  body_fitted: [{name: wall, lines: 8, shape: {kind: polygon, corners: " + corners +
+         ", walls: " + walls + "}}]\n";
+}
+
+const std::string circle = "{kind: circle, radius: 0.5}";
+
+TEST(ChosenGrids, AnOutlineIsEnough) {
+  for (const std::string shape :
+       {"{kind: circle, radius: 0.5}", "{kind: circle, radius: 0.08}",
+        "{kind: ellipse, semi_axes: [0.8, 0.2], angle: 30}",
+        "{kind: polygon, corners: [[-0.6, -0.4], [0.7, -0.3], [0, 0.5]]}",
+        "{kind: polygon, corners: [[-0.6, -0.4], [0.7, -0.4], [0.7, 0.2], [-0.6, 0.2]], radius: 0.05}",
+        "{kind: spline, through: [[0.8, 0], [0.3, 0.3], [0, 0.8], [-0.3, 0.3], [-0.8, 0], [0, -0.4]]}"}) {
+    const Case problem = load_text(bodies_case({shape}));
+    ASSERT_EQ(problem.solids.size(), 1U);
+    EXPECT_NO_THROW(connect_once(problem.solids[0].grid, problem.solids[0].body_fitted)) << shape;
+    EXPECT_NO_THROW(connect_once(problem.fluids.front().grid, problem.fluids.front().body_fitted)) << shape;
+    EXPECT_EQ(problem.chosen.size(), 3U) << shape;
+    // What was chosen is in the resolved case, whose programs choose nothing any more.
+    const Case again = load_text(problem.resolved);
+    EXPECT_TRUE(again.chosen.empty()) << shape;
+    EXPECT_EQ(again.digest, problem.digest) << shape;
+    EXPECT_EQ(again.fluids.front().body_fitted[0].curve.x, problem.fluids.front().body_fitted[0].curve.x)
+        << shape;
+    EXPECT_EQ(again.solids[0].grid.x_b, problem.solids[0].grid.x_b) << shape;
+  }
+}
+
+TEST(ChosenGrids, GentleOutlinesGetEightLinesAndACoreOneSpacingApart) {
+  const Case problem = load_text(bodies_case({"{kind: circle, radius: 0.9}"}));
+  const SolidSpec& solid = problem.solids[0];
+  EXPECT_EQ(solid.body_fitted[0].lines, 8);
+  EXPECT_NEAR(solid.body_fitted[0].spacing, 0.05, 1e-12);
+  EXPECT_NEAR((solid.grid.x_b - solid.grid.x_a) / (solid.grid.n1 - 1), 0.05, 1e-4);
+  EXPECT_EQ(problem.fluids.front().body_fitted[0].lines, 8);
+  EXPECT_NEAR(problem.fluids.front().body_fitted[0].spacing, 0.05, 1e-12);
+}
+
+TEST(ChosenGrids, KeysThatAreGivenStay) {
+  const Case own_lines = load_text(bodies_case({circle}, "    body_fitted: {lines: 6}\n"));
+  EXPECT_EQ(own_lines.solids[0].body_fitted[0].lines, 6);
+  const Case own_box = load_text(bodies_case({circle}, "    grid: {x: [-0.75, 0.75], y: [-0.6, 0.6]}\n"));
+  EXPECT_EQ(own_box.solids[0].grid.x_a, -0.75);
+  EXPECT_EQ(own_box.solids[0].grid.y_b, 0.6);
+  const Case own_points = load_text(bodies_case({"{kind: circle, radius: 0.5, points: 91}"}));
+  EXPECT_EQ(own_points.solids[0].body_fitted[0].curve.points(), 91);
+  // With points in `grid` nothing of the solid is open: the defaults of its keys hold.
+  const Case own_grid =
+      load_text(bodies_case({circle}, "    grid: {x: [-0.5, 0.5], y: [-0.5, 0.5], spacing: 0.4 * h}\n"));
+  EXPECT_EQ(own_grid.solids[0].body_fitted[0].lines, 8);
+  EXPECT_EQ(own_grid.solids[0].body_fitted[0].spacing, 0.05);
+}
+
+TEST(ChosenGrids, BodiesNearEachOtherGetGridsThatConnect) {
+  for (const double gap : {0.5, 0.25, 0.15, 0.1}) {
+    const std::string left = "{kind: circle, centre: [-0.6, 0], radius: 0.5}";
+    const std::string right = "{kind: circle, centre: [" + std::to_string(0.4 + gap) + ", 0], radius: 0.5}";
+    EXPECT_EQ(mistake_in(bodies_case({left, right})), "") << gap;
+  }
+}
+
+TEST(ChosenGrids, ABodyAtTheRimIsToldSoAndNotOfAnotherOne) {
+  const std::string message = mistake_in(
+      bodies_case({"{kind: circle, radius: 0.5}", "{kind: circle, centre: [1.48, 0], radius: 0.5}"}));
+  EXPECT_NE(message.find("solid `body_1` is 0.02 from the rim of fluid.grid at (1.98, 0)"), std::string::npos)
+      << message;
+}
+
+TEST(ChosenGrids, ABendThatTakesTooManyPointsIsNamedWithItsPlace) {
+  const std::string message = mistake_in(bodies_case({"{kind: ellipse, semi_axes: [1.5, 0.01]}"}));
+  EXPECT_NE(message.find("solids.body_0.shape: grids inside this outline would take"), std::string::npos)
+      << message;
+  EXPECT_NE(message.find("law: rigid"), std::string::npos) << message;
+  EXPECT_EQ(mistake_in(bodies_case({"{kind: ellipse, semi_axes: [1.5, 0.01]}"}), {}, {}).find('\n'),
+            std::string::npos);
+}
+
+/// Its outline takes 3727 points and a hundred lines, and none of fifty choices before connects: the watchdog of
+/// this program ends it where each of them is looked at to its last line.
+TEST(ChosenGrids, AVeryThinBodyIsDecidedSoon) {
+  const Case problem = load_text(std::string(head) +
+                                 "solids: {body: {law: rigid, rho: 10, shape: {kind: ellipse, semi_axes: "
+                                 "[0.5722, 0.0178], angle: 159.3}}}\n");
+  EXPECT_NEAR((problem.fluids.front().grid.x_b - problem.fluids.front().grid.x_a) /
+                  (problem.fluids.front().grid.n1 - 1),
+              0.015, 1e-4);
+  EXPECT_EQ(problem.fluids.front().body_fitted[0].lines, 100);
+  EXPECT_EQ(problem.fluids.front().body_fitted[0].spacing, 0.00049);
+}
+
+const std::string on_wall = "    boundary: {left: free, right: free, bottom: clamped, top: free}\n";
+
+TEST(ChosenGrids, ABodyThatComesDownFlatOnItsWallTakesNoFinerGridsThanItsBends) {
+  const Case problem = load_text(bodies_case(
+      {"{kind: polygon, corners: [[0, -2], [1, -1.8], [1, -2]], walls: [bottom, bottom]}"}, on_wall));
+  const GridSpec& core = problem.solids[0].grid;
+  EXPECT_LT(core.n1 * core.n2, 100000);  // a sharp tip between its wall and a ring would take millions
+}
+
+TEST(ChosenGrids, ALowFootGetsTheFinerBackgroundThatItNeeds) {
+  const std::string shape =
+      "{kind: polygon, corners: [[-1, -2], [-1, -1.92], [1, -1.6], [1, -2]], walls: [bottom, bottom]}";
+  EXPECT_EQ(mistake_in(bodies_case({shape}, on_wall)), "");
+}
+
+TEST(OpenOutlines, AWallIsTheSmallerPartOfTheGasWhicheverWayItIsListed) {
+  // A ramp up from the lower left: gas above it.
+  const Case up = load_text(wall_case("[[-2, -2], [0, -2], [2, -1.6]]", "[left, right]"));
+  const Case back = load_text(wall_case("[[2, -1.6], [0, -2], [-2, -2]]", "[right, left]"));
+  for (const Case* problem : {&up, &back}) {
+    const BodyFittedSpec& wall = problem->fluids.front().body_fitted[0];
+    EXPECT_EQ(wall.side, Side::top);
+    EXPECT_GT(wall.curve.x.front(),
+              wall.curve.x[static_cast<std::size_t>(wall.curve.points()) - 1]);  // right to left
+    EXPECT_NO_THROW(connect_once(problem->fluids.front().grid, problem->fluids.front().body_fitted));
+  }
+  // The same ramp hanging from the top.
+  const Case hanging = load_text(wall_case("[[-2, 2], [0, 2], [2, 1.6]]", "[left, right]"));
+  const BodyFittedSpec& wall = hanging.fluids.front().body_fitted[0];
+  EXPECT_LT(wall.curve.x.front(), wall.curve.x[static_cast<std::size_t>(wall.curve.points()) - 1]);
+}
+
+TEST(OpenOutlines, EndsThatAreNotOnTheirWallAreNamedWithTheirDistance) {
+  const std::string message = mistake_in(wall_case("[[-2, -1.9], [0, -2], [1.75, -1.5]]", "[left, right]"));
+  EXPECT_NE(message.find("(1.75, -1.5), is 0.25 from the right side of fluid.grid, x = 2"), std::string::npos)
+      << message;
+}
+
+std::string circle_above_the_floor(double gap) {
+  return "{kind: circle, centre: [0, " + std::to_string(-2 + 0.5 + gap) + "], radius: 0.5}";
+}
+
+TEST(ChosenGrids, AWallThatABodyIsNearToGetsAGridAlongIt) {
+  const Case near = load_text(bodies_case({circle_above_the_floor(0.1)}));  // two spacings
+  ASSERT_EQ(near.fluids.front().body_fitted.size(), 2U);
+  const BodyFittedSpec& strip = near.fluids.front().body_fitted[1];
+  EXPECT_EQ(strip.name, "along_bottom");
+  EXPECT_TRUE(strip.solid.empty());
+  for (int k = 0; k < strip.curve.points(); ++k)
+    EXPECT_NEAR(strip.curve.x[static_cast<std::size_t>(strip.curve.points() + k)], -2, 1e-12);
+  EXPECT_NEAR(
+      (near.fluids.front().grid.x_b - near.fluids.front().grid.x_a) / (near.fluids.front().grid.n1 - 1), 0.05,
+      1e-9);
+  EXPECT_NO_THROW(connect_once(near.fluids.front().grid, near.fluids.front().body_fitted));
+  EXPECT_TRUE(load_text(near.resolved).chosen.empty());
+  // No body near, no wall, or a grid that the file describes: none.
+  EXPECT_EQ(load_text(bodies_case({circle_above_the_floor(0.6)})).fluids.front().body_fitted.size(), 1U);
+  EXPECT_EQ(load_text(bodies_case({circle_above_the_floor(0.4)}), {"fluid.boundary.bottom=outflow"})
+                .fluids.front()
+                .body_fitted.size(),
+            1U);
+  EXPECT_EQ(load_text(bodies_case({circle_above_the_floor(0.4)}),
+                      {"fluid.body_fitted=[{name: ring, solid: body_0, lines: 6}]"})
+                .fluids.front()
+                .body_fitted.size(),
+            1U);
+}
+
+TEST(ChosenGrids, BodiesTwoSpacingsApartNeedNoFinerBackground) {
+  const Case problem = load_text(bodies_case(
+      {"{kind: circle, centre: [-0.55, 0], radius: 0.5}", "{kind: circle, centre: [0.55, 0], radius: 0.5}"}));
+  EXPECT_NEAR((problem.fluids.front().grid.x_b - problem.fluids.front().grid.x_a) /
+                  (problem.fluids.front().grid.n1 - 1),
+              0.05, 1e-9);
+  for (const BodyFittedSpec& ring : problem.fluids.front().body_fitted) EXPECT_NEAR(ring.spacing, 0.05, 1e-9);
+}
+
+TEST(ChosenGrids, GridsThatAmplifyErrorsAreRefusedWithARemedyThatConnects) {
+  // Six lines 0.55 spacings apart: what they and the background take from each other is narrow.
+  const std::string thin = bodies_case({"{kind: circle, centre: [0.013, 0.007], radius: 1}"});
+  int refused = 0;
+  for (const double spacing : {0.02, 0.0225, 0.025, 0.0275, 0.03}) {
+    const std::string given =
+        "fluid.body_fitted=[{name: ring, solid: body_0, lines: 6, spacing: " + std::to_string(spacing) + "}]";
+    try {
+      const Case fine = load_text(thin, {given});
+      EXPECT_NO_THROW(connect_once(fine.fluids.front().grid, fine.fluids.front().body_fitted));
+    } catch (const UserMistake& mistake) {
+      ++refused;
+      EXPECT_NE(std::string(mistake.what()).find("write `spacing: "), std::string::npos) << mistake.what();
+    }
+  }
+  EXPECT_GT(refused, 0);
+}
+
+/// What a message says between two of its words.
+std::string between(const std::string& message, const std::string& before, const std::string& after) {
+  const std::size_t at = message.find(before);
+  if (at == std::string::npos) return "";
+  const std::size_t from = at + before.size(), to = message.find(after, from);
+  return to == std::string::npos ? "" : message.substr(from, to - from);
+}
+
+TEST(ChosenGrids, ABodyThatLiesOnAWallIsAskedWhetherItStandsThere) {
+  for (const std::string& lying :
+       {circle_above_the_floor(0), circle_above_the_floor(0.01),
+        std::string("{kind: polygon, corners: [[-1, -2], [-1, -1], [0, -1], [0, -2]], radius: 0.1}")}) {
+    const std::string message = mistake_in(bodies_case({lying}));
+    EXPECT_NE(message.find("of the bottom side of the gas, less than half a cell"), std::string::npos)
+        << message;
+    EXPECT_NE(message.find("write `walls: [bottom, bottom]` into the shape"), std::string::npos) << message;
+  }
+}
+
+TEST(RemediesForGrids, NumbersThatAreLeftOutAreToldOnlyWhereTheCaseIsThenValid) {
+  const std::string deep = bodies_case({circle}, "    body_fitted: {lines: 20, spacing: 0.05}\n");
+  const std::string message = mistake_in(deep);
+  EXPECT_NE(message.find(
+                "leave out `grid` and `body_fitted` of solids.body_0, which are then chosen (tried: valid)"),
+            std::string::npos)
+      << message;
+  EXPECT_EQ(mistake_in(bodies_case({circle})), "");
+  const std::string rings = mistake_in(
+      bodies_case({circle}), {"fluid.body_fitted=[{name: ring, solid: body_0, lines: 5, spacing: 0.001}]"});
+  EXPECT_NE(rings.find("(tried: valid)"), std::string::npos) << rings;
+  EXPECT_NE(rings.find("leave out `lines` and `spacing` in fluid.body_fitted"), std::string::npos) << rings;
+}
+
+TEST(RemediesForGrids, ALowFootOfWhichNoNumberIsGivenIsToldTheFactorWithWhichItIsValid) {
+  const std::string foot = bodies_case(
+      {"{kind: polygon, corners: [[-1, -2], [-1, -1.98], [0, -1.8], [0, -2]], walls: [bottom, bottom]}"},
+      "    boundary: {left: free, right: free, bottom: clamped, top: free}\n");
+  const std::string message = mistake_in(foot);
+  EXPECT_EQ(message.find("leave"), std::string::npos) << message;  // nothing was given
+  const std::string factor = between(message, "write `grid: {factor: ", "}` in place of 2 (tried: valid)");
+  ASSERT_FALSE(factor.empty()) << message;
+  EXPECT_EQ(mistake_in(foot, {"grid.factor=" + factor}), "");
+}
+
+TEST(RemediesForGrids, ASpikeOfAWallIsToldTheLinesThatHoldItsTip) {
+  std::string spike =
+      wall_case("[[-2, -2], [0, -2], [0.05, -1.5], [0.1, -2], [2, -1.6]], radius: 0", "[left, right]");
+  const std::string message = mistake_in(spike);
+  const std::string spacing = between(message, "write `spacing: ", "` for grid `wall`"),
+                    lines = between(message, "with `lines: ", "`");
+  ASSERT_FALSE(spacing.empty() || lines.empty()) << message;
+  spike.replace(spike.find("lines: 8"), 8, "lines: " + lines + ", spacing: " + spacing);
+  EXPECT_EQ(mistake_in(spike), "");
+}
+
+TEST(RemediesForGrids, ATipThatIsTooFlatIsNotToldToBeStiffer) {
+  const std::string message = mistake_in(
+      bodies_case({"{kind: polygon, corners: [[0, -2], [1, -1.95], [1, -2]], walls: [bottom, bottom]}"},
+                  "    boundary: {left: free, right: free, bottom: clamped, top: free}\n"));
+  EXPECT_NE(message.find("degrees above its wall"), std::string::npos) << message;
+  EXPECT_EQ(message.find("stiffer"), std::string::npos) << message;
+}
+
+TEST(RemediesForGrids, CornersThatAreRoundedThroughTheirWallAreNamedAndNotTheBoxThatWasChosen) {
+  const std::string message = mistake_in(
+      bodies_case({"{kind: polygon, corners: [[0, -2], [1, -1.98], [1, -2]], walls: [bottom, bottom]}"},
+                  "    boundary: {left: free, right: free, bottom: clamped, top: free}\n"));
+  EXPECT_NE(message.find("its corners are rounded so far that the outline reaches ("), std::string::npos)
+      << message;
+  EXPECT_EQ(message.find("this box"), std::string::npos) << message;
+}
+
+/// An elastic square alone, its waves of speed 2, without stabilisation.
+std::string square_case(const std::string& spacing) {
+  return "time: {end: 1, cfl: 0.5}\nsolids:\n  square:\n    law: linear_elastic\n    rho: 1\n    lambda: 2\n "
+         "   mu: 1\n"
+         "    grid: {x: [0, 1], y: [0, 1], spacing: " +
+         spacing +
+         "}\n"
+         "    boundary: {left: free, right: free, bottom: free, top: free}\n"
+         "    scheme: {tangential_stress: {scaled: 0}, displacement: {scaled: 0}, relaxation: {scaled: 0}}\n";
+}
+
+TEST(CostOfARun, IsThatOfTheWavesThroughTheSmallestCell) {
+  // 1 / dt = c (1 / dx + 1 / dy) / cfl, c^2 = (lambda + 2 mu) / rho = 4
+  const RunCost cost = cost_of(load_text(square_case("0.1")));
+  ASSERT_EQ(cost.programs.size(), 1U);
+  EXPECT_NEAR(cost.dt, 0.5 / (2 * (10 + 10)), 1e-12);
+  EXPECT_NEAR(cost.steps, 80, 1);
+  EXPECT_NEAR(cost_of(load_text(square_case("0.05"))).steps, 160, 1);
+  EXPECT_EQ(cost.programs[0].points, 121);
+}
+
+TEST(CostOfARun, CountsNoPointsWhereTheGasOrTheSolidIsNot) {
+  const Case problem = load_text(bodies_case({circle}));
+  const auto all = [](const auto& owner) {
+    const BodyFittedSpec& ring = owner.body_fitted.front();
+    return static_cast<double>(owner.grid.n1) * owner.grid.n2 + 1.0 * ring.curve.points() * ring.lines;
+  };
+  const auto cell = [](const GridSpec& grid) {
+    return (grid.x_b - grid.x_a) / (grid.n1 - 1) * (grid.y_b - grid.y_a) / (grid.n2 - 1);
+  };
+  const FluidSpec& gas = problem.fluids.front();
+  const SolidSpec& solid = problem.solids.front();
+  const double disk = 3.14159 * 0.5 * 0.5;
+  const double around_disk = (solid.grid.x_b - solid.grid.x_a) * (solid.grid.y_b - solid.grid.y_a) - disk;
+  const RunCost cost = cost_of(problem);
+  EXPECT_NEAR(cost.programs[0].points, all(gas) - disk / cell(gas.grid), 0.01 * all(gas));
+  EXPECT_NEAR(cost.programs[1].points, all(solid) - around_disk / cell(solid.grid), 0.05 * all(solid));
+  EXPECT_LT(cost.programs[1].points, 0.95 * all(solid));
+}
+
+TEST(CostOfARun, CountsTheSubstepsOfAStiffSolid) {
+  const std::string stiff = bodies_case({circle});
+  const RunCost alike = cost_of(load_text(stiff, {"time.multirate=false"}));
+  const RunCost own =
+      cost_of(load_text(stiff, {"time.multirate=true", "solids.body_0.lambda=98", "solids.body_0.mu=1"}));
+  EXPECT_EQ(alike.substeps(alike.programs[1]), 1);
+  EXPECT_GT(own.substeps(own.programs[1]), 3);
+  EXPECT_LE(own.dt, own.substeps(own.programs[1]) * own.programs[1].dt * (1 + 1e-9));
+  EXPECT_EQ(own.dt, own.programs[0].dt);
+  EXPECT_NE(cost_text(own).find("substeps"), std::string::npos);
+}
+
+TEST(CostOfARun, SaysWhereAFewSmallCellsSetTheStep) {
+  // Points drawn together at one place of the outline.
+  const std::string drawn =
+      "{kind: circle, radius: 0.5, points: 120, weights: [{strength: 0.03, sharpness: 100, place: 0.5}]}";
+  EXPECT_NE(cost_text(cost_of(load_text(bodies_case({drawn})))).find("times smaller"), std::string::npos);
+  EXPECT_EQ(cost_text(cost_of(load_text(bodies_case({circle})))).find("times smaller"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace fsi

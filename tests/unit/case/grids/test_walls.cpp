@@ -1,0 +1,198 @@
+// Bodies that stand on walls that are outlines themselves.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "common/case/grids/composite_from_case.hpp"
+#include "common/grid/overlap/composite_grid.hpp"
+#include "tests/unit/case/cases.hpp"
+
+namespace fsi {
+namespace {
+
+using tests::load_text;
+using tests::mistake_in;
+
+/// A floor that drops at x = 1 over a slope, and a fixed body on it; its walls by name.
+std::string floor_case(const std::string& corners, const std::string& walls = "[floor, floor]",
+                       const std::string& motion = "motion: fixed") {
+  return "time: {end: 1}\n"
+         "grid: {factor: 2}\n"
+         "fluid:\n"
+         "  grid: {x: [-2, 3], y: [-1, 2]}\n"
+         "  boundary: {left: outflow, right: outflow, bottom: symmetry, top: outflow}\n"
+         "  initial: {rho: 1, v: [0, 0], p: 1}\n"
+         "  body_fitted:\n"
+         "    - {name: floor, shape: {kind: polygon, corners: [[-2, 0], [1, 0], [2.5, -1]], radius: 0, "
+         "walls: [left, bottom]}}\n"
+         "    - {name: pole, shape: {kind: circle, centre: [-1, 1.2], radius: 0.2}}\n"
+         "solids:\n"
+         "  body: {law: rigid, rho: 1, " +
+         motion + ", shape: {kind: polygon, radius: 0, corners: " + corners + ", walls: " + walls + "}}\n";
+}
+
+const std::string panel = "[[-0.5, 0], [-0.5, 0.6], [-0.3, 0.6], [-0.3, 0]]";
+
+TEST(Walls, ABodyOnAnOutlineGetsTheWallsConditionAtItsEnds) {
+  const Case problem = load_text(floor_case(panel));
+  ASSERT_EQ(problem.fluids.front().body_fitted.size(), 3U);
+  const BodyFittedSpec& ring = problem.fluids.front().body_fitted[2];
+  EXPECT_EQ(ring.curve.on, "floor");
+  EXPECT_EQ((*ring.curve.walls)[0], Side::bottom);
+  for (const Side end : {Side::left, Side::right})
+    EXPECT_EQ(ring.boundary[static_cast<std::size_t>(end)].kind, BoundaryKind::slip_wall);
+  EXPECT_EQ(mistake_in(problem.resolved), "");
+}
+
+TEST(Walls, PointsOfTheWallUnderTheBodyAreUnusedAndThoseBesideItAreNot) {
+  const Case problem = load_text(floor_case(panel));
+  const std::vector<BodyFittedSpec>& specs = problem.fluids.front().body_fitted;
+  std::vector<grid::MovingGrid> grids;
+  std::vector<ConstFieldView> views;
+  for (const BodyFittedSpec& spec : specs) grids.emplace_back(grid_of(spec), 0);
+  for (const grid::MovingGrid& grid : grids) views.push_back(grid.x());
+  grid::CompositeGrid composite(background_of(problem.fluids.front().grid), bodies_of(specs));
+  composite.connect(views, 0);
+  EXPECT_EQ(composite.body(3).wall, 1);
+  const int j = specs[0].side == Side::top ? specs[0].lines - 1 : 0;
+  int under = 0, beside = 0;
+  for (int i = 0; i < specs[0].curve.points(); ++i) {
+    const double x = views[0](0, i, j);
+    const bool unused = composite.kind(1, i, j) == grid::PointKind::unused;
+    if (x > -0.49 && x < -0.31) under += unused ? 1 : 100;
+    if (x < -0.51 || x > -0.29) beside += unused ? 100 : 1;
+  }
+  EXPECT_TRUE(under > 0 && under < 100) << under;
+  EXPECT_TRUE(beside > 40 && beside < 100) << beside;
+  // The ends of the body's grid lie on the wall and are in use.
+  for (const int i : {0, specs[2].curve.points() - 1})
+    EXPECT_NE(composite.kind(3, i, specs[2].lines - 1), grid::PointKind::unused);
+}
+
+TEST(Walls, ABodyStandsOnASlope) {
+  // Its feet on the line from (1, 0) to (2.5, -1), its sides at right angles to it.
+  const Case problem = load_text(floor_case("[[1.6, -0.4], [1.8, -0.1], [1.95, -0.2], [1.75, -0.5]]"));
+  const CurveSpec& curve = problem.fluids.front().body_fitted[2].curve;
+  EXPECT_NEAR(curve.along[0][1] / curve.along[0][0], -2.0 / 3, 1e-9);
+  EXPECT_EQ((*curve.walls)[0], Side::bottom);  // the side it faces most
+}
+
+TEST(Walls, MistakesNameThePlaceAndWhatToWrite) {
+  struct Mistake {
+    std::string text, says;
+  };
+  std::string rounded = floor_case("[[0.7, 0], [0.7, 0.6], [0.98, 0.6], [0.98, 0]]");
+  rounded.replace(rounded.find("polygon, radius: 0,"), 19, "polygon, radius: 0.08,");
+  for (const auto& [text, says] : std::vector<Mistake>{
+           {floor_case(panel, "[flor, flor]"),
+            "no grid with a `shape` in fluid.body_fitted `flor`; did you mean"},
+           {floor_case(panel, "[floor, bottom]"), "both on the wall of one grid: write its name twice"},
+           {floor_case("[[-0.5, 0.1], [-0.5, 0.6], [-0.3, 0.6], [-0.3, 0.1]]"),
+            "0.1), is 0.1 from the wall of grid `floor`"},
+           {floor_case("[[0.9, 0], [0.9, 0.6], [1.3, 0.6], [1.3, -0.2]]"),
+            "the wall of grid `floor` bends at (1, 0), between the ends"},
+           {rounded, "along the wall of grid \"floor\", which bends"},
+           {floor_case("[[0.7, 0], [0.7, 0.6], [0.98, 0.6], [0.98, 0]]"),
+            "turns too sharply at (0.98, 0.6) for the distance of its lines; write `grid: {factor: 8}` in "
+            "place of 2 "
+            "(tried: valid)"},
+           {floor_case("[[0.7, 0], [0.7, 0.6], [0.99, 0.6], [0.99, 0]]"),
+            "(tried in vain, one at a time: write `grid: {factor: 4}` in place of 2"},
+           {floor_case(panel, "[floor, floor]", "motion: free"), "nothing holds it there"}}) {
+    const std::string message = mistake_in(text);
+    EXPECT_NE(message.find(says), std::string::npos) << message << "\nexpected: " << says;
+  }
+}
+
+/// The number after some words of a message, as written.
+std::string number_after(const std::string& message, const std::string& words) {
+  const std::size_t at = message.find(words);
+  if (at == std::string::npos) return "";
+  const std::size_t from = at + words.size();
+  return message.substr(from, message.find('`', from) - from);
+}
+
+TEST(Walls, AnElasticBodyWithMoreThanFourSidesHasNoSharpCornersAndTheRadiusThatIsNamedWorks) {
+  const auto box = [](const std::string& radius) {
+    return "time: {end: 1}\ngrid: {factor: 2}\nsolids:\n  box:\n    law: neo_hookean\n    rho: 1\n    "
+           "lambda: 1\n"
+           "    mu: 1\n    body_fitted: {boundary: free}\n"
+           "    shape: {kind: polygon, corners: [[0, 0], [1, 0], [1, 0.7], [0.5, 0.9], [0, 0.7]], radius: " +
+           radius + "}\n";
+  };
+  const std::string message = mistake_in(box("0"));
+  EXPECT_NE(message.find("sharp corner at (1, 0)"), std::string::npos) << message;
+  const std::string radius = number_after(message, "with `radius: ");
+  ASSERT_FALSE(radius.empty()) << message;
+  EXPECT_EQ(mistake_in(box(radius)), "") << radius;
+}
+
+/// An elastic ramp between two sides of the gas's rectangle.
+std::string ramp_case(const std::string& right) {
+  return "time: {end: 1}\n"
+         "grid: {factor: 4}\n"
+         "fluid:\n"
+         "  grid: {x: [-1, 1], y: [0, 2], spacing: h}\n"
+         "  body_fitted: [{name: strip, solid: ramp, walls: [bottom, right]}]\n"
+         "  boundary: {left: outflow, right: outflow, bottom: slip_wall, top: outflow}\n"
+         "  initial: {rho: 1, v: [0, 0], p: 1}\n"
+         "solids:\n"
+         "  ramp:\n"
+         "    law: neo_hookean\n"
+         "    rho: 1\n"
+         "    lambda: 1\n"
+         "    mu: 1\n"
+         "    grid: {kind: mapped, map: [r, 0.2 * r - 0.1 * (1 - s)], points: [41, 9]}\n"
+         "    boundary: {left: clamped, right: " +
+         right + ", bottom: free, top: interface}\n";
+}
+
+TEST(Walls, ASolidMayNotLeaveTheSideItsInterfaceEndsOn) {
+  for (const char* held : {"clamped", "slip_wall"}) EXPECT_EQ(mistake_in(ramp_case(held)), "") << held;
+  const std::string message = mistake_in(ramp_case("free"));
+  EXPECT_NE(message.find("ends at (1, 0.2) on the right side of fluid.grid, but nothing holds it there"),
+            std::string::npos)
+      << message;
+  EXPECT_NE(message.find("write `right: slip_wall`"), std::string::npos) << message;
+}
+
+/// A body in a gas with the grid of the gas around it as given.
+std::string body_case(const std::string& law, const std::string& shape, const std::string& ring) {
+  return "time: {end: 1}\ngrid: {factor: 2}\n"
+         "fluid:\n"
+         "  grid: {x: [-1.5, 1.5], y: [0, 2]}\n"
+         "  boundary: {left: outflow, right: outflow, bottom: slip_wall, top: outflow}\n"
+         "  initial: {rho: 1, v: [0, 0], p: 1}\n" +
+         ring + "solids:\n  body:\n    rho: 1\n    law: " + law + "\n    shape: " + shape + "\n";
+}
+
+TEST(LinesAtBends, AreChosenCloseAndGivenOnesThatAreTooWideAreRefusedWithOnesThatHold) {
+  const std::string law = "rigid\n    motion: fixed";
+  const std::string wedge =
+      "{kind: polygon, corners: [[-0.5, 0], [0.5, 0.2], [0.5, 0]], walls: [bottom, bottom]";
+  struct Body {
+    std::string shape, lines, says;
+  };
+  for (const auto& [shape, wide, says] :
+       {Body{"{kind: polygon, corners: [[-0.3, 0.6], [0.3, 0.6], [0.3, 1.2], [-0.3, 1.2]], radius: 0.03}",
+             "lines: 8, spacing: 0.05", "folded"},
+        Body{wedge + "}", "lines: 8, spacing: 0.05", "turns too sharply at ("},
+        Body{wedge + ", radius: 0.1, points: 240}", "lines: 12, spacing: 0.02", "too flat on the wall"}}) {
+    const auto with = [&, shape = shape](const std::string& lines) {
+      return body_case(law, shape, fmt::format("  body_fitted: [{{name: ring, solid: body, {}}}]\n", lines));
+    };
+    EXPECT_EQ(mistake_in(body_case(law, shape, "")), "");
+    const std::string message = mistake_in(with(wide));
+    EXPECT_NE(message.find(says), std::string::npos) << message;
+    const std::string spacing = number_after(message, "`spacing: "),
+                      lines = number_after(message, "`lines: ");
+    ASSERT_FALSE(spacing.empty() || lines.empty()) << message;
+    EXPECT_EQ(mistake_in(with(fmt::format("lines: {}, spacing: {}", lines, spacing))), "");
+  }
+}
+
+}  // namespace
+}  // namespace fsi

@@ -1,0 +1,237 @@
+/// Interfaces whose two sides have different points: what goes over is of fourth order, exact for what moves
+/// as one, and acts with the same force on both sides.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "coupler/coupler.hpp"
+#include "tests/unit/coupler/messages.hpp"
+
+namespace fsi::coupler {
+namespace {
+
+using namespace testing;
+using std::numbers::pi;
+using Function = std::function<double(const Vec2&)>;
+
+/// Points on an ellipse, clustered; `shift` turns where they begin.
+std::vector<double> ellipse(std::size_t n, double shift = 0) {
+  std::vector<double> x(2 * n);
+  for (std::size_t k = 0; k < n; ++k) {
+    const double r = static_cast<double>(k % (n - 1)) / static_cast<double>(n - 1);
+    const double angle = 2 * pi * r + 0.1 * std::sin(2 * pi * r) + shift;
+    x[k] = 1.25 * std::cos(angle);
+    x[n + k] = 0.5 * std::sin(angle);
+  }
+  return x;
+}
+
+/// Outward normals of that ellipse.
+std::vector<double> outward(const std::vector<double>& x) {
+  const std::size_t n = x.size() / 2;
+  std::vector<double> normals(2 * n);
+  for (std::size_t k = 0; k < n; ++k) {
+    const Vec2 normal = Vec2(x[k] / (1.25 * 1.25), x[n + k] / (0.5 * 0.5)).normalized();
+    normals[k] = normal.x();
+    normals[n + k] = normal.y();
+  }
+  return normals;
+}
+
+std::vector<double> at(const std::vector<double>& x, const Function& f) {
+  const std::size_t n = x.size() / 2;
+  std::vector<double> values(n);
+  for (std::size_t k = 0; k < n; ++k) values[k] = f({x[k], x[n + k]});
+  return values;
+}
+
+double difference(const std::vector<double>& a, const std::vector<double>& b) {
+  double most = 0;
+  for (std::size_t k = 0; k < a.size(); ++k) most = std::max(most, std::abs(a[k] - b[k]));
+  return most;
+}
+
+double wavy(const Vec2& x) {
+  return std::sin(2 * x.x() + 3 * x.y());
+}
+
+/// Both sides of an interface in a gas whose pressure varies along it.
+struct Sides {
+  std::vector<double> gas, solid;
+
+  std::vector<wire::Hello> hellos() const {
+    return {fluid_hello({{.name = "solid", .dimension = 2, .x = gas, .n = {}}}),
+            solid_hello("solid", {.name = "solid", .dimension = 2, .x = solid, .n = outward(solid)})};
+  }
+  wire::PredictedInterface of_gas(const Vec2& v, double amplitude) const {
+    const std::size_t n = gas.size() / 2;
+    wire::PredictedInterface state = gas_state(n, 0);
+    state.x = gas;
+    state.v = everywhere(n, v.x(), v.y());
+    state.p = at(gas, [&](const Vec2& x) { return 1 + amplitude * wavy(x); });
+    state.z_f = at(gas, [](const Vec2& x) { return 1.5 + 0.5 * wavy(x); });
+    return state;
+  }
+  wire::PredictedInterface of_solid(const Vec2& v) const {
+    const std::size_t n = solid.size() / 2;
+    wire::PredictedInterface state = solid_state(n, 0);
+    state.x = solid;
+    state.v = everywhere(n, v.x(), v.y());
+    return state;
+  }
+};
+
+CouplerOptions transfer_options() {
+  CouplerOptions result;
+  result.time.end = 1;
+  result.multirate = true;
+  result.combination.projection = Projection::full;
+  return result;
+}
+
+Vec2 force_on(const std::vector<double>& x, const wire::ProjectedInterface& answer) {
+  return force_of(x, answer.n, answer.w_n);
+}
+
+TEST(CurveInterpolation, IsOfFourthOrderAlongClosedAndOpenCurves) {
+  const auto error = [](std::size_t n, bool closed) {
+    const std::size_t m = 3 * n + 5;
+    auto from = ellipse(n), to = ellipse(m, 0.3);
+    if (!closed) {  // points of a parabola in y, wider apart upwards
+      from = vertical_line(n, 0);
+      to = vertical_line(m, 0);
+      for (auto* x : {&from, &to}) {
+        const std::size_t count = x->size() / 2;
+        for (std::size_t k = 0; k < count; ++k) {
+          (*x)[count + k] += 0.2 * std::sin(2 * (*x)[count + k]);
+          (*x)[k] = std::pow((*x)[count + k], 2);
+        }
+      }
+      to[2 * m - 1] = from[2 * n - 1];
+    }
+    std::vector<double> values(m);
+    CurveInterpolation(from, to).cubic(at(from, wavy), values);
+    return difference(values, at(to, wavy));
+  };
+  for (const bool closed : {true, false}) {
+    EXPECT_LT(error(81, closed), 1e-4);
+    EXPECT_GT(std::log2(error(81, closed) / error(161, closed)), 3.6) << closed;
+  }
+}
+
+TEST(CurveInterpolation, HandsOnValuesAtItsOwnPointsToTheBit) {
+  const auto x = ellipse(41);
+  auto reversed = x;
+  std::reverse(reversed.begin(), reversed.begin() + 41);
+  std::reverse(reversed.begin() + 41, reversed.end());
+  std::vector<double> values(41);
+  CurveInterpolation(x, reversed).cubic(at(x, wavy), values);
+  EXPECT_EQ(values, at(reversed, wavy));
+}
+
+TEST(CurveInterpolation, LinearValuesStayBetweenTheirNeighbours) {
+  const auto from = ellipse(20), to = ellipse(77, 0.1);
+  std::vector<double> step(20), values(77);
+  std::fill(step.begin() + 7, step.end(), 1.0);
+  CurveInterpolation(from, to).linear(step, values);
+  EXPECT_GE(*std::ranges::min_element(values), 0);
+  EXPECT_LE(*std::ranges::max_element(values), 1);
+}
+
+TEST(CurveInterpolation, FindsPointsBetweenThoseOfTheCurveUpToTheFourthOrder) {
+  const auto distance = [](std::size_t n) {
+    return CurveInterpolation(ellipse(n), ellipse(4 * n, 0.2)).largest_distance();
+  };
+  EXPECT_LT(distance(81), 1e-4);
+  EXPECT_GT(std::log2(distance(81) / distance(161)), 3.6);
+}
+
+class PointRatio : public ::testing::TestWithParam<std::pair<std::size_t, std::size_t>> {
+ protected:
+  Sides sides{ellipse(GetParam().first), ellipse(GetParam().second, 0.4)};
+};
+
+TEST_P(PointRatio, BothSidesFeelTheSameForceToRoundOff) {
+  Coupler coupler(transfer_options(), sides.hellos());
+  const auto answers = coupler.step(std::vector{sides.of_gas({0.3, 0.1}, 0.5), sides.of_solid({0, 0})});
+  const Vec2 on_gas = force_on(sides.gas, answers[0]), on_solid = force_on(sides.solid, answers[1]);
+  EXPECT_GT(on_gas.norm(), 0.01);
+  EXPECT_NEAR(on_gas.x(), on_solid.x(), 1e-14);
+  EXPECT_NEAR(on_gas.y(), on_solid.y(), 1e-14);
+}
+
+TEST_P(PointRatio, AUniformMotionStaysOneOnBothSides) {
+  Coupler coupler(transfer_options(), sides.hellos());
+  const Vec2 v(0.7, -0.4);
+  const auto answers = coupler.step(std::vector{sides.of_gas(v, 0), sides.of_solid(v)});
+  for (const wire::ProjectedInterface& answer : answers) {
+    const std::size_t n = answer.v_n.size();
+    const std::vector<double>& x = answer.to == "fluid" ? sides.gas : sides.solid;
+    ASSERT_EQ(n, x.size() / 2);
+    for (std::size_t k = 0; k < n; ++k) {
+      EXPECT_NEAR(answer.v_n[k], v.dot(Vec2(answer.n[k], answer.n[n + k])), 1e-14);
+      EXPECT_NEAR(answer.w_n[k], 0, 1e-14);
+    }
+    for (std::size_t k = 0; k < answer.x_next.size() / 2; ++k)
+      EXPECT_NEAR(answer.x_next[k], x[k] + answer.dt_next * v.x(), 1e-14);
+  }
+}
+
+TEST_P(PointRatio, TheRobinDataOfTheSolidBelongsToItsProjectedState) {
+  Coupler coupler(transfer_options(), sides.hellos());
+  wire::PredictedInterface body = sides.of_solid({0, 0});
+  body.proposed_dt = 0.03;  // substeps
+  const auto answers = coupler.step(std::vector{sides.of_gas({0.3, 0.1}, 0.5), body});
+  const wire::ProjectedInterface& solid = answers[1];
+  ASSERT_EQ(solid.robin_r.size() % solid.v_n.size(), 0);
+  ASSERT_GE(solid.robin_r.size(), solid.v_n.size());
+  for (std::size_t k = 0; k < solid.v_n.size(); ++k)
+    EXPECT_NEAR(solid.robin_r[k], solid.w_n[k] + solid.z_f[k] * solid.v_n[k], 1e-14);
+}
+
+/// A body that moves along (1, 1) only: its modal force is the work of the pressure per velocity.
+TEST_P(PointRatio, AModalBodyOnOtherPointsMovesAsOnThoseOfTheGas) {
+  const auto speed_with = [](const Sides& both) {
+    const Vec2 direction(1, 1);
+    const std::size_t n = both.solid.size() / 2;
+    wire::PredictedInterface body = both.of_solid({0, 0});
+    const auto normals = outward(both.solid);
+    body.w.clear();
+    body.Z.clear();
+    std::vector<double> N(n);
+    for (std::size_t k = 0; k < n; ++k) N[k] = direction.dot(Vec2(normals[k], normals[n + k]));
+    BdfBody motion{.mass = 0.2};
+    Coupler coupler(transfer_options(), both.hellos());
+    double speed = 0;
+    for (std::uint64_t step = 0; step < 5; ++step) {
+      wire::PredictedInterface gas = both.of_gas({0, 0}, 0.5);
+      gas.step = body.step = step;
+      body.modal = one_mode(motion.S(), motion.g(), N, motion.now);
+      const auto answers = coupler.step(std::vector{gas, body});
+      motion.take(answers[1].q_dot.front(), answers[1].dt_next);
+      const wire::ProjectedInterface& answer = answers[0];
+      const std::size_t m = answer.v_n.size();
+      for (std::size_t k = 0; k < m; ++k) {  // where the normal is (1, 0) or nearly so
+        if (answer.n[k] > 1 - 1e-3) speed = answer.v_n[k] / (answer.n[k] + answer.n[m + k]);
+      }
+    }
+    return speed;
+  };
+  const double same_points = speed_with({sides.gas, sides.gas});
+  EXPECT_GT(std::abs(same_points), 0.1);
+  EXPECT_NEAR(speed_with(sides) / same_points, 1, 0.02);  // (h kappa)^2 of the coarser side
+}
+
+INSTANTIATE_TEST_SUITE_P(CoarserAndFinerGas, PointRatio,
+                         ::testing::Values(std::pair<std::size_t, std::size_t>{81, 161},
+                                           std::pair<std::size_t, std::size_t>{81, 321},
+                                           std::pair<std::size_t, std::size_t>{321, 81},
+                                           std::pair<std::size_t, std::size_t>{100, 100},
+                                           std::pair<std::size_t, std::size_t>{100, 131}));
+
+}  // namespace
+}  // namespace fsi::coupler

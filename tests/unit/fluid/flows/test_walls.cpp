@@ -1,0 +1,188 @@
+/// Interfaces and slip walls: boundary points and ghosts.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "common/core/failure.hpp"
+#include "common/exact/riemann.hpp"
+#include "tests/unit/fluid/gas_runs.hpp"
+
+namespace fsi::fluid {
+namespace {
+
+using test::pi;
+
+constexpr double gamma = 1.4;
+
+test::OwnedInterface uniform_interface(std::size_t n, Vec2 normal, double v_n, double w_n) {
+  test::OwnedInterface side;
+  side.n.assign(n, normal[0]);
+  side.n.resize(2 * n, normal[1]);
+  side.v_n.assign(n, v_n);
+  side.w_n.assign(n, w_n);
+  side.v.assign(2 * n, 0);
+  side.a.assign(2 * n, 0);
+  return side;
+}
+
+GasSolver box_with_interface(const StateField& initial, double p_e, Limiter limiter = Limiter::none) {
+  return test::solver(test::rectangle(11, 9, {0, 0}, {1, 1}), {.p_e = p_e, .limiter = limiter},
+                      {Interface{}, Outflow{}, Outflow{}, Outflow{}}, initial);
+}
+
+TEST(Eq31Interface, PutsTheProjectedValuesOnTheBoundaryAndKeepsEntropyAndShear) {
+  const State state{1.2, 0.3, -0.5, 0.9};
+  GasSolver gas = box_with_interface([=](double, double, double) { return state; }, 0.8);
+  const Vec2 n = Vec2(0.8, 0.6);
+  const test::OwnedInterface side = uniform_interface(9, n, 0.25, 0.3);
+  const std::vector<InterfaceValues> values{side.view()};
+  gas.apply_fluid_bcs(0, values);
+  const ConstFieldView q = gas.state();
+  for (int j = 0; j < 9; ++j) {
+    const Vec2 v(q(1, 0, j), q(2, 0, j)), t(-n[1], n[0]);
+    EXPECT_NEAR(n.dot(v), 0.25, 1e-15);
+    EXPECT_NEAR(t.dot(v), t.dot(Vec2(state.v1, state.v2)), 1e-15);
+    EXPECT_NEAR(q(3, 0, j), 0.5, 1e-15);
+    EXPECT_NEAR(q(3, 0, j) / std::pow(q(0, 0, j), gamma), state.p / std::pow(state.rho, gamma), 1e-14);
+    EXPECT_EQ(q(0, 1, j), state.rho);
+  }
+}
+
+TEST(Eq31Interface, ReportsAPressureThatIsNotPositiveByPlace) {
+  GasSolver gas = box_with_interface([](double, double, double) { return State{1, 0, 0, 1}; }, 1);
+  test::OwnedInterface side = uniform_interface(9, {1, 0}, 0, 0);
+  side.w_n[4] = 1.5;
+  const std::vector<InterfaceValues> values{side.view()};
+  try {
+    gas.apply_fluid_bcs(0.25, values);
+    FAIL() << "no complaint about p^I = -0.5";
+  } catch (const Diverged& broke) {
+    EXPECT_NE(std::string(broke.what()).find("t = 0.25, grid \"grid\", point (0, 4) at (0, 0.5): p^I = -0.5"),
+              std::string::npos)
+        << broke.what();
+  }
+}
+
+TEST(Eq31WallGhosts, ContinueThePressureOfAnAcceleratedColumnOfGas) {
+  // In a column accelerated with a, gas of constant density
+  // has dp/dx = -rho a: the ghosts lie on the same line.
+  const double a = 0.7, rho = 1.3;
+  const StateField column = [=](double x, double, double) { return State{rho, 0, 0, 2 - rho * a * x}; };
+  for (const Limiter limiter : {Limiter::none, Limiter::minmod}) {
+    GasSolver gas = box_with_interface(column, 2, limiter);
+    test::OwnedInterface side = uniform_interface(9, {1, 0}, 0, 0);
+    std::fill_n(side.a.begin(), 9, a);
+    const std::vector<InterfaceValues> values{side.view()};
+    gas.apply_fluid_bcs(0, values);
+    for (int j = 0; j < 9; ++j) {
+      for (const int i : {-1, -2}) EXPECT_NEAR(gas.state()(3, i, j), 2 - rho * a * 0.1 * i, 1e-13);
+    }
+  }
+}
+
+/// Gas in solid-body rotation between two cylinders: exact, steady, with dp/dr = rho v^2 / r.
+State rotating_gas(double x, double y, double /*t*/) {
+  const double W = 0.5, T = 1 + 0.5 * (gamma - 1) / gamma * W * W * (x * x + y * y);
+  const double rho = std::pow(T, 1 / (gamma - 1));
+  return {rho, -W * y, W * x, rho * T};
+}
+
+/// Ring 0.5 <= r <= 1.5, its lines across skewed by `skew`, turning with varying speed if `spin` is not zero.
+grid::GridDescription ring(int n, double skew, double spin) {
+  return {.n1 = 6 * n + 1,
+          .n2 = n + 1,
+          .mapping =
+              [=](double r, double s, double t) {
+                const double angle = -(2 * pi * r + skew * s * (1 + s) + spin * (t + 0.5 * t * t));
+                return Vec2((0.5 + s) * std::cos(angle), (0.5 + s) * std::sin(angle));
+              },
+          .moving = spin != 0,
+          .periodic1 = true};
+}
+
+TEST(Eq31WallGhosts, BalanceTheCentrifugalForceOnCurvedSkewedTurningWalls) {
+  std::vector<double> errors;
+  for (const int n : {10, 20, 40}) {
+    GasSolver gas = test::solver(ring(n, 0.3, 0.8), {.limiter = Limiter::none},
+                                 {Periodic{}, Periodic{}, SlipWall{}, SlipWall{}}, rotating_gas);
+    gas.apply_fluid_bcs(0);
+    double error = 0;
+    for (int i = 0; i < 6 * n; ++i) {
+      for (const int j : {-1, n + 1}) {
+        error =
+            std::max(error, std::fabs(gas.state()(3, i, j) -
+                                      rotating_gas(gas.grid().x()(0, i, j), gas.grid().x()(1, i, j), 0).p));
+      }
+    }
+    errors.push_back(error);
+  }
+  EXPECT_GT(test::rate(errors), 2.8);  // a ghost value from a second-order derivative over two spacings
+  EXPECT_LT(errors.back(), 2e-5);
+}
+
+TEST(Eq31SlipWall, ReflectsAShockAsTheJumpConditionsSay) {
+  const double M = 2, p1 = 1 + 2 * gamma / (gamma + 1) * (M * M - 1),
+               rho1 = (gamma + 1) * M * M / ((gamma - 1) * M * M + 2);
+  const double u1 = std::sqrt(gamma) * 2 / (gamma + 1) * (M - 1 / M);
+  const double p2 = p1 * ((3 * gamma - 1) * p1 - (gamma - 1)) / ((gamma - 1) * p1 + (gamma + 1));
+  const StateField shock = [=](double x, double, double) {
+    return x < 0.5 ? State{rho1, u1, 0, p1} : State{1, 0, 0, 1};
+  };
+  for (const Boundary& wall : {Boundary(SlipWall{}), Boundary(Symmetry{})}) {
+    GasSolver gas = test::solver(test::rectangle(101, 5, {0, 0}, {1, 0.1}), {},
+                                 {Imposed{shock}, wall, Symmetry{}, SlipWall{}}, shock);
+    test::run(gas, 0.7 / (M * std::sqrt(gamma)));
+    EXPECT_NEAR(gas.state()(3, 100, 2), p2, 0.01 * p2);  // the wall's own start-up error has left by now
+    EXPECT_EQ(gas.state()(1, 100, 2), 0);
+  }
+}
+
+TEST(Outflow, LetsASoundWaveLeave) {
+  const StateField pulse = [](double x, double, double) {
+    const double e = 1e-3 * std::exp(-100 * (x - 0.5) * (x - 0.5)), a = 1;  // runs to the right
+    return State{1 + e, a * e, 0, 1 / gamma + a * a * e};
+  };
+  GasSolver gas = test::solver(test::rectangle(101, 5, {0, 0}, {1, 0.1}), {.limiter = Limiter::none},
+                               {Outflow{}, Outflow{}, Symmetry{}, Symmetry{}}, pulse);
+  test::run(gas, 1.2);
+  const double left = test::largest_error(gas.errors(
+      [](double, double, double) {
+        return State{1, 0, 0, 1 / gamma};
+      },
+      0));
+  EXPECT_LT(left, 1e-5);  // one per cent of the pulse
+}
+
+/// An interface on the left of gas at rest that moves with v_n and has the pressure of the exact wave.
+struct SuddenWall {
+  exact::TubeState star;
+  State at_wall;
+
+  explicit SuddenWall(double v_n) {
+    const State rest{1.3, 0, 0.2, 0.8};
+    const exact::TubeState right{.rho = rest.rho, .v = 0, .p = rest.p},
+        mirrored{.rho = rest.rho, .v = 2 * v_n, .p = rest.p};  // its contact moves with v_n
+    const exact::Riemann waves(mirrored, right, 1.4);
+    star = waves.sample(v_n + 1e-9);
+    GasSolver gas = box_with_interface([rest](double, double, double) { return rest; }, 0.5);
+    const test::OwnedInterface side = uniform_interface(9, {1, 0}, v_n, 0.5 - star.p);
+    const std::vector<InterfaceValues> values{side.view()};
+    gas.apply_fluid_bcs(0, values);
+    const ConstFieldView q = gas.state();
+    at_wall = {.rho = q(0, 0, 4), .v1 = q(1, 0, 4), .v2 = q(2, 0, 4), .p = q(3, 0, 4)};
+  }
+};
+
+TEST(InterfaceState, IsThatBehindTheExactShockOrRarefactionOfAnyStrength) {
+  for (const double v_n : {-2.5, -0.3, 0.4, 3.0}) {
+    const SuddenWall wall(v_n);
+    EXPECT_NEAR(wall.at_wall.rho, wall.star.rho, 1e-12 * wall.star.rho) << v_n;
+    EXPECT_NEAR(wall.at_wall.p, wall.star.p, 1e-12 * wall.star.p) << v_n;
+    EXPECT_NEAR(wall.at_wall.v1, v_n, 1e-12);
+    EXPECT_EQ(wall.at_wall.v2, 0.2);
+  }
+}
+
+}  // namespace
+}  // namespace fsi::fluid

@@ -1,0 +1,109 @@
+// Grids that overlap so little that many points are donors of each other.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "common/core/failure.hpp"
+#include "common/grid/marching/hyperbolic.hpp"
+#include "common/grid/overlap/composite_grid.hpp"
+#include "common/grid/shapes/circle.hpp"
+
+namespace fsi::grid {
+namespace {
+
+/// +1 and -1 in turn: the roughest field there is.
+double rough(double x, double y) {
+  return std::sin(1e4 * x + 2e4 * y) > 0 ? 1 : -1;
+}
+
+/// A field on all points of a grid.
+Field rough_field(const CompositeGrid& grids, int grid, ConstFieldView x) {
+  Field field(grids.layout(grid), 1);
+  for (int j = 0; j < field.layout().n2; ++j) {
+    for (int i = 0; i < field.layout().n1; ++i) {
+      const Vec2 p = grid == 0 ? grids.background().point(i, j) : Vec2(x(0, i, j), x(1, i, j));
+      field(0, i, j) = rough(p[0], p[1]);
+    }
+  }
+  return field;
+}
+
+/// The largest value that interpolation makes of the rough field.
+double largest_interpolated(const CompositeGrid& grids, ConstFieldView x) {
+  std::vector<Field> fields;
+  for (int grid = 0; grid < grids.grids(); ++grid) fields.push_back(rough_field(grids, grid, x));
+  std::vector<FieldView> views;
+  for (Field& field : fields) views.push_back(field.view());
+  grids.interpolate(views);
+  double most = 0;
+  for (const InterpolationList& list : grids.interpolation()) {
+    for (const std::int32_t at : list.target)
+      most = std::max(most, std::abs(views[static_cast<std::size_t>(list.target_grid)].plane(0)[at]));
+  }
+  return most;
+}
+
+TEST(ThinOverlap, DoesNotAmplifyErrors) {
+  constexpr double h = 0.05;
+  std::size_t implicit = 0, narrowed = 0;
+  for (const double part : {0.55, 0.6, 0.65, 0.7, 0.8}) {
+    const HyperbolicGrid ring{.name = "thin",
+                              .points = static_cast<int>(2 * std::numbers::pi / h) + 1,
+                              .lines = 6,
+                              .curve = Side::top,
+                              .spacing = part * h};
+    Field x(Layout(ring.points, ring.lines), 2);
+    HyperbolicMarch(ring).march(points_on(circle({0.013, 0.007}, 1), ring.points), x.view(), 0);
+    CompositeGrid grids({.n1 = 81, .n2 = 81, .x_a = -2, .x_b = 2, .y_a = -2, .y_b = 2},
+                        {{.name = "thin", .n1 = ring.points, .n2 = ring.lines, .curve = Side::top}});
+    const ConstFieldView views[] = {x.view()};
+    try {
+      grids.connect(views, 0);
+    } catch (const Diverged&) {
+      continue;  // too thin for any donor
+    }
+    implicit += grids.counts().implicit;
+    narrowed += grids.counts().narrowed;
+    // 25/8 is what the grids settle for, as a bound on weights;
+    // 25/16 what three known donors per direction have.
+    EXPECT_LE(largest_interpolated(grids, views[0]), 25.0 / 8) << part;
+  }
+  EXPECT_GT(implicit, 0U);
+  EXPECT_GT(narrowed, 0U);  // with three donors per direction everywhere errors would grow
+}
+
+TEST(ThinOverlap, ABodyThatHasComeToTheRimIsNamedWithItsDistance) {
+  constexpr double h = 0.05;
+  const HyperbolicGrid ring{.name = "ring", .points = 127, .lines = 8, .curve = Side::top, .spacing = h};
+  HyperbolicMarch march(ring);
+  Field x(march.layout(), 2);
+  march.march(points_on(circle({0, 0}, 1), ring.points), x.view(), 0);
+  const auto message = [&](double right, double t) -> std::string {
+    CompositeGrid grids(
+        {.name = "gas", .n1 = 81, .n2 = 81, .x_a = right - 4, .x_b = right, .y_a = -2, .y_b = 2},
+        {{.name = "ring", .n1 = ring.points, .n2 = 8, .curve = Side::top, .of = "body `disk`"}});
+    const ConstFieldView views[] = {x.view()};
+    try {
+      grids.connect(views, t);
+    } catch (const Diverged& broke) {
+      return broke.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(message(1.5, 1), "");
+  const std::string later = message(1.04, 1), first = message(1.04, 0);
+  EXPECT_NE(later.find("; body `disk` has come within "), std::string::npos) << later;
+  EXPECT_NE(later.find("let the run end before"), std::string::npos) << later;
+  EXPECT_NE(first, "");
+  EXPECT_EQ(first.find("has come"), std::string::npos) << first;  // in the beginning nothing has come yet
+}
+
+}  // namespace
+}  // namespace fsi::grid

@@ -1,0 +1,196 @@
+// Boundaries of a solid as far as they need no law: sides, ghost points, given motion, tractions, what they remember.
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "solid_solver/boundary/conditions/ghost_frame.hpp"
+#include "solid_solver/boundary/conditions/given_motion.hpp"
+#include "solid_solver/boundary/conditions/tractions.hpp"
+#include "solid_solver/boundary/every_boundary.hpp"
+#include "solid_solver/boundary/traction_ghost.hpp"
+#include "tests/convergence/solid/skewed_grid.hpp"
+
+namespace fsi::solid {
+namespace {
+
+Boundaries of_conditions(const std::array<Condition, 4>& conditions) {
+  Boundaries boundaries;
+  for (std::size_t side = 0; side < 4; ++side) boundaries[side].condition = conditions[side];
+  return boundaries;
+}
+
+/// The sides of a grid without any solver around them.
+struct Body {
+  grid::MovingGrid grid;
+  ReferenceMetrics metrics{grid.x()};
+  SolidPoints points{grid.layout()};
+  Sides sides;
+  ChosenValues chosen{grid.x(), 1.0};
+  SideMemory memory{sides};
+  Field q{grid.layout(), plane::count};
+
+  Body(grid::MovingGrid of, const Boundaries& boundaries)
+      : grid(std::move(of)),
+        sides({.name = "body", .x = grid.x(), .metrics = &metrics, .points = &points}, boundaries,
+              Limiter::none) {}
+
+  /// Everywhere, ghost points included.
+  template <class State>
+  void assign(const State& state) {
+    const Layout layout = grid.layout();
+    for (int j = -2; j < layout.n2 + 2; ++j) {
+      for (int i = -2; i < layout.n1 + 2; ++i)
+        store(q.view(), layout.at(i, j), state(grid.x()(0, i, j), grid.x()(1, i, j)));
+    }
+  }
+  SolidState at(Side side, int k, int m = 0) { return load(q.view(), sides.line(side).at(k, m)); }
+};
+
+/// No two points have the same.
+SolidState various(double x, double y) {
+  const double s = std::sin(7 * x + 3 * y), c = std::cos(5 * x - 2 * y);
+  return {.u = Vec2(s, c), .v = Vec2(c * s, s - 2 * c), .P = {s + c, 2 * s, 3 * c, s * s}};
+}
+
+TEST(Sides, EndWhereTheirNeighboursDo) {
+  const Body body(test::unit_square(6), {});
+  for (const Side side : all_sides) {
+    for (const int k : {0, body.sides.line(side).n - 1}) {
+      const SidePoint other = body.sides.around_corner(side, k),
+                      back = body.sides.around_corner(other.side, other.k);
+      EXPECT_EQ(body.sides.line(side).at(k, 0), body.sides.line(other.side).at(other.k, 0));
+      EXPECT_EQ(back.side, side);
+      EXPECT_EQ(back.k, k);
+    }
+  }
+}
+
+TEST(Sides, HaveMirrorImagesWhereTheGridHas) {
+  const Boundaries walls =
+      of_conditions({Symmetry::condition, Symmetry::condition, Symmetry::condition, Symmetry::condition});
+  const Body square(test::unit_square(6), walls), skewed(test::skewed_grid(6), walls);
+  EXPECT_EQ(square.sides.condition(Side::left), Symmetry::condition);
+  EXPECT_EQ(skewed.sides.condition(Side::left), SlipWall::condition);
+}
+
+TEST(Sides, OfARankAreThoseInItsRows) {
+  Body body(test::unit_square(6), {});
+  body.sides.take_rows({.all = false, .own = {2, 4}, .halos = {{1, 5}}});
+  EXPECT_EQ(body.sides.points(Side::left).size(), 4U);
+  EXPECT_TRUE(body.sides.present(Side::left) && body.sides.points(Side::top).empty());
+  EXPECT_FALSE(body.sides.present(Side::top));
+  EXPECT_TRUE(body.sides.advanced(Side::right, 1) && !body.sides.owns(Side::right, 1));
+}
+
+TEST(SideMemory, PutTogetherFromTheRowsOfRanksIsTheWhole) {
+  Body body(test::unit_square(6), {});
+  double count = 0;
+  for (const Side side : all_sides) {
+    for (int k = 0; k < 7; ++k) {
+      count += 6;
+      body.memory.T(side, k) = {count, count + 1};
+      body.memory.T_rate(side, k) = {count + 2, count + 3};
+      body.memory.v_change(side, k) = {count + 4, count + 5};
+    }
+  }
+  SideMemory whole(body.sides);
+  for (const grid::RowRange rows : {grid::RowRange{0, 3}, grid::RowRange{3, 7}}) {
+    const std::vector<double> part = body.memory.scattered(body.sides, rows);
+    EXPECT_TRUE(whole.gather_scattered(body.sides, rows, part).empty());
+  }
+  for (const Side side : all_sides) {
+    for (int k = 0; k < 7; ++k) {
+      EXPECT_EQ(whole.T(side, k), body.memory.T(side, k));
+      EXPECT_EQ(whole.T_rate(side, k), body.memory.T_rate(side, k));
+      EXPECT_EQ(whole.v_change(side, k), body.memory.v_change(side, k));
+    }
+  }
+}
+
+TEST(GivenMotion, LeavesNothingAlongTheNormalOfAWallAndRemembersWhatItTook) {
+  Body body(test::skewed_grid(6), of_conditions({SlipWall::condition, {}, {}, {}}));
+  body.assign(various);
+  const Field before = body.q.clone();
+  GivenMotion(body.sides, body.chosen).set(body.q.view(), 0, {}, body.memory);
+  for (int k = 0; k < 7; ++k) {
+    const Vec2 n = body.sides.at(Side::left, k).n0;
+    const SolidState now = body.at(Side::left, k),
+                     then = load(before.view(), body.sides.line(Side::left).at(k, 0));
+    // Round-off of numbers of size 3.
+    EXPECT_NEAR(n.dot(now.u), 0, 1e-15);
+    EXPECT_NEAR(n.dot(now.v), 0, 2e-15);
+    EXPECT_NEAR((then.v + body.memory.v_change(Side::left, k) - now.v).norm(), 0, 2e-15);
+    const Vec2 along(-n.y(), n.x());
+    EXPECT_NEAR(along.dot(now.u - then.u), 0, 1e-15);
+  }
+}
+
+TEST(GivenMotion, OfASideIsThatOfItsFunctionsAndOfItsCorners) {
+  Boundaries boundaries = of_conditions({Displacement::condition, {}, {}, {}});
+  boundaries[0].vector = [](double /*x*/, double y, double t) { return Vec2(y * t, 2); };
+  boundaries[0].velocity = [](double /*x*/, double y, double /*t*/) { return Vec2(y, 0); };
+  Body body(test::unit_square(6), boundaries);
+  GivenMotion(body.sides, body.chosen).set(body.q.view(), 3, {}, body.memory);
+  EXPECT_EQ(body.at(Side::left, 6).u, Vec2(3, 2));
+  EXPECT_EQ(body.at(Side::left, 6).v, Vec2(1, 0));
+  const auto corner = given_motion(body.sides, Side::top, 0, 3);
+  ASSERT_TRUE(corner);
+  EXPECT_EQ(corner->u, Vec2(3, 2));
+  EXPECT_FALSE(given_motion(body.sides, Side::top, 1, 3) || given_motion(body.sides, Side::top, 6, 3));
+}
+
+TEST(Eq42Traction, OfAStretchedSideIsThatOfItsPresentLength) {
+  Boundaries boundaries;
+  boundaries[3].vector = [](double /*x*/, double /*y*/, double t) { return Vec2(1 + t, -2); };
+  for (const LoadConfiguration load : {LoadConfiguration::current, LoadConfiguration::reference}) {
+    boundaries[3].load = load;
+    Body body(test::unit_square(6), boundaries);
+    body.assign([](double x, double y) {
+      return SolidState{.u = Vec2(0.25 * x, y), .v = Vec2(0.5 * x, -y), .P = {}};
+    });
+    Tractions(body.sides, body.chosen, 1.0).find(body.q.view(), Side::top, 0, body.memory);
+    const bool present = load == LoadConfiguration::current;
+    const double stretch = present ? 1.25 : 1.0, growth = present ? 0.5 : 0.0;
+    for (int k = 0; k < 7; ++k) {
+      EXPECT_NEAR((body.memory.T(Side::top, k) - stretch * Vec2(1, -2)).norm(), 0, 1e-14);
+      // The rate of tau is a difference over 1e-3: round-off of numbers of size 1 divided by that.
+      EXPECT_NEAR((body.memory.T_rate(Side::top, k) - stretch * Vec2(1, 0) - growth * Vec2(1, -2)).norm(), 0,
+                  1e-11);
+    }
+  }
+}
+
+TEST(Tractions, AreThoseOfTheStressWhereTheyAreKnownAndWithoutShearAtWalls) {
+  Body body(test::skewed_grid(6), of_conditions({SlipWall::condition, Traction::condition, {}, {}}));
+  body.assign(various);
+  const Tractions tractions(body.sides, body.chosen, 1.0);
+  for (int k = 0; k < 7; ++k) body.memory.T(Side::right, k) = {k, -2};
+  for (const Side side : {Side::left, Side::right})
+    tractions.set_normal_stress(body.q.view(), side, 0, body.memory);
+  for (int k = 0; k < 7; ++k) {
+    const SideMetrics &wall = body.sides.at(Side::left, k), &loaded = body.sides.at(Side::right, k);
+    EXPECT_NEAR(wall.t0.dot(traction_of(body.at(Side::left, k).P, wall.n0)), 0, 2e-15);
+    EXPECT_NEAR((traction_of(body.at(Side::right, k).P, loaded.n0) - Vec2(k, -2)).norm(), 0, 5e-15);
+  }
+}
+
+TEST(GhostFrame, IsWhatTheSidesSayOfIt) {
+  Boundaries boundaries =
+      of_conditions({Periodic::condition, Periodic::condition, Dirichlet::condition, no_condition});
+  boundaries[2].state = [](double x, double y, double t) { return various(x + t, y); };
+  Body body(test::unit_square(6), boundaries);
+  body.assign(various);
+  const SolidState kept = body.at(Side::top, 3, -1);
+  const GhostFrame frame(body.sides, body.chosen);
+  frame.fill_line(body.q.view(), 0.5, {.m = -1});
+  EXPECT_EQ(body.at(Side::top, 3, -1).u, kept.u);
+  EXPECT_EQ(body.at(Side::left, 3, -1).P.a12, body.at(Side::right, 3, 1).P.a12);
+  const Vec2 below = body.sides.position(body.sides.line(Side::bottom).at(3, -1));
+  EXPECT_EQ(body.at(Side::bottom, 3, -1).v, various(below.x() + 0.5, below.y()).v);
+}
+
+}  // namespace
+}  // namespace fsi::solid
