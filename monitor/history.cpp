@@ -28,7 +28,7 @@ std::string without_unit(const std::string& heading) {
 }
 
 bool is_proposal(const std::string& heading) {
-  return heading.ends_with(".dt_bid");
+  return heading.ends_with(".proposed_dt");
 }
 
 }  // namespace

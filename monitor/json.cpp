@@ -62,7 +62,7 @@ json program_json(const RunState& state, const wire::Telemetry& program, double 
           {"t", number(program.t)},
           {"dt", number(program.dt)},
           {"dt_reason", program.dt_reason},
-          {"dt_bid", number(program.dt_bid)},
+          {"proposed_dt", number(program.proposed_dt)},
           {"traffic", traffic_json(state, program)},
           {"compute_s", number(program.compute_s)},
           {"wait_s", number(program.wait_s)},

@@ -65,7 +65,7 @@ void programs(Page& page, const RunState& state, double now) {
   each("point_updates_per_second", "grid points advanced per second of computing", "gauge",
        [](const auto& p) { return p.point_updates_per_s; });
   each("proposed_step", "step the program proposed last [time]", "gauge",
-       [](const auto& p) { return p.dt_bid; });
+       [](const auto& p) { return p.proposed_dt; });
   each("bus_messages", "lock-step messages sent and received", "counter",
        [](const auto& p) { return static_cast<double>(p.messages); });
   each("bus_bytes", "payload of these messages [byte]", "counter",

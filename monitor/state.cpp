@@ -66,7 +66,8 @@ void RunState::hear(const wire::Telemetry& telemetry, double now) {
     pace.back().traffic.push_back({.messages = one.messages, .bytes = one.bytes});
   while (pace.front().now < now - pace_window_s || pace.size() > longest_pace) pace.pop_front();
   if (leader()->from == telemetry.from) history_.add(telemetry);
-  if (telemetry.role != "coupler") history_.add(telemetry.from + ".dt_bid", telemetry.t, telemetry.dt_bid);
+  if (telemetry.role != "coupler")
+    history_.add(telemetry.from + ".proposed_dt", telemetry.t, telemetry.proposed_dt);
 }
 
 /// What it did since it was heard last; what a program does that is being waited for shows when it is done.

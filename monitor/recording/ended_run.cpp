@@ -47,7 +47,7 @@ wire::Telemetry last_words(const json& part) {
   said.compute_s = number(part, "compute_s");
   said.wait_s = number(part, "wait_s");
   said.point_updates_per_s = number(part, "point_updates_per_s");
-  said.dt_bid = std::nan("");
+  said.proposed_dt = std::nan("");
   said.health = {
       .min_rho = number(health, "min_rho"),
       .min_p = number(health, "min_p"),
@@ -136,8 +136,8 @@ void EndedRun::listen(RunState& state, double /*seconds*/) {
       if (said.role == "coupler") said.interfaces = interfaces_of(state.history(), part);
       if (said.t > 0 && said.dt == 0 && !state.history().of("dt").points().empty())
         said.dt = state.history().of("dt").points().back().value;
-      const auto& proposed = state.history().of(said.from + ".dt_bid").points();
-      if (!proposed.empty()) said.dt_bid = proposed.back().value;
+      const auto& proposed = state.history().of(said.from + ".proposed_dt").points();
+      if (!proposed.empty()) said.proposed_dt = proposed.back().value;
       state.hear(said, 0);
     } catch (const json::exception&) {  // of another version
       continue;

@@ -54,7 +54,7 @@ constexpr const char* message_columns =
     "at from role state host pid step t t_end dt dt_reason compute_s wait_s point_updates_per_s min_rho "
     "min_p min_det_F min_cell_quality "
     "first_order_fallbacks floors messages bytes round_trip_p50_us round_trip_p99_us interfaces noise "
-    "dt_bid limited_by traffic limits";
+    "proposed_dt limited_by traffic limits";
 constexpr std::size_t message_width = 30;
 constexpr const char* traffic_columns =
     "interface from messages bytes missing dropped latency_p50_us latency_p99_us";
@@ -166,7 +166,7 @@ wire::Telemetry telemetry_from(std::span<const double> row, const TextOf& text) 
           .t_end = row[8],
           .dt = row[9],
           .dt_reason = text(row[10]),
-          .dt_bid = row[26],
+          .proposed_dt = row[26],
           .limited_by = text(row[27]),
           .limits = {},
           .compute_s = row[11],
@@ -259,7 +259,7 @@ class Tables {
                              m.round_trip_p99_us,
                              count(m.interfaces.size()),
                              texts_.number(m.noise),
-                             m.dt_bid,
+                             m.proposed_dt,
                              texts_.number(m.limited_by),
                              count(m.traffic.size()),
                              count(m.limits.size())});

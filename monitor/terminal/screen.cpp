@@ -17,8 +17,13 @@ namespace {
 using Side = wire::Telemetry::Interface;
 
 /// Parts of an interface's scale: what varies by less along it is not worth a picture; a jump that is smaller
-/// is none.
-constexpr double unseen = 1e-9, round_off = 1e-14;
+/// is none; a power that varies by less of what its scales and its length make is still.
+constexpr double unseen = 1e-9, round_off = 1e-14, still = 1e-11;
+
+/// What makes a power of an interface round-off.
+double still_power(const Side& side) {
+  return still * side.velocity_scale * side.traction_scale * (side.s.empty() ? 0 : side.s.back());
+}
 
 Style style_of_status(const std::string& status) {
   if (status == "running" || status == "alive") return Style::good;
@@ -261,7 +266,7 @@ class Painter {
                 .logarithmic = true,
                 .floor = round_off * side->traction_scale},
                {.title = "dt", .series = "dt"},
-               {.title = "power", .series = side->name + ".power"}};
+               {.title = "power", .series = side->name + ".power", .floor = still_power(*side)}};
       if (columns_ >= 120)
         small.push_back({.title = "gap", .series = side->name + ".gap", .logarithmic = true});
     }

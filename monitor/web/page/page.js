@@ -43,7 +43,7 @@ function hear(state) {
       memory.last[name] = program;
     }
     while (line.length && line[0][0] < now - SPAN - 2) line.shift();
-    if (program.role !== "coupler") remember(`${name}.dt_bid`, program.t, program.dt_bid);
+    if (program.role !== "coupler") remember(`${name}.proposed_dt`, program.t, program.proposed_dt);
   }
   memory.stale = true;
 }
@@ -139,6 +139,7 @@ function showShapes(state) {
 }
 
 const ROUND_OFF = 1e-14; // jumps that are smaller parts of what they compare are none
+const STILL = 1e-11; // what varies by a smaller part of the gas's speed or pressure is drawn as what does not vary
 // [name, title, what makes it round-off: null where the plot is not logarithmic]
 const HISTORIES = [["velocity_jump", "velocity jump", (side) => side.velocity_scale], ["traction_jump", "traction jump", (side) => side.traction_scale],
   ["shear", "tangential traction of the solid", (side) => side.traction_scale], ["gap", "gap", (side) => side.s[side.s.length - 1]], ["power", "power", null],
@@ -152,6 +153,7 @@ function showHistories() {
   wanted.forEach(([what, title, scale], k) => {
     const list = memory.history[`${memory.chosen}.${what}`] || [];
     drawPlot($("histories").children[k], { title: title + (scale ? ", log" : ""), axis: "t", x: "t", log: scale !== null, floor: scale ? ROUND_OFF * scale(side) : 0,
+      tiny: what === "power" ? STILL * side.velocity_scale * side.traction_scale * side.s[side.s.length - 1] : 0,
       nothing: "zero or nothing yet", value: list.length ? short(list[list.length - 1][1]) : "",
       curves: [{ x: list.map((e) => e[0]), y: list.map((e) => e[1]), colour: theme.projected }] });
   });
@@ -167,11 +169,11 @@ function showProfiles(side) {
   };
   const none = { axis: "s", x: "s", curves: [], nothing: "no interface" };
   const title = (name) => (minus && side ? `${name} minus projected` : name);
-  const draw = (canvas, name, sets) => drawPlot($(canvas), side ? { title: title(name), axis: "s", x: "s", robust: true, curves: curves(...sets), nothing: side.s.length ? "none: this solid has no stress of its own" : "was not recorded" } : { title: name, ...none });
-  draw("pressure", "pressure p", side && [side.p_predicted, side.p_predicted_solid, side.p_projected]);
-  draw("velocity", "normal velocity v_n", side && [side.v_predicted_gas, side.v_predicted, side.v_projected]);
+  const draw = (canvas, name, sets, scale) => drawPlot($(canvas), side ? { title: title(name), axis: "s", x: "s", robust: true, tiny: STILL * scale, curves: curves(...sets), nothing: side.s.length ? "none: this solid has no stress of its own" : "was not recorded" } : { title: name, ...none });
+  draw("pressure", "pressure p", side && [side.p_predicted, side.p_predicted_solid, side.p_projected], side && side.traction_scale);
+  draw("velocity", "normal velocity v_n", side && [side.v_predicted_gas, side.v_predicted, side.v_projected], side && side.velocity_scale);
   const free = side && side.w_tangential.map(() => 0); // the gas has no viscosity: the projection takes it away
-  draw("shear", "tangential traction w_t", side && [[], side.w_tangential, free]);
+  draw("shear", "tangential traction w_t", side && [[], side.w_tangential, free], side && side.traction_scale);
 }
 
 function show() {
@@ -199,7 +201,7 @@ function show() {
   showHistories();
   const ends = Object.values(memory.timeline).flatMap((line) => line.slice(-1).map((e) => e[0]));
   drawTimeline($("timeline"), Object.entries(memory.timeline).map(([name, points]) => ({ name, points })), moving || !ends.length ? now : Math.max(...ends), SPAN);
-  showBids(state);
+  showProposals(state);
   showTables(state);
   showTraffic(state);
 }

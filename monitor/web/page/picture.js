@@ -99,7 +99,15 @@ function rangeOf(picture) {
   const limits = limitsOf(picture);
   if (limits.mode === "fixed") return [limits.low, limits.high];
   if (picture.quantity === "schlieren") return [0, limits.mode === "now" ? picture.high : limits.seen[1]]; // a gradient of zero is white
-  return limits.mode === "now" ? [picture.low, picture.high] : limits.seen;
+  const [low, high] = limits.mode === "now" ? [picture.low, picture.high] : limits.seen;
+  return [low, Math.max(high, low + STILL * scaleOf(picture))];
+}
+
+// What speeds and stresses are compared with, 0 where nobody says: round-off shall not have all the colours.
+function scaleOf(picture) {
+  const name = { speed: "velocity_scale", pressure: "traction_scale", stress: "traction_scale" }[picture.quantity];
+  const sides = memory.state ? Object.values(memory.state.interfaces) : [];
+  return Math.max(0, ...sides.map((side) => side[name] || 0));
 }
 
 function mapOf(picture) {

@@ -63,7 +63,10 @@ function logAxis(low, high, count) {
   return { offset: null, marks: whole.filter((_, k) => k % every === 0) };
 }
 
-function spread(values) {
+const RELATIVE = 2e-6; // ranges that are smaller parts of their numbers are drawn as wide as that
+
+// Range of the values, at least `tiny` wide: less is round-off.
+function spread(values, tiny) {
   let low = Infinity, high = -Infinity;
   for (const value of values) {
     if (value === null || !isFinite(value)) continue;
@@ -71,23 +74,27 @@ function spread(values) {
     high = Math.max(high, value);
   }
   if (low > high) return null;
-  const least = Math.max(2e-6 * Math.max(Math.abs(low), Math.abs(high)), 1e-300);
+  const least = leastSpread(low, high, tiny);
   if (high - low < least) { low -= least / 2; high += least / 2; }
   return [low, high];
 }
 
+function leastSpread(low, high, tiny) {
+  return Math.max(RELATIVE * Math.max(Math.abs(low), Math.abs(high)), tiny || 0, 1e-300);
+}
+
 // Range of the values without a few that stand out: a spike at an end shall not press all else into a line. [low, high, whether any is cut]
-function robustSpread(values) {
-  const whole = spread(values);
+function robustSpread(values, tiny) {
+  const whole = spread(values, tiny);
   if (!whole) return null;
   const sorted = values.filter((value) => value !== null && isFinite(value)).sort((a, b) => a - b), n = sorted.length;
   const low = sorted[Math.floor(0.03 * (n - 1))], high = sorted[Math.ceil(0.97 * (n - 1))], room = 0.5 * (high - low);
-  if (n < 12 || !(high > low) || whole[1] - whole[0] < 4 * (high - low)) return [...whole, false];
+  if (n < 12 || !(high - low > leastSpread(low, high, tiny)) || whole[1] - whole[0] < 4 * (high - low)) return [...whole, false];
   return [Math.max(whole[0], low - room), Math.min(whole[1], high + room), true];
 }
 
 // plot: {title, axis: "t" or "s", x (its label), curves: [{name, x, y, colour, dash, width}], log, floor (of a log plot: what is below is round-off),
-// robust, strip: [[x from, colour]], value, nothing}. Says so where there is no data.
+// tiny (what is narrower is round-off), robust, strip: [[x from, colour]], value, nothing}. Says so where there is no data.
 function drawPlot(canvas, plot) {
   makeReadable(canvas);
   const { pen, width, height } = open(canvas), floor = Math.log10(plot.floor || 0);
@@ -96,7 +103,7 @@ function drawPlot(canvas, plot) {
   const span = spanOf(plot), within = (x) => !span || (x >= span[0] && x <= span[1]);
   const curves = plot.curves.map((c) => ({ ...c, y: c.y.map(plot.map) }));
   const across = span || spread(curves.flatMap((c) => c.x)), all = curves.flatMap((c) => c.y.filter((_, k) => within(c.x[k])));
-  const up = plot.robust ? robustSpread(all) : spread(all);
+  const up = plot.robust ? robustSpread(all, plot.tiny) : spread(all, plot.log ? 0 : plot.tiny);
   const at = axes[plot.axis] ? axes[plot.axis].at : null;
   drawTitle(pen, plot, at !== null && across && up ? wordsAt(plot, at) : plot.value || "", width, up && up[2]);
   if (!across || !up) {

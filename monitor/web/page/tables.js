@@ -30,10 +30,10 @@ function health(program) {
 
 // Who limits the step stands out.
 function proposal(state, name, program) {
-  if (program.role === "coupler" || (program.dt_bid === null && over(state))) return "\u2013";
-  const text = program.dt_bid === null ? "no limit" : short(program.dt_bid), limits = name === state.limited_by;
-  const bids = Object.values(state.participants || {}).map((one) => one.dt_bid).filter((bid) => bid !== null && isFinite(bid));
-  const fill = make("i", { className: limits ? "limits" : "" }), part = program.dt_bid === null ? 1 : program.dt_bid / Math.max(...bids, program.dt_bid);
+  if (program.role === "coupler" || (program.proposed_dt === null && over(state))) return "\u2013";
+  const text = program.proposed_dt === null ? "no limit" : short(program.proposed_dt), limits = name === state.limited_by;
+  const proposals = Object.values(state.participants || {}).map((one) => one.proposed_dt).filter((proposal) => proposal !== null && isFinite(proposal));
+  const fill = make("i", { className: limits ? "limits" : "" }), part = program.proposed_dt === null ? 1 : program.proposed_dt / Math.max(...proposals, program.proposed_dt);
   fill.style.width = `${100 * part}%`;
   return make(limits ? "b" : "span", { className: limits ? "limiter" : "", title: program.dt_reason }, make("span", { className: "meter short" }, fill), limits ? `${text} limits` : text);
 }
@@ -49,7 +49,7 @@ function showTraffic(state) {
       one.latency_p99_us ? `${short(Math.round(one.latency_p50_us))} / ${short(Math.round(one.latency_p99_us))} \u00b5s` : "\u2013"])));
 }
 
-const BID_COLOURS = ["gas", "solid", "good", "busy", "bad"];
+const PROPOSAL_COLOURS = ["gas", "solid", "good", "busy", "bad"];
 const SETTING_COLOUR = "dim";
 
 // ", 98 % of the steps" a program or a setting limited so far.
@@ -59,21 +59,21 @@ function shareOf(state, by) {
 }
 
 // What everybody proposed, and what was agreed on. A solid that takes substeps may propose less.
-function showBids(state) {
+function showProposals(state) {
   const names = Object.keys(state.participants).filter((name) => state.participants[name].role !== "coupler");
-  const colours = names.map((_, k) => theme[BID_COLOURS[k % BID_COLOURS.length]]);
-  const curves = names.map((name, k) => ({ name, list: memory.history[`${name}.dt_bid`] || [], colour: colours[k] }));
+  const colours = names.map((_, k) => theme[PROPOSAL_COLOURS[k % PROPOSAL_COLOURS.length]]);
+  const curves = names.map((name, k) => ({ name, list: memory.history[`${name}.proposed_dt`] || [], colour: colours[k] }));
   curves.push({ name: "agreed on", list: memory.history.dt || [], colour: theme.projected, dash: [2, 3] });
   const colourOf = (name) => (names.includes(name) ? colours[names.indexOf(name)] : theme[SETTING_COLOUR]);
-  drawPlot($("bids"), { title: "dt, log; below: who limits it", axis: "t", x: "t", log: true, nothing: "no step was proposed yet",
+  drawPlot($("proposals"), { title: "dt, log; below: who limits it", axis: "t", x: "t", log: true, nothing: "no step was proposed yet",
     strip: memory.limiters.map(([t, name]) => [t, colourOf(name)]),
     curves: curves.map(({ list, ...rest }) => ({ x: list.map((e) => e[0]), y: list.map((e) => e[1]), ...rest })) });
   const shares = Object.keys(state.limits || {}).filter((name) => state.limits[name]).map((name) => `${name}${shareOf(state, name)}`).join("; ");
   const key = names.join("\n") + theme.gas + shares;
-  if ($("bids-legend").dataset.key === key) return;
-  $("bids-legend").dataset.key = key;
+  if ($("proposals-legend").dataset.key === key) return;
+  $("proposals-legend").dataset.key = key;
   const mark = (colour, style) => { const line = make("i", {}); line.style.borderTop = `2.5px ${style} ${colour}`; return line; };
-  $("bids-legend").replaceChildren(...names.flatMap((name, k) => [mark(colours[k], "solid"), name]), mark(theme.projected, "dotted"), "agreed on",
+  $("proposals-legend").replaceChildren(...names.flatMap((name, k) => [mark(colours[k], "solid"), name]), mark(theme.projected, "dotted"), "agreed on",
     mark(theme[SETTING_COLOUR], "solid"), "a setting", make("span", { className: "dim" }, shares ? `\u00b7 limited by ${shares}` : ""));
 }
 
