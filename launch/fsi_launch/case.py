@@ -30,7 +30,7 @@ class Case:
     cost: dict = field(default_factory=dict)    # {participant: {points, seconds_a_step}}, about
 
     def speaker(self):
-        """The participant that reports progress: the coupler, or the lone solver."""
+        """The participant that reports progress: the coupler, or the standalone solver."""
         return list(self.programs)[-1]
 
 

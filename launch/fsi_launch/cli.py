@@ -6,7 +6,7 @@ import sys
 
 from fsi_launch import paths
 from fsi_launch.living import interrupts
-from fsi_launch.failure import DONE, Failure, INTERRUPTED, OUTPUT_FAILED, TERMINATED, UserMistake
+from fsi_launch.failure import DONE, Failure, INTERRUPTED, NOBODY_READS, OUTPUT_FAILED, TERMINATED, UserMistake
 
 REQUESTS = ("pause", "resume", "checkpoint", "stop")
 USAGE = (paths.ROOT / "launch" / "usage.txt").read_text(encoding="utf-8")
@@ -140,6 +140,14 @@ def _count(text):
     return int(text)
 
 
+def _plain_number(text):
+    """A number in SI units."""
+    try:
+        return float(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text!r} is no number; write it in SI units and without its unit, as 0.08") from None
+
+
 def _jobs(text):
     if not text.isdecimal() or int(text) < 1:
         raise argparse.ArgumentTypeError(f"'{text}' is no number of runs: 1 or more")
@@ -166,18 +174,18 @@ def _add_new(verbs):
                       "smooth curve")
     verb.add_argument("--on-wall", action="store_true", help="the body stands with its lowest edge on the lower wall of the gas, clamped; "
                       "an elastic one of four corners keeps them sharp")
-    verb.add_argument("--size", metavar="L", type=float, help="length of the body [m], to which an outline is scaled (default: the file's "
+    verb.add_argument("--size", metavar="L", type=_plain_number, help="length of the body [m], to which an outline is scaled (default: the file's "
                       "numbers; a circle: 0.1)")
     verb.add_argument("--flow", choices=FLOWS, help="a shock that runs against the body (default), or a stream around it")
-    verb.add_argument("--mach", metavar="M", type=float, help="Mach number of the shock (default: 1.3) or of the stream (0.5)")
-    verb.add_argument("--density", metavar="RHO", type=float, help="of the gas [kg/m^3] (default: air, 1.225)")
-    verb.add_argument("--pressure", metavar="P", type=float, help="of the gas [Pa] (default: 101325)")
-    verb.add_argument("--gamma", metavar="G", type=float, help="ratio of its specific heats (default: 1.4)")
+    verb.add_argument("--mach", metavar="M", type=_plain_number, help="Mach number of the shock (default: 1.3) or of the stream (0.5)")
+    verb.add_argument("--density", metavar="RHO", type=_plain_number, help="of the gas [kg/m^3] (default: air, 1.225)")
+    verb.add_argument("--pressure", metavar="P", type=_plain_number, help="of the gas [Pa] (default: 101325)")
+    verb.add_argument("--gamma", metavar="G", type=_plain_number, help="ratio of its specific heats (default: 1.4)")
     verb.add_argument("--material", metavar="NAME", help="of the body: steel, aluminium, polycarbonate, rubber, .., or RHO,E,NU [kg/m^3, "
                       "Pa, -] (default: aluminium)")
     verb.add_argument("--law", choices=LAWS, help="constitutive law of the body (default: neo_hookean)")
     verb.add_argument("--fixed", action="store_true", help="a rigid body stays where it is")
-    verb.add_argument("--end", metavar="T", type=float, help="end of the run [s] (default: when the shock has passed)")
+    verb.add_argument("--end", metavar="T", type=_plain_number, help="end of the run [s] (default: when the shock has passed)")
     verb.add_argument("--cells", metavar="N", type=int, help="cells along the body (default: 20)")
     verb.add_argument("--defaults", action="store_true", help="ask nothing")
     verb.add_argument("--overwrite", action="store_true", help="replace a case of that name")
@@ -351,6 +359,14 @@ def _parser():
     return parser
 
 
+def _nobody_reads():
+    """Whoever read the output, as `head`, has gone: that is no failure to be told of. What is still to be written goes nowhere."""
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    os.dup2(nowhere, sys.stdout.fileno())
+    os.close(nowhere)
+    return NOBODY_READS
+
+
 def main(arguments):
     """Returns the exit code."""
     if not arguments or arguments[0] in ("-h", "--help", "help"):
@@ -363,7 +379,11 @@ def main(arguments):
     try:
         interrupts.listen()
         options = _parser().parse_args(arguments)
-        return options.act(options)
+        code = options.act(options)
+        sys.stdout.flush()
+        return code
+    except BrokenPipeError:
+        return _nobody_reads()
     except Failure as failure:
         print(f"fsi: {failure}", file=sys.stderr)
         return failure.code

@@ -251,6 +251,8 @@ def _begin(request, say):
         if case.end < checkpoint.t:
             raise UserMistake(f"time.end = {case.end:g} lies before the checkpoint's t = {checkpoint.t:.6g}; "
                               "a restart can only go on")
+        if case.end <= checkpoint.t * (1 + 1e-12):
+            say("that is time.end: the run is complete; --set time.end=.. goes on to a later one")
         restart.prepare(directory)
     (directory / "case.yaml").write_text(case.text, encoding="utf-8")
     if far := hosts.wanted(request.hosts, case):
@@ -276,7 +278,8 @@ def run(request):
     """Runs a case to its end. Throws UserMistake before anything is started; everything later is in the Result."""
     say = (lambda text: None) if request.quiet else (lambda text: print(text, file=sys.stderr))
     case, directory, checkpoint = _begin(request, say)
-    identity = f"{case.name}-{time.strftime('%H%M%S')}-{time.time_ns() % 10**9:09d}"
+    # Two that begin together may read the same time; then they would hear each other where the bus is not protected.
+    identity = f"{case.name}-{time.strftime('%H%M%S')}-{time.time_ns() % 10**9:09d}-{os.getpid()}"
     say(f"{case.name}: {', '.join(case.programs.values())}")
 
     start = time.monotonic()

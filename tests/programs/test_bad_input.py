@@ -31,6 +31,13 @@ class BadInput(EndToEnd):
         self.assertRegex(line, r"case\.yaml:\d+:\d+: ")
         return line
 
+    def test_output_that_nobody_reads_any_more_ends_the_command_silently(self):
+        reading, writing = os.pipe()
+        os.close(reading)
+        answer = subprocess.run([FSI, "gallery"], stdout=writing, stderr=subprocess.PIPE, text=True, check=False)
+        os.close(writing)
+        self.assertEqual((answer.returncode, answer.stderr), (141, ""))
+
     def test_unknown_key_and_what_was_meant(self):
         self.assertRegex(self.changed("cfl: 0.9", "clf: 0.9"), r"clf.*cfl")
 
@@ -103,6 +110,21 @@ class BadInput(EndToEnd):
         back = self.launch("--restart", str(run.directory), "--set", "time.end=0.1", out=None)
         self.assertEqual(back.wait(), 2)
         self.assertIn("time.end", back.stderr)
+        again = self.launch("--restart", str(run.directory), "--set", "expect={}", out=None)
+        self.assertEqual(again.wait(), 0, again.stderr)
+        self.assertIn("the run is complete", again.stdout + again.stderr)
+
+    def test_all_levels_are_checked_before_the_first_runs(self):
+        answer = subprocess.run([FSI, "converge", "elastic_piston", "--levels", "1,20000", "--out", self.folder / "levels"], cwd=self.folder,
+                                env=os.environ | {"FSI_BIN": str(BIN)}, capture_output=True, text=True, check=False)
+        self.assertEqual(answer.returncode, 2, answer.stderr)
+        self.assertIn("level 20000: ", answer.stderr)
+        self.assertFalse((self.folder / "levels").exists())
+
+    def test_no_such_verb(self):
+        answer = subprocess.run([FSI, "rn"], capture_output=True, text=True, check=False)
+        self.assertEqual(answer.returncode, 2)
+        self.assertRegex(answer.stderr, r"^fsi: no verb 'rn'; there are run, submit, test, .*completion$")
 
     def test_a_rate_between_grids_takes_three(self):
         answer = subprocess.run([FSI, "converge", "rigid_piston", "--levels", "1,2", "--min-rate", "5"], cwd=self.folder,

@@ -74,6 +74,14 @@ class Drawing(unittest.TestCase):
         self.assertGreater(len(seen[1]), 3)
         self.assertEqual(seen[2], [])
 
+    def test_long_numbers_keep_apart(self):
+        figure, axes = pyplot.subplots(figsize=(4.8, 2))
+        axes.set_xlim(-0.075, 0.138)
+        usual = len(axes.get_xticks())
+        style.save(figure, self.folder / "long.png")
+        self.assertEqual([f"{x:.2f}" for x in axes.get_xticks() if -0.075 <= x <= 0.138], ["-0.05", "0.00", "0.05", "0.10"])
+        self.assertGreater(usual, len(axes.get_xticks()))
+
     def test_failures_come_out_whoever_draws(self):
         for jobs in (1, 2):
             with self.subTest(jobs), self.assertRaises(OSError) as caught:
@@ -157,7 +165,7 @@ class Proposals(unittest.TestCase):
     def test_what_was_proposed_is_drawn_beside_the_steps_taken_and_who_limited_them_is_no_curve(self):
         t = np.array([0.0, 0.1, 0.2, 0.3])
         table = data.Table("interface", {"t [time]": t, "dt [time]": np.array([0, 0.1, 0.1, 0.1]), "beam.gap [length]": 1e-3 * t,
-                                         "fluid.dt_bid [time]": np.array([np.nan, 0.1, 0.11, 0.12]), "body.dt_bid [time]": np.full(4, np.inf),
+                                         "fluid.proposed_dt [time]": np.array([np.nan, 0.1, 0.11, 0.12]), "body.proposed_dt [time]": np.full(4, np.inf),
                                          "limited_by": np.array(["none", "fluid", "fluid", "fluid"])})
         figure = curves._table_picture(table, scales.Scales(1, 1, 1))
         self.assertEqual([len(axes.lines) for axes in figure.axes], [2, 1])

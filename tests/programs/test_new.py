@@ -6,6 +6,7 @@ import os
 import pty
 import subprocess
 import sys
+import re
 import unittest
 
 import h5py
@@ -51,6 +52,17 @@ class New(InFolder):
 
     def test_straight_edges_fixed_in_a_stream(self):
         self.begin("--outline", "corners.csv", "--straight", "--flow", "stream", "--mach", "2", "--law", "rigid", "--fixed")
+
+    def test_what_else_the_text_offers_is_valid(self):
+        (self.folder / "bar.csv").write_text("0, 0\n1, 0\n1, 4\n0, 4\n")
+        self.fsi("new", "bar", "--outline", "bar.csv", "--size", "0.1", "--straight", "--on-wall", "--defaults")
+        law, others = re.search(r"law: (\w+) +# or (.*): --solid", (self.folder / "bar.yaml").read_text(encoding="utf-8")).groups()
+        self.assertNotIn(law, others.split(", "))
+        for other in others.split(", "):
+            self.fsi("check", "bar.yaml", "--solid", f"body={other}")
+
+    def test_a_length_with_its_unit(self):
+        self.assertIn("without its unit", self.fsi("new", "own", "--size", "8cm", "--defaults", code=2).stderr)
 
     def test_states_before_and_behind_the_shock_conserve_mass_momentum_and_energy(self):
         self.fsi("new", "own", "--mach", "1.8", "--gamma", "1.3", "--density", "2", "--pressure", "5e4")

@@ -156,6 +156,20 @@ class Page(WebTest):
         self.becomes("currentFrame().step > 30")
         self.assertEqual(self.page.problems, [])
 
+    def test_round_off_is_drawn_as_what_does_not_vary(self):
+        self.begin_paused()
+        low, high = self.page.do("spread([-3e-14, 5e-14], 1e-9)")
+        self.assertAlmostEqual(high - low, 1e-9)
+        low, high, cut = self.page.do("robustSpread(Array.from({length: 50}, (_, k) => 1e5 + 2e-10 * Math.sin(k)), 1e-6)")
+        self.assertGreater(high - low, 0.1)
+        self.assertFalse(cut)
+        self.choose("solid-limits", "now")
+        high, scale = self.page.do("(() => { const p = live.drawn.find((one) => one.role === 'solid'); "
+                                   "return [rangeOf({...p, low: 0, high: 1e-20})[1], memory.state.interfaces.solid.velocity_scale]; })()")
+        self.assertGreater(scale, 0)
+        self.assertAlmostEqual(high / scale, 1e-11)
+        self.assertEqual(self.page.problems, [])
+
     def test_the_picture_of_a_run_that_pauses_is_that_of_where_it_stands(self):
         self.begin()
         self.page.show(self.url + "#token=" + self.token)
@@ -171,13 +185,15 @@ class Page(WebTest):
         self.page.show(self.url)
         self.shows("traffic", "solid")
         self.shows("programs", "proposes dt")
-        limits = "proposal({limited_by: 'fluid'}, '%s', {role: 'fluid', dt_bid: 0.5}).textContent"
+        limits = "proposal({limited_by: 'fluid'}, '%s', {role: 'fluid', proposed_dt: 0.5}).textContent"
         self.assertEqual([self.page.do(limits % name) for name in ("fluid", "other")], ["0.5 limits", "0.5"])
-        self.coloured("bids")
+        self.coloured("proposals")
         # neighbours in a long history are one point, at the later time: the first one need not be that of the first step
-        heard = "memory.history['solid.shear'][0][0]"  # nobody wrote down what came before
+        begun = "memory.history['solid.gap'][0][0]"
         for program in ("fluid", "solid"):
-            self.becomes(f"memory.history['{program}.dt_bid'][0][0] < {heard}", words="what was proposed before the monitor began is not shown")
+            self.becomes(f"memory.history['{program}.proposed_dt'][0][0] <= {begun}", words="what was proposed before the monitor began is not shown")
+        for quantity in ("shear", "p_max", "power"):
+            self.becomes(f"memory.history['solid.{quantity}'][0][0] === {begun}", words=f"{quantity} before the monitor began is not shown")
         self.becomes("memory.limiters[0][0]", 0)
         self.assertEqual(self.page.problems, [])
 
@@ -216,7 +232,7 @@ class Page(WebTest):
         self.page.show(self.url)
         drawn = "Math.max(0, ...[...plots.values()].filter(({plot}) => plot.title.startsWith('gap')).map(({plot}) => plot.curves[0].x.length))"
         self.becomes(drawn, run.summary()["steps"] + 1, "not all that the table holds is drawn")
-        self.becomes("plots.get(document.getElementById('bids')).plot.curves.map((one) => one.name + ' ' + (one.x.length > 10)).join()",
+        self.becomes("plots.get(document.getElementById('proposals')).plot.curves.map((one) => one.name + ' ' + (one.x.length > 10)).join()",
                      "fluid true,solid true,agreed on true")
         self.assertEqual(self.page.problems, [])
 

@@ -107,6 +107,7 @@ class Shading(unittest.TestCase):
 class Captions(unittest.TestCase):
     def test_wide_spacings_are_no_fractions(self):
         self.assertEqual([caption.spacing(factor) for factor in (4, 0.2, 0.1, 0.04)], ["h = 1/40", "h = 1/2", "h = 1", "h = 2.5"])
+        self.assertEqual(caption.spacing(20, "m"), "h = 0.005 m")
 
     def test_case_grid_law_and_own_parameters(self):
         text = (ROOT / "configs" / "shock_ellipse.yaml").read_text(encoding="utf-8")

@@ -5,7 +5,7 @@ import os
 import subprocess
 import unittest
 
-from running import BIN, EndToEnd
+from running import BIN, EndToEnd, Launched
 
 SMALL = ("spring_piston", "--set", "grid.factor=2")
 KEYS = {"--no-security": "", "--encrypt": "encrypt:", None: "sign:"}
@@ -19,6 +19,15 @@ class Protection(EndToEnd):
         runs = [self.complete(*SMALL, *([option] if option else []), out=f"run{number}")
                 for number, option in enumerate(KEYS)]
         self.assertEqual(len({self.bits(run) for run in runs}), 1)
+
+    def test_unprotected_runs_that_begin_at_the_same_moment_are_two_runs(self):
+        moment = "import time\ntime.time_ns = lambda: 5\ntime.strftime = lambda *_: '000000'"
+        runs = []
+        for name, cfl in (("one", "0.5"), ("other", "0.6")):
+            (self.folder / name).mkdir()
+            runs.append(Launched(self.folder / name, *SMALL, "--no-security", "--set", f"time.cfl={cfl}", script=moment))
+            self.addCleanup(self._end, runs[-1])
+        self.assertEqual([run.wait() for run in runs], [0, 0], [run.stderr for run in runs])
 
     def test_programs_of_a_run_get_the_key_that_the_option_asks_for(self):
         for number, (option, kind) in enumerate(KEYS.items()):

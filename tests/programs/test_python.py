@@ -91,6 +91,15 @@ class FromPython(EndToEnd):
         self.assertEqual([row["status"] for row in result["rows"]], ["failed", "completed"])
         self.assertGreater(result["rows"][1]["quantities"]["interface.max_gap"], 0)
 
+    def test_study_refuses_a_quantity_that_no_run_has(self):
+        for wanted, said in (("interface.gap", "it has step, t, .*solid.gap"), ("forces_body.force1:max", "there are .*interface")):
+            answer = subprocess.run([FSI, "study", "elastic_piston", "--set", "grid.factor=2", "--vary", "parameters.density_ratio=0.1,1",
+                                     "--show", wanted, "--out", self.folder / "study"],
+                                    capture_output=True, text=True, check=False, timeout=WATCHDOG)
+            self.assertEqual(answer.returncode, 2, answer.stderr)
+            self.assertRegex(answer.stderr.splitlines()[-1], f"--show {wanted}: .*{said}")
+            self.assertFalse((self.folder / "study" / "density_ratio=1").exists())     # the first run told it
+
     def example(self, name):
         answer = subprocess.run(["/usr/bin/python3", ROOT / "examples" / "python" / f"{name}.py", self.folder / name],
                                 capture_output=True, text=True, check=False, timeout=WATCHDOG)

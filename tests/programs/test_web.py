@@ -27,7 +27,7 @@ class Server(WebTest):
     def test_state_numbers_and_page_are_served_to_this_machine_only(self):
         run, _ = self.begin()
         past = json.loads(self.get("api/history.json"))["history"]  # pages ask for it when they are opened, and never again
-        self.assertLessEqual({"dt", "solid.gap", "fluid.dt_bid", "solid.dt_bid"}, set(past))
+        self.assertLessEqual({"dt", "solid.gap", "solid.shear", "solid.p_max", "fluid.proposed_dt", "solid.proposed_dt"}, set(past))
         self.assertTrue(self.url.startswith("http://127.0.0.1:"))
         self.running()
         self.assertTrue(until(lambda: "solid" in self.state()["interfaces"]))

@@ -1,4 +1,4 @@
-"""The bar a person watches while a run goes on, from the `progress ...` lines of the coupler or the lone solver."""
+"""The bar a person watches while a run goes on, from the `progress ...` lines of the coupler or the standalone solver."""
 
 import collections
 import shutil

@@ -1,6 +1,7 @@
 """The text of a new case: commented, with nothing in it that the programs choose well by themselves."""
 
 from fsi_launch.new.problem import OUTPUTS
+from fsi_launch.new.questions import LAWS
 
 HEAD = """# {title}. Written by fsi new; every number may be changed, here or by --set KEY=VALUE (docs/case_file.md).
 # ./launch/fsi check {file} --plot    is it right, what does it cost, how do its grids look?
@@ -64,11 +65,11 @@ STREAM_SIDES = """  boundary:               # the stream outside, through which 
 BODY = """
 solids:
   body:                   # its grids, and those of the gas around it, are chosen; check says how
-    law: {law}{space}# or neo_hookean, saint_venant_kirchhoff, linear_elastic, rigid: --solid body=LAW
+    law: {law}{space}# or {others}: --solid body=LAW
     rho: rho_bar
-    lambda: E * nu / ((1 + nu) * (1 - 2 * nu))
-    mu: E / (2 * (1 + nu))
-{motion}    shape: {shape}{stands}
+    E: E
+    nu: nu
+{motion}    shape:{shape}{stands}
 
 output:
   every: {every:.3g}{every_space}# fields [s]
@@ -83,9 +84,9 @@ def _shape(problem, path):
     """The entry of the outline; `path`: of its file from where the case is."""
     outline = problem.outline
     if not outline.points:
-        return f"{{kind: circle, radius: {outline.radius:g}}}"
+        return f" {{kind: circle, radius: {outline.radius:g}}}"
     if not problem.straight:
-        return f"{{kind: spline, file: {path}}}    # a smooth curve through the points"
+        return f" {{kind: spline, file: {path}}}    # a smooth curve through the points"
     from fsi_launch.new.outline import is_block, shortest_edge
     corners = ", ".join(f"[{x:.9g}, {y:.9g}]" for x, y in outline.points)
     sharp = problem.on_wall and problem.law != "rigid" and is_block(outline)
@@ -114,8 +115,8 @@ def write(problem, file, path):
               else "{kind: far_field, state: {rho: rho_0, v: [v_1, 0], p: p_0}}    # or slip_wall: a wind tunnel")
     clamped = problem.on_wall and problem.law != "rigid"
     body = BODY.format(
-        stands="\n    boundary: {left: free, right: free, bottom: clamped, top: free}    # bottom: its foot" if clamped else "",
-        law=problem.law, space=" " * max(1, 15 - len(problem.law)), shape=_shape(problem, path), every=end / OUTPUTS,
+        stands="\n    boundary: {left: free, right: free, bottom: clamped, top: free}    # its foot is held; the gas acts on the free sides" if clamped else "",
+        law=problem.law, others=", ".join(law for law in LAWS if law not in (problem.law, clamped and "rigid")), space=" " * max(1, 15 - len(problem.law)), shape=_shape(problem, path), every=end / OUTPUTS,
         every_space=" " * max(1, 15 - len(every)), motion="    motion: fixed         # free: the gas moves it\n" if problem.fixed else "",
         x_probe=0.5 * sum(problem.outline.box()[:2]), y_probe=0.5 * (problem.outline.box()[3] + y_high))
     return (HEAD.format(**numbers) + (SHOCK if shock else STREAM).format(**numbers) + SOLID_NUMBERS.format(**numbers)

@@ -96,6 +96,15 @@ def _expect_errors(names, errors):
                           + (", ".join(errors) or "none, for want of a reference solution"))
 
 
+def _expect_valid(options):
+    """A mistake on the finest grid must not show after the runs on the others."""
+    for j in options.levels:
+        try:
+            cases.resolve(options.case, [*options.overrides, f"grid.factor={j}"], options.laws)
+        except UserMistake as mistake:
+            raise UserMistake(f"level {j}: {mistake}") from None
+
+
 def _run_levels(options, directory):
     """Summaries of the runs, one per level. Throws the Failure of the first run that fails."""
     summaries = []
@@ -145,6 +154,7 @@ def main(options):
     directory = Path(options.out or f"runs/converge-{name}-{time.strftime('%Y%m%d-%H%M%S')}")
     if directory.exists() and (not directory.is_dir() or any(directory.iterdir())):
         raise UserMistake(f"--out {directory} is not empty; name a new folder")
+    _expect_valid(options)
     summaries = _run_levels(options, directory)
     names = [key for key in summaries[0]["errors"] if not options.rates or key in options.rates]
     if not names:

@@ -128,6 +128,8 @@ def _make(waiting, options, done, total):
             for entry in [entry for entry in going if entry[1].poll() is not None]:
                 going.remove(entry)
                 _end(*entry)
+                if entry[0].code == DONE:
+                    _expect_shown(entry[0], options.show)
                 done += 1
                 print(_describe(entry[0], done, total), file=sys.stderr, flush=True)
             time.sleep(LOOK)
@@ -141,10 +143,33 @@ def _make(waiting, options, done, total):
 # --- what came out
 
 
+def _columns(path):
+    """{name: heading} of a table's columns; the unit behind the name is not part of it."""
+    with open(path, encoding="utf-8", newline="") as file:
+        return {heading.split(" ")[0]: heading for heading in next(csv.reader(file), [])}
+
+
 def _of_table(directory, name, column, statistic):
-    with open(directory / f"{name}.csv", encoding="utf-8", newline="") as file:
-        values = [float(row[key]) for row in csv.DictReader(file) for key in row if key.split(" ")[0] == column]
+    path = directory / f"{name}.csv"
+    heading = _columns(path).get(column)
+    with open(path, encoding="utf-8", newline="") as file:
+        values = [float(row[heading]) for row in csv.DictReader(file)] if heading else []
     return STATISTICS[statistic](values) if values else None
+
+
+def _expect_shown(trial, wanted):
+    """A quantity that a completed run cannot have ends the study at once: the others would lack it too."""
+    for name in wanted:
+        path = name.partition(":")[0]
+        table, _, column = path.partition(".")
+        if value_at(trial.summary, path) is not None or table == "errors":
+            continue        # a run without errors may still be followed by one that has them
+        file = trial.directory / f"{table}.csv"
+        if not file.is_file() and table not in trial.summary:
+            tables = ", ".join(sorted(one.stem for one in trial.directory.glob("*.csv")))
+            raise UserMistake(f"--show {name}: there is no {table!r} in summary.json and no such table; there are {tables}")
+        if file.is_file() and column not in _columns(file):
+            raise UserMistake(f"--show {name}: {table} has no column {column!r}; it has {', '.join(_columns(file))}")
 
 
 def quantity(trial, wanted):
@@ -204,11 +229,14 @@ def _write_csv(result, path):
 
 
 def _draw(result, directory):
+    """True where there was something to draw."""
     from fsi_launch.plot.look import style
     from fsi_launch.plot.several_runs import study
     style.use()
-    for name, figure in study.pictures(result):
+    drawn = list(study.pictures(result))
+    for name, figure in drawn:
         style.save(figure, directory / f"{name}.png")
+    return bool(drawn)
 
 
 def main(options):
@@ -229,6 +257,9 @@ def main(options):
     waiting = [trial for trial in found if not _finished(trial)]
     if done := len(found) - len(waiting):
         print(f"{done} of {len(found)} runs are there already", file=sys.stderr)
+    for trial in found:
+        if trial.code == DONE:
+            _expect_shown(trial, options.show)
     _make(waiting, options, done, len(found))
     result = result_of(found, name, vary, options.show)
     text = "\n".join(aligned(_rows(result))) + "\n"
@@ -237,6 +268,6 @@ def main(options):
     (directory / "study.md").write_text(as_markdown(result), encoding="utf-8")
     (directory / "study.json").write_text(json.dumps(result, indent=2) + "\n", encoding="utf-8")
     _write_csv(result, directory / "study.csv")
-    _draw(result, directory)
-    print(f"tables and picture in {directory}", file=sys.stderr)
+    drawn = _draw(result, directory)
+    print(f"tables{' and picture' if drawn else ''} in {directory}", file=sys.stderr)
     return next((trial.code for trial in found if trial.code != DONE), DONE)

@@ -5,6 +5,7 @@ import re
 import textwrap
 
 from fsi_launch import paths
+from fsi_launch.plot.look import units
 
 MOST = 4        # parameters
 LETTERS = 13    # of the line in an inch
@@ -35,8 +36,10 @@ def _own_parameters(name, text):
     return {key: value for key, value in _parameters(text).items() if key in usual and usual[key] != value}
 
 
-def spacing(factor):
+def spacing(factor, unit=""):
     """That of a case with this `grid.factor`, in words."""
+    if unit:
+        return f"h = {0.1 / factor:.4g} {unit}"
     return f"h = 1/{10 * factor:g}" if factor > 0.1 else f"h = {0.1 / factor:g}"
 
 
@@ -45,7 +48,7 @@ def of_case(text, entries):
     name = entries.get("name", "")
     words = [name] if name else []
     if "grid.factor" in entries:
-        words.append(spacing(float(entries["grid.factor"])))
+        words.append(spacing(float(entries["grid.factor"]), units.SYMBOLS[entries.get("units", "none")].get("length", "")))
     laws = [value.replace("_", " ") for key, value in entries.items() if re.fullmatch(r"solids\.[^.]+\.law", key)]
     words += dict.fromkeys(laws)
     words += [f"{key} = {value:g}" for key, value in list(_own_parameters(name, text).items())[:MOST]]

@@ -26,6 +26,7 @@ SOLID_GRIDS = ("#b5281e", ("#e0559f", "#e07b39", "#8c4fb0", "#a0522d"))
 GAS_LINE, SOLID_LINE = "#2b5ea8", "#b5281e"
 MARGIN = 0.06       # around a picture [inch]
 NUMBER = 0.55       # room of a number beside its neighbours [inch]
+LETTER = 0.075      # one of them, and what is free between two numbers [inch]
 NARROW = 1.1        # axes [inch]
 BEYOND = 1.5        # how far texts may reach beyond a figure [inch]
 
@@ -54,12 +55,25 @@ def _plain_numbers(figure):
             axis.set_major_formatter(_Plain())
 
 
+def _room_of_numbers(axis, low, high, width):
+    """(what the longest number along an axis takes, what each has) [inch]"""
+    ticks = [tick for tick in axis.get_major_locator()() if low <= tick <= high]
+    longest = max(map(len, axis.get_major_formatter().format_ticks(ticks)), default=0)
+    return (longest + 1.5) * LETTER, width * (ticks[1] - ticks[0]) / (high - low) if len(ticks) > 1 else width
+
+
 def _few_numbers(figure):
-    """Along narrow axes only as many numbers as find room."""
+    """Along narrow axes, and where they are long, only as many numbers as find room."""
     for axes in figure.axes:
+        if not isinstance(axes.xaxis.get_major_locator(), AutoLocator):      # colour bars have none there
+            continue
         width = axes.get_window_extent().width / figure.dpi
-        if width < NARROW and isinstance(axes.xaxis.get_major_locator(), AutoLocator):      # colour bars have none there
+        if width < NARROW:
             axes.xaxis.set_major_locator(MaxNLocator(max(1, int(width / NUMBER)), min_n_ticks=1))
+            continue
+        taken, room = _room_of_numbers(axes.xaxis, *sorted(axes.get_xlim()), width)
+        if taken > room:
+            axes.xaxis.set_major_locator(MaxNLocator(max(1, int(width / taken)), steps=[1, 2, 2.5, 5, 10]))
 
 
 def _save_drawn_part(figure, path):
@@ -156,7 +170,8 @@ def bar(figure, axes, mesh, label, constant=None):
         ticks = MaxNLocator(6, steps=[1, 2, 5, 10]).tick_values((low - base) / unit, (high - base) / unit)
         shown = [tick for tick in ticks if low <= base + tick * unit <= high]
     one = figure.colorbar(mesh, ax=axes, shrink=0.9, pad=0.02, aspect=18, ticks=[base + tick * unit for tick in shown])
-    one.ax.set_yticklabels([f"{round(tick, 6) + 0.0 if constant is None else tick:.5g}" for tick in shown])
+    numbers = [f"{round(tick, 6) + 0.0 if constant is None else tick:.5g}" for tick in shown]
+    one.ax.set_yticklabels([number.replace("-", "\N{MINUS SIGN}") for number in numbers])      # as along the axes
     one.outline.set_visible(False)
     one.ax.tick_params(labelsize=8)
     lines = (label, f"${base:.10g} +$" if base else "", f"$\\times 10^{{{exponent}}}$" if exponent else "")

@@ -259,6 +259,7 @@ def last_picture(series, look):
     if not series:
         return
     figure = _field_picture(_plan(series, look), 0)
-    times = ", ".join(f"{one.name} at {units.moment(one.outputs[0].t)}" for one in series)
+    moments = [units.moment(one.outputs[0].t) for one in series]
+    times = moments[0] if len(set(moments)) == 1 else ", ".join(f"{one.name} at {t}" for one, t in zip(series, moments))
     figure.suptitle(f"the last state before the solution diverged: {times}", x=0.01, ha="left", fontsize=10)
     yield "fields_last", figure

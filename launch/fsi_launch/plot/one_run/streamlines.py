@@ -186,5 +186,5 @@ def _picture(series, gas, solids, moments, floor):
     figure, axes = _panels(len(moments), box)
     for one, index in zip(axes, moments):
         _panel(figure, one, (gas.outputs[index], [solid.outputs[index] for solid in solids]), most)
-    figure.suptitle("streamlines of the gas" + (", speed of the solid" if most[1] else ""), x=0.01, ha="left", fontsize=10)
+    figure.suptitle(f"streamlines of the gas; colours: {units.label('speed', fields.SPEED.unit)}", x=0.01, ha="left", fontsize=10)
     return figure

@@ -20,7 +20,7 @@ def _beams(series, cases, out):
     if rows := beams.table(runs):
         several.write_table(beams.HEADING, rows, out / "centrelines.csv")
         for label, coarse, fine, t, distance in rows:
-            print(f"{label}: j = {coarse:g} against {fine:g}, t = {t:g}: {distance:.2e}")
+            print(f"{label}: centrelines of j = {coarse:g} and {fine:g} at t = {t:g} are up to {distance:.2e} apart")
 
 
 def pictures(directories, out, times=()):

@@ -75,7 +75,8 @@ def _name_times(axes, curves):
     down = levels([scale * at for at in lowest])
     for t, at, level in zip(curves, lowest, down):
         axes.annotate(units.moment(t), at, xytext=(0, -9 - level * LABEL[1]), textcoords="offset points", ha="center", va="top",
-                      fontsize=8, arrowprops={"arrowstyle": "-", "linewidth": 0.4, "color": "#888888"} if level else None)
+                      fontsize=8, arrowprops={"arrowstyle": "-", "linewidth": 0.4, "color": "#888888"} if level else None,
+                      zorder=4 - 0.01 * level, bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.5})   # over the lines to those below
     axes.set_ylim(bottom - max(down) * LABEL[1] / scale, top)
 
 
@@ -124,4 +125,4 @@ def pictures(series, told, out):
     if rows:
         several.write_table(HEADING, rows, out / "outlines.csv")
         for name, label, other, t, apart in rows:
-            print(f"{name}, {label} against {other}, t = {t:g}: {apart:.2e}")
+            print(f"{name}: outlines of {label} and {other} at t = {t:g} are up to {apart:.2e} apart")

@@ -27,7 +27,7 @@ class Stand final : public Participant {
   explicit Stand(std::vector<std::function<void()>> steps) : steps_(std::move(steps)) {}
 
   wire::Hello hello() const override { return {}; }
-  TimeStepBid compute_time_step() const override { return {.dt = 1, .reason = "one"}; }
+  ProposedTimeStep compute_time_step() const override { return {.dt = 1, .reason = "one"}; }
   void fill(std::size_t /*k*/, wire::PredictedInterface& /*predicted*/) const override {}
   void apply_bcs(double /*t*/, ProjectedStates /*projected*/) override {}
   void advance(double /*t*/, double /*dt*/, int /*substeps*/, ProjectedStates /*projected*/) override {
@@ -47,7 +47,7 @@ class Stand final : public Participant {
 
 /// A run of these steps.
 void run_in(const std::string& folder, std::vector<std::function<void()>> steps, const Process::Say& say) {
-  Setup setup{.problem = {}, .run_dir = folder, .run = fmt::format("lone-{}", getpid()), .name = "gas"};
+  Setup setup{.problem = {}, .run_dir = folder, .run = fmt::format("standalone-{}", getpid()), .name = "gas"};
   setup.problem.time.end = static_cast<double>(steps.size());
   setup.problem.time.step_timeout = limit_s;
   io::Part part;
@@ -59,7 +59,8 @@ void run_in(const std::string& folder, std::vector<std::function<void()>> steps,
 
 class ALoneSolver : public testing::Test {
  public:
-  ALoneSolver() : folder_(std::filesystem::temp_directory_path() / fmt::format("fsi-lone-{}", getpid())) {
+  ALoneSolver()
+      : folder_(std::filesystem::temp_directory_path() / fmt::format("fsi-standalone-{}", getpid())) {
     std::filesystem::create_directories(folder_);
   }
   ~ALoneSolver() override { std::filesystem::remove_all(folder_); }

@@ -8,7 +8,7 @@ import unittest
 from running import EndToEnd, let_pass, until
 
 
-class LoneSolvers(EndToEnd):
+class StandaloneSolvers(EndToEnd):
     def alone(self, case, participant, *options):
         run = self.complete(case, *options)
         summary = run.summary()
