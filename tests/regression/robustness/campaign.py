@@ -1,13 +1,13 @@
 #!/usr/bin/python3
-"""Does what `check` calls fine run? Usage: tests/regression/robustness/campaign.py [--seed N] [--from K] [--count N] [--steps N] [--only WORD]
+"""Does what `check` calls valid run? Usage: tests/regression/robustness/campaign.py [--seed N] [--from K] [--count N] [--steps N] [--only WORD]
 
 Makes random outlines (outlines.py): splines, polygons with sharp corners, bodies 2 to 50 times as long as thick, pairs 20 h to 2 h
 apart, bodies near a wall and on it; rigid ones and elastic ones. Checks each and runs it while a shock of Mach 1.5, two spacings
 away at first, meets it: so many steps, and on until it has gone six spacings. Prints a line for each (time step, largest
 pressure on a body in parts of that behind the shock, amplification of implicit interpolation where there is any) and tables.
 
-Exit 1 where a case that `check` calls fine does not come to its end, where the shock did not meet its body, where a refusal has no
-place in the file, or (of twenty cases at least) where `check` calls fewer than 95 % of the roomy cases fine: those with thickness and gaps of four
+Exit 1 where a case that `check` calls valid does not come to its end, where the shock did not meet its body, where a refusal has no
+place in the file, or (of twenty cases at least) where `check` calls fewer than 95 % of the roomy cases valid: those with thickness and gaps of four
 spacings and corners of 30 degrees. The same seed makes the same cases. `robustness.outlines` of the suite runs a dozen. Programs: build/release/bin, or $FSI_BIN.
 """
 
@@ -72,25 +72,25 @@ def became(case, path, options):
 
 
 def table_of(results):
-    """One row per kind: cases, how many of them `check` calls fine, ran, and what else became of them."""
-    rows = ["| outlines | cases | `check` says fine | ran | too dear to run | failed | roomy ones | of these fine |", "|" + "---|" * 8]
+    """One row per kind: cases, how many of them `check` calls valid, ran, and what else became of them."""
+    rows = ["| outlines | cases | `check` says valid | ran | too dear to run | failed | roomy ones | of these valid |", "|" + "---|" * 8]
     kinds = list(dict.fromkeys(case.kind for case, _ in results))
     for kind in [*kinds, "all"]:
         own = [(case, result) for case, result in results if kind in (case.kind, "all")]
         count = Counter(result for _, result in own)
         roomy = [result for case, result in own if case.is_roomy()]
-        fine = sum(result not in ("refused", "NO PLACE") for _, result in own)
-        fine_roomy = sum(result not in ("refused", "NO PLACE") for result in roomy)
-        rows.append(f"| {kind.replace('_', ' ')} | {len(own)} | {fine} | {count['ran']} | {count['dear']} | "
-                    f"{sum(count[word] for word in WRONG)} | {len(roomy)} | {fine_roomy} |")
+        valid = sum(result not in ("refused", "NO PLACE") for _, result in own)
+        valid_roomy = sum(result not in ("refused", "NO PLACE") for result in roomy)
+        rows.append(f"| {kind.replace('_', ' ')} | {len(own)} | {valid} | {count['ran']} | {count['dear']} | "
+                    f"{sum(count[word] for word in WRONG)} | {len(roomy)} | {valid_roomy} |")
     return "\n".join(rows)
 
 
 def is_sound(results):
-    """No failures, and 95 % of the roomy cases are fine, where there are enough to say so."""
+    """No failures, and 95 % of the roomy cases are valid, where there are enough to say so."""
     roomy = [result for case, result in results if case.is_roomy()]
-    fine = sum(result not in ("refused", "NO PLACE") for result in roomy)
-    enough = len(roomy) < 20 or fine >= 0.95 * len(roomy)
+    valid = sum(result not in ("refused", "NO PLACE") for result in roomy)
+    enough = len(roomy) < 20 or valid >= 0.95 * len(roomy)
     return enough and not any(result in WRONG for _, result in results)
 
 

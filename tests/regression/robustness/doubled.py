@@ -4,7 +4,7 @@
     tests/regression/robustness/doubled.py [--steps N] CASE ...       its first steps
     tests/regression/robustness/doubled.py --whole CASE ...           all of it
 
-Checks each case (a name in configs/ or in this folder, as own/star, or a path) with its own `grid.factor`, twice and four times that, runs what `check` calls fine for
+Checks each case (a name in configs/ or in this folder, as own/star, or a path) with its own `grid.factor`, twice and four times that, runs what `check` calls valid for
 the time that so many steps of 2.5 times the estimate take (or to its end), and prints a table. Exit 1 where one is refused or does not come to its end.
 With --whole the table has what the run counted and the least and largest pressure of its outputs, and a run may also end by itself where
 bodies meet each other or a wall, which is not computed. Programs: build/release/bin, or $FSI_BIN.
