@@ -1,4 +1,4 @@
-"""The studies of record_results.py about outlines: does what `check` calls fine run, on finer grids too?"""
+"""The studies of record_results.py about outlines: does what `check` calls valid run, on finer grids too?"""
 
 import csv
 import math

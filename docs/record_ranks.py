@@ -3,8 +3,7 @@
 
 record_ranks.py [--ranks N,N,..] [--repeat K] [--steps S] [--case CASE [--who NAME] [--set KEY=VALUE ..]]
 
-NAME: who has the ranks and is timed (default: fluid). A block of 501 x 501 points, and an ellipse in a gas:
-record_ranks.py --case spinning_block --who block --set grid.factor=50 --set time.end=0.05 --set output={} --set expect={}
+NAME: who has the ranks and is timed (default: fluid). STUDIES has the commands of docs/results.md. An ellipse in a gas:
 record_ranks.py --case shock_ellipse --who ellipse --set grid.factor=16 --set time.end=0.03 --set output={} --set expect={}
 """
 
@@ -13,14 +12,33 @@ import json
 import os
 import re
 import resource
+import shlex
 import statistics
 import subprocess
+import sys
 import tempfile
 import time
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
 SQUARE = ["fluid.grid={x: [0, 1], y: [0, 1], spacing: 1/1023}", "time.dt=3e-4", "output.times=[]", "reference={kind: none}", "expect={}"]
+
+# What docs/results.md has: a gas alone on one grid and on three levels, and a solid alone.
+STUDIES = (("gas, 1024 x 1024 points", ["--steps", "240"]),
+           ("gas on three levels, the finest of 2048 x 2048 points around a shock, a contact and a rarefaction",
+            ["--set", "fluid.grid={x: [0, 1], y: [0, 1], spacing: 1/2047, levels: 3}", "--set", "output.times=[]", "--set", "reference={kind: none}",
+             "--set", "expect={}", "--set", "time.end=0.03"]),
+           ("solid, 501 x 501 points", ["--case", "spinning_block", "--who", "block", "--set", "grid.factor=50", "--set", "time.end=0.1", "--set", "output={}",
+                                        "--set", "expect={}"]))
+
+
+def studies(_tools):
+    """(title, function) for docs/record_results.py."""
+    def tables():
+        for what, words in STUDIES:
+            said = subprocess.run([sys.executable, __file__, *words], check=True, capture_output=True, text=True).stdout
+            yield f"{what[0].upper() + what[1:]}: `docs/record_ranks.py {shlex.join(words)}`\n\n{said}"
+    yield "Two ranks against one", lambda: "\n".join(tables())
 
 
 def measured(folder, ranks, options):
@@ -55,7 +73,8 @@ def main():
         for turn in range(options.repeat):
             for count in counts:
                 results[count].append(measured(f"{scratch}/{turn}-{count}", count, options))
-    print(f"{options.case}, load {os.getloadavg()[0]:.1f}; medians of {options.repeat}, in turn")
+    ahead = " at real-time priority" if os.sched_getscheduler(0) in (os.SCHED_RR, os.SCHED_FIFO) else ""
+    print(f"{options.case}{ahead}, load {os.getloadavg()[0]:.1f}; medians of {options.repeat}, in turn\n")
     print("| ranks | a step [ms] | times as fast | processor time [s] | messages of rank 0 a step | numbers in them | memory of rank 0 [MiB] |")
     print("|---|---|---|---|---|---|---|")
     first = statistics.median(one["step"] for one in results[counts[0]])

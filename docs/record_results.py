@@ -33,6 +33,7 @@ import record_impacts
 import record_levels
 import record_outlines
 import record_paper
+import record_ranks
 import thin_studies
 import wall_studies
 
@@ -215,6 +216,14 @@ def watched(name, repetitions=5):
         lines.append(f"| {label} | {statistics.median(seconds[label]):.2f} | {min(seconds[label]):.2f} .. {max(seconds[label]):.2f} | "
                      f"{statistics.median(walls[label]):.2f} | {'the same bits' if same else 'DIFFERENT'} |")
     return f"`./launch/fsi {shlex.join(typed)}`, {repetitions} times each, medians\n\n" + "\n".join(lines) + "\n"
+
+
+def looked_at(pairs):
+    """What the live pictures cost a run, in pairs of runs that go on at the same time."""
+    command = ["docs/record_watching.py", "--pairs", str(pairs)]
+    said = subprocess.run([sys.executable, *command], cwd=ROOT, check=True, capture_output=True, text=True).stdout
+    return (f"`{shlex.join(command)}`: pictures of the gas's pressure, the solid's speed and the outlines, and the stream of states, asked for without a "
+            f"break as the page does. Processor time of all programs of a run.\n\n{said}")
 
 
 def profile(name):
@@ -480,7 +489,7 @@ How to read it:
 - Defects of mass, momentum and energy: [what they hold](output.md#budgets).
 - A section ends with the commit of the programs that gave it. Those without one are older than 23 November 2026; where a deforming solid is loaded or held, the
   present programs give errors that differ by some per cent. The commands are the same.
-- Times in seconds come from machines with two cores. Those in tables of errors were taken beside other work and say nothing but the order of size; those of
+- Times in seconds come from machines with two cores. Those in tables of errors were taken beside other work and tell no more than the order of magnitude; those of
   "time of each program" and of the benchmarks come from a quiet machine and vary by some per cent.
 
 """
@@ -504,10 +513,10 @@ def all_studies():
     tools = sys.modules[__name__]
     return [*piston_studies(), *record_paper.manufactured(tools),
             ("Gas: manufactured solution on a moving grid", lambda: converge("chosen-gas", "gas_manufactured", "2,4,8,16")),
-            *other_studies(), *record_paper.disks(tools), *disk_studies(), *record_ellipse.studies(tools), *record_levels.studies(tools), *beam_studies.studies(tools), *wall_studies.studies(tools),
+            *other_studies(), *record_paper.disks(tools), *disk_studies(), *record_ellipse.studies(tools), *record_levels.studies(tools), *record_ranks.studies(tools), *beam_studies.studies(tools), *wall_studies.studies(tools),
             *flutter_studies.studies(tools), *thin_studies.studies(tools),
             *record_impacts.studies(tools), *record_outlines.studies(tools),
-            ("What watching costs", lambda: watched("watched")),
+            ("What watching costs", lambda: watched("watched")), ("What live pictures cost", lambda: looked_at(15)),
             ("Signals to every program at random moments", lambda: faults(200)), *record_faults.studies(tools),
             ("What protecting the bus costs", lambda: protection("protection")),
             ("Damaged case files", lambda: damaged(10000)),
