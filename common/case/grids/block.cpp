@@ -107,13 +107,14 @@ bool leaves_block_open(const config::Node& solid) {
 }
 
 std::array<int, 2> block_points(const std::array<Vec2, 4>& corners, double h) {
-  const auto points = [&](std::size_t side, std::size_t opposite) {
-    const double length = 0.5 * ((corners[(side + 1) % 4] - corners[side]).norm() +
-                                 (corners[(opposite + 1) % 4] - corners[opposite]).norm());
-    constexpr double fewest = 4, most = 1e8;  // cells
-    return static_cast<int>(std::lround(std::clamp(length / h, fewest, most))) + 1;
+  const auto length = [&](std::size_t side) { return (corners[(side + 1) % 4] - corners[side]).norm(); };
+  const std::array lengths = {0.5 * (length(0) + length(2)), 0.5 * (length(1) + length(3))};
+  constexpr double fewest = 4, most = 1e8, longest = 1.5;  // cells, cells, widths of a cell
+  const double width = longest * std::min(lengths[0], lengths[1]) / fewest;
+  const auto points = [&](double side) {
+    return static_cast<int>(std::lround(std::clamp(side / std::min(h, width), fewest, most))) + 1;
   };
-  return {points(0, 2), points(1, 3)};
+  return {points(lengths[0]), points(lengths[1])};
 }
 
 std::vector<Side> sides_along(const CurveSpec& outline) {

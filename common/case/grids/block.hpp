@@ -29,7 +29,9 @@ BlockCorners block_corners(const CurveSpec& outline);
 /// Nothing is said of a ring or a core: a body of four straight sides takes one grid from corner to corner.
 bool leaves_block_open(const config::Node& solid);
 
-/// Points of a grid between these corners, h apart on the mean, five at least in each direction.
+/// Points of a grid between these corners, h apart on the mean, five at least in each direction; across a thin
+/// block cells are thinner than h, and no more than half as long again along it, for the lines of the gas that
+/// leave its corners lean towards the side whose points are farther apart.
 std::array<int, 2> block_points(const std::array<Vec2, 4>& corners, double h);
 
 /// Sides of the grid of a block that are its outline, in the order of the outline.

@@ -94,7 +94,7 @@ TEST(Blocks, OnAWallTheSideOfThatNameStandsThere) {
 TEST(Blocks, ThinOnesHaveFourCellsAcrossAndGivenPointsStay) {
   const std::string thin = "corners: [[-0.5, 0], [0.5, 0], [0.5, 0.1], [-0.5, 0.1]]";
   const GridSpec chosen = load_text(block_case(thin)).solids.front().grid;
-  EXPECT_EQ(chosen.n1, 21);
+  EXPECT_EQ(chosen.n1, 28);  // cells at most half as long again as wide
   EXPECT_EQ(chosen.n2, 5);
   const GridSpec given =
       load_text(block_case(thin, "    grid: {kind: block, points: [31, 9]}\n")).solids.front().grid;
@@ -104,6 +104,13 @@ TEST(Blocks, ThinOnesHaveFourCellsAcrossAndGivenPointsStay) {
       load_text(block_case(thin, "    grid: {kind: block, spacing: 0.02}\n")).solids.front().grid;
   EXPECT_EQ(spaced.n1, 51);
   EXPECT_EQ(spaced.n2, 6);
+}
+
+TEST(Blocks, PointsOnlyFarApartAlongThemAreRefused) {
+  const std::string thin = "corners: [[-0.5, 0], [0.5, 0], [0.5, 0.04], [-0.5, 0.04]]";
+  EXPECT_EQ(mistake_in(block_case(thin)), "");
+  const std::string message = mistake_in(block_case(thin, "    grid: {kind: block, points: [19, 5]}\n"));
+  EXPECT_NE(message.find("solids.block.grid: cells 0.0556 x 0.01: "), std::string::npos) << message;
 }
 
 TEST(Blocks, TooManyPointsAreRefusedAtOnce) {
