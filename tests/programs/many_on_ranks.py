@@ -1,4 +1,4 @@
-"""Many runs on several ranks, by hand (test_ranks.py --all, --restarts, --kills): all shipped cases, on ranks and from checkpoints of
+"""Many runs on several ranks, by hand (test_ranks.py --all, --in-turn, --restarts, --kills): all shipped cases, on ranks and from checkpoints of
 other ranks, and somebody who is killed at a random moment.
 """
 
@@ -101,28 +101,37 @@ def restarted(scratch, case, options, ranks, whole):
     return f"same from step {run.checkpoints()[0]}" if all(same) else f"DIFFERENT {same}"
 
 
+def compare(name, case_file, able, layouts, steps):
+    """What became of one case on each layout, (ranks, rows anew after so many steps or 0), the first of which the others must repeat."""
+    verdicts, whole = [], None
+    for number, every in layouts:
+        with tempfile.TemporaryDirectory() as scratch:
+            run = Launched(Path(scratch), name, *few_steps(case_file, steps), *on_ranks(able, number),
+                           script=RECUT.format(every=every) if every else None)
+            if run.wait() != 0:
+                verdicts.append(f"{number}: {run.stderr.strip().splitlines()[-1]}")
+                break
+            found = digest_of(run.directory)
+        whole = whole or found
+        same = [mine == its for mine, its in zip(whole, found)]
+        verdicts.append(f"{number}{'*' if every else ''}: {'same' if all(same) else f'DIFFERENT {same}'}")
+    print(f"{name:25} {', '.join(verdicts)}", flush=True)
+    return all("same" in verdict for verdict in verdicts)
+
+
 def compare_all(numbers_of_ranks, cases, steps=16):
+    """The names of cases that differ on some number of ranks, or where rows are shared out anew."""
+    layouts = [(1, 0), *((number, 0) for number in numbers_of_ranks), (numbers_of_ranks[-1], 5)]
+    return [case for path, case, able in shipped(cases) if not compare(case, f"configs/{path.name}", able, layouts, steps)]
+
+
+def compare_in_turn(numbers_of_ranks, cases, steps=8):
+    """The same with one of the numbers for each case, by turns, and rows shared out anew in every second round."""
     failed = []
-    with tempfile.TemporaryDirectory() as scratch:
-        for path, case, able in shipped(cases):
-            verdicts = []
-            whole = None
-            for number, every in [(1, 0), *((n, 0) for n in numbers_of_ranks), (numbers_of_ranks[-1], 5)]:
-                folder = Path(scratch) / case / f"{number}_{every}"
-                folder.mkdir(parents=True)
-                run = Launched(folder, case, *few_steps(f"configs/{path.name}", steps), *on_ranks(able, number),
-                               script=RECUT.format(every=every) if every else None)
-                if run.wait() != 0:
-                    verdicts.append(f"{number}: {run.stderr.strip().splitlines()[-1]}")
-                    break
-                found = digest_of(run.directory)
-                whole = whole or found
-                same = [mine == its for mine, its in zip(whole, found)]
-                verdicts.append(f"{number}{'*' if every else ''}: {'same' if all(same) else f'DIFFERENT {same}'}")
-            ok = all("same" in verdict for verdict in verdicts)
-            failed += [] if ok else [case]
-            print(f"{case:25} {', '.join(verdicts)}", flush=True)
-            shutil.rmtree(Path(scratch) / case)
+    for k, (path, case, able) in enumerate(shipped(cases)):
+        number, again = numbers_of_ranks[k % len(numbers_of_ranks)], 3 * (k // len(numbers_of_ranks) % 2)
+        if not compare(case, f"configs/{path.name}", able, [(1, 0), (number, again)], steps):
+            failed.append(case)
     return failed
 
 

@@ -4,6 +4,7 @@ get, also after a restart on other ranks; and when a rank is killed or stopped, 
 
 test_ranks.py --kills N [SEED]           so many runs with two ranks for gas and solid each, of which somebody is killed or stopped
 test_ranks.py --all [RANKS..] [CASE..]  all shipped cases, or these, for some steps, with so many ranks (default: 2 3 4 7)
+test_ranks.py --in-turn [RANKS..] [CASE..]  the same with one of the numbers for each case, by turns; `programs.ranks_in_turn` of the suite
 test_ranks.py --restarts [RANKS..] [CASE..]  the same, from a checkpoint of the first number of ranks on with the second, and so on around
                                         (default: 3 2 4)
 """
@@ -18,7 +19,7 @@ from pathlib import Path
 
 from running import BIN, EndToEnd, PATIENT, processes, until
 from test_restart import Restarting
-from many_on_ranks import LASTING, RECUT, compare_all, kill_again_and_again, restart_all
+from many_on_ranks import LASTING, RECUT, compare_all, compare_in_turn, kill_again_and_again, restart_all
 
 MISSING = [what for what, there in (("libfsi_ranks_mpi.so", (BIN / "libfsi_ranks_mpi.so").is_file()),
                                     ("mpirun", shutil.which("mpirun"))) if not there]
@@ -282,8 +283,12 @@ class Refusals(EndToEnd):
 if __name__ == "__main__":
     if "--kills" in sys.argv:
         sys.exit(1 if kill_again_and_again(int(sys.argv[2]), int((sys.argv[3:] or [1])[0])) else 0)
-    for option, compare, default in (("--all", compare_all, [2, 3, 4, 7]), ("--restarts", restart_all, [3, 2, 4])):
+    for option, compare, default in (("--all", compare_all, [2, 3, 4, 7]), ("--in-turn", compare_in_turn, [2, 3, 4, 7]),
+                                     ("--restarts", restart_all, [3, 2, 4])):
         if option in sys.argv:
+            if MISSING:
+                print(f"no Open MPI: {', '.join(MISSING)} is missing (apt-get install openmpi-bin libopenmpi-dev, build again)")
+                sys.exit(77)
             words = sys.argv[2:]
             counts = [int(word) for word in words if word.isdecimal()] or default
             sys.exit(1 if compare(counts, [word for word in words if not word.isdecimal()]) else 0)
