@@ -118,7 +118,10 @@ StepCost step_of(const std::string& program, const Owner& owner, double speed) {
                 .dt = 1 / (speed * worst.rate),
                 .grid = *worst.grid,
                 .x = worst.x,
-                .cell = worst.cell};
+                .cell = worst.cell,
+                .has_corners = std::ranges::any_of(fitted_grids(owner), [&](const BodyFittedSpec& fitted) {
+                  return fitted.name == *worst.grid && !fitted.curve.corners.empty();
+                })};
   const std::size_t few = std::min(fitted_cells / 20, rates.size() - 1);
   cost.usual_dt = 1 / (speed * rates[few].rate);
   return cost;
@@ -221,9 +224,11 @@ std::string cost_text(const RunCost& cost) {
     if (program.usual_dt > few * program.dt)
       warning += fmt::format(
           "  {}: a twentieth of the cells, near that place, makes the step {:.2g} times smaller than "
-          "the others need: round the outline more there, or not at all (`radius: 0` of a polygon), or "
-          "write a greater `spacing` or fewer `points` for that grid\n",
-          program.program, program.usual_dt / program.dt);
+          "the others need: {}write a greater `spacing` or fewer `points` for that grid\n",
+          program.program, program.usual_dt / program.dt,
+          program.has_corners
+              ? ""
+              : "round the outline more there, or not at all (`radius: 0` of a polygon), or ");
   }
   const bool levels =
       std::ranges::any_of(cost.programs, [](const StepCost& program) { return program.levels > 1; });

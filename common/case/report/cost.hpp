@@ -20,6 +20,7 @@ struct StepCost {
   std::string grid = {};     ///< whose cell sets it
   Vec2 x = Vec2::Zero();     ///< where
   Vec2 cell = Vec2::Zero();  ///< distances of points there, along the grid's two directions [length]
+  bool has_corners = false;  ///< that grid is fitted to an outline with sharp corners
   double usual_dt =
       0;  ///< with the worst twentieth of all cells left out: much greater where a few set the step
 };
