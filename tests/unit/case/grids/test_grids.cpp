@@ -355,18 +355,5 @@ TEST(CostOfARun, SaysWhereAFewSmallCellsSetTheStep) {
   EXPECT_EQ(cost_text(cost_of(load_text(bodies_case({circle})))).find("times smaller"), std::string::npos);
 }
 
-TEST(CostOfARun, SharpCornersAreNotToBeRoundedMore) {
-  const auto advice = [](const std::string& radius) {
-    const std::string needle =
-        "{kind: polygon, corners: [[-0.5, 0], [0.5, -0.06], [0.5, 0.06]]" + radius + "}";
-    const std::string text = cost_text(cost_of(load_text(bodies_case({needle}))));
-    return text.find("times smaller") == std::string::npos ? "" : text.substr(text.find("the others need"));
-  };
-  EXPECT_NE(advice(", sharpness: 50").find("round the outline"), std::string::npos)
-      << advice(", sharpness: 50");
-  EXPECT_NE(advice(", radius: 0").find("write a greater"), std::string::npos) << advice(", radius: 0");
-  EXPECT_EQ(advice(", radius: 0").find("round the outline"), std::string::npos) << advice(", radius: 0");
-}
-
 }  // namespace
 }  // namespace fsi

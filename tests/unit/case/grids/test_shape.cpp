@@ -7,6 +7,7 @@
 #include <string>
 
 #include "common/case/grids/composite_from_case.hpp"
+#include "common/case/report/cost.hpp"
 #include "tests/unit/case/cases.hpp"
 
 namespace fsi {
@@ -143,6 +144,18 @@ TEST(CaseShape, TheCornersOfAThinPolygonAreSharpUnlessTheFileSaysOtherwise) {
                         .replace(flap_case(rigid, 0.04).find("[-0.5 * d, 1]"), 13,
                                  "[-0.5 * d, 0.5], [-0.4 * d, 0.7], [-0.5 * d, 1]")),
             0U);
+}
+
+TEST(CaseShape, WhoHasSharpCornersIsNotToldToRoundThemMore) {
+  const auto advice = [](const std::string& corners) {
+    const std::string text =
+        cost_text(cost_of(load_text(flap_case("law: rigid\n    rho: 1\n    motion: fixed", 0.02, corners))));
+    const std::size_t from = text.find("the others need");
+    return from == std::string::npos ? "" : text.substr(from);
+  };
+  EXPECT_NE(advice(", sharpness: 50").find("round the outline"), std::string::npos);
+  EXPECT_NE(advice(", radius: 0").find("write a greater"), std::string::npos) << advice(", radius: 0");
+  EXPECT_EQ(advice(", radius: 0").find("round the outline"), std::string::npos) << advice(", radius: 0");
 }
 
 struct ShapeMistake {
