@@ -22,8 +22,8 @@ class InstalledSdk(EndToEnd):
         project.mkdir()
         for name in ("CMakeLists.txt", "main.cpp"):
             shutil.copy(ROOT / "examples" / "spring_piston" / name, project)
-        self.do("cmake", "-S", project, "-B", build, "-D", f"CMAKE_PREFIX_PATH={installed}")
-        compiled = (build / "CMakeFiles" / "spring_piston.dir" / "flags.make").read_text(encoding="utf-8")
+        self.do("cmake", "-G", "Ninja", "-S", project, "-B", build, "-D", f"CMAKE_PREFIX_PATH={installed}")
+        compiled = (build / "build.ninja").read_text(encoding="utf-8")
         self.assertIn(f"{installed}/include/amp_fsi", compiled)
         self.assertNotIn(f"{ROOT}/", compiled)
         self.do("cmake", "--build", build)
