@@ -23,7 +23,7 @@ from fsi_launch.failure import UserMistake  # noqa: E402
 from fsi_launch.plot.look import caption, shading, style  # noqa: E402
 from fsi_launch.plot.one_run import curves, disk, fields, schlieren  # noqa: E402
 from fsi_launch.plot.reading import data, mesh, scales  # noqa: E402
-from fsi_launch.plot.several_runs import outlines, several, side_by_side  # noqa: E402
+from fsi_launch.plot.several_runs import lines, outlines, several, side_by_side  # noqa: E402
 
 HOLE, RIM, OUTER = 0.5, 0.55, 0.8  # radii: unused points, the ring's inside and outside
 
@@ -336,6 +336,20 @@ class Lines(unittest.TestCase):
         for grids, found in (([alone], ["lines"]), ([alone, ring()], [])):
             series = [data.Series("fluid", [data.Output(1.0, grids)]), body]
             self.assertEqual([name for name, _ in curves.pictures(series, [], scales.Scales(1, 1, 1), {})], found)
+
+    def test_runs_of_the_same_programs_are_compared_along_their_line(self):
+        x1, x2 = np.meshgrid(np.linspace(0, 1, 11), np.linspace(0, 1, 3))
+
+        def run(p, name="fluid"):
+            grid = read({"x1": x1, "x2": x2, "rho": 1 + x1, "p": p * (1 + x1), "v1": x1, "v2": 0 * x1})
+            return [data.Series(name, [data.Output(t, [grid]) for t in (0.0, 0.5, 0.7 + p)], True)]
+
+        [(name, figure)] = lines.pictures([run(1), run(2)], ["one", "two"])
+        self.assertEqual((name, figure._suptitle.get_text()), ("lines_compared", "t = 0.5"))
+        pressure = figure.axes[2].lines
+        self.assertEqual([(line.get_label(), line.get_ydata()[-1]) for line in pressure], [("one", 2), ("two", 4)])
+        self.assertEqual(list(lines.pictures([run(1), run(2, "other")], ["one", "two"])), [])
+        self.assertEqual(list(lines.pictures([run(1), [data.Series("fluid", [data.Output(0.5, [ring()])], True)]], ["one", "two"])), [])
 
     def test_a_reference_is_drawn_at_its_own_time_and_place_in_space(self):
         x1, x2 = np.meshgrid(np.linspace(0, 1, 11), np.linspace(0, 1, 3))
