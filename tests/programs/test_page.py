@@ -197,6 +197,26 @@ class Page(WebTest):
         self.becomes("memory.limiters[0][0]", 0)
         self.assertEqual(self.page.problems, [])
 
+    def test_proposals_have_the_colours_of_gas_and_solid_and_say_who_takes_substeps(self):
+        self.begin()
+        self.page.show(self.url)
+        self.shows("proposals-legend", "fluid")
+        colours = "coloursOf([%s].map((role) => ({ role }))).join() === [%s].map((name) => theme[name]).join()"
+        self.assertTrue(self.page.do(colours % ("'solid', 'fluid', 'fluid', 'solid'", "'solid', 'gas', 'good', 'busy'")))
+        of_a_body = "takesSubsteps({dt: 0.5, limited_by: 'fluid', participants: {body: {proposed_dt: %s}}}, 'body')"
+        self.assertEqual([self.page.do(of_a_body % dt) for dt in ("0.1", "0.6", "null")], [True, False, False])
+        marks = "logAxis(Math.log10(%s), Math.log10(%s), 3).marks.map(([, label]) => label).join(' ')"
+        self.assertEqual(self.page.do(marks % (0.011, 0.0144)), "0.012 0.014")
+        self.assertEqual(self.page.do(marks % (0.9, 60)), "1e0 2e0 5e0 1e1 2e1 5e1")
+        self.assertEqual(self.page.problems, [])
+
+    def test_a_rigid_body_has_no_stress_that_would_be_compared(self):
+        self.begin("rigid_piston", "--set", "time.dt=1e-7", "--set", "output.times=[1e-6, 1]", "--set", "expect={}")
+        self.page.show(self.url)
+        self.becomes("[...document.querySelectorAll('#interfaces td')].filter((cell) => cell.innerText === '\u2013').length", 2)
+        self.becomes("[...document.querySelectorAll('#histories canvas')].filter((one) => /no stress of its own/.test(one.getAttribute('aria-label'))).length", 2)
+        self.assertEqual(self.page.problems, [])
+
     def test_one_cursor_reads_all_plots_and_a_zoom_holds_for_all(self):
         self.begin()
         self.page.show(self.url)
@@ -234,6 +254,8 @@ class Page(WebTest):
         self.becomes(drawn, run.summary()["steps"] + 1, "not all that the table holds is drawn")
         self.becomes("plots.get(document.getElementById('proposals')).plot.curves.map((one) => one.name + ' ' + (one.x.length > 10)).join()",
                      "fluid true,solid true,agreed on true")
+        self.becomes("[...document.querySelectorAll('section')].filter((section) => section.hidden).length", 4, "what a folder does not hold is not hidden")
+        self.shows("notice", "fsi monitor --record")
         self.assertEqual(self.page.problems, [])
 
     def test_lost_connection_is_shown_while_the_run_goes_on(self):
