@@ -207,7 +207,29 @@ class Page(WebTest):
         self.assertEqual([self.page.do(of_a_body % dt) for dt in ("0.1", "0.6", "null")], [True, False, False])
         marks = "logAxis(Math.log10(%s), Math.log10(%s), 3).marks.map(([, label]) => label).join(' ')"
         self.assertEqual(self.page.do(marks % (0.011, 0.0144)), "0.012 0.014")
+        self.assertEqual(self.page.do("axis(0.13, 1.51, 2).marks.map(([value]) => value)"), [0.5, 1, 1.5])
         self.assertEqual(self.page.do(marks % (0.9, 60)), "1e0 2e0 5e0 1e1 2e1 5e1")
+        self.assertEqual(self.page.problems, [])
+
+    def test_a_phone_shows_all_of_the_width_and_no_label_over_another(self):
+        self.begin()
+        self.page.ask("Emulation.setDeviceMetricsOverride", width=390, height=844, deviceScaleFactor=1, mobile=True)
+        self.page.show(self.url)
+        self.shows("proposals-legend", "limited by")
+        self.assertEqual(self.page.do("document.documentElement.scrollWidth"), 390)
+        self.assertLess(self.page.do("document.querySelector('header').offsetHeight"), 844 / 4)
+        over = """(() => {
+            const drawn = [], draw = CanvasRenderingContext2D.prototype.fillText;
+            CanvasRenderingContext2D.prototype.fillText = function (text, x, y) {
+                if (/^(now|-\\d+ s)$/.test(text)) drawn.push([x - this.measureText(text).width / 2, x + this.measureText(text).width / 2]);
+                draw.apply(this, arguments);
+            };
+            drawTimeline(document.getElementById("timeline"), [], 0, 60);
+            CanvasRenderingContext2D.prototype.fillText = draw;
+            drawn.sort((a, b) => a[0] - b[0]);
+            return [drawn.length > 2, drawn.filter(([left], k) => k && left < drawn[k - 1][1]).length];
+        })()"""
+        self.assertEqual(self.page.do(over), [True, 0])
         self.assertEqual(self.page.problems, [])
 
     def test_a_rigid_body_has_no_stress_that_would_be_compared(self):

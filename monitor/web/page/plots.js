@@ -43,7 +43,7 @@ function ticks(low, high, count) {
 
 // Labels of an axis: with a common offset where the numbers differ in their last digits only.
 function axis(low, high, count) {
-  const at = ticks(low, high, count), size = Math.max(Math.abs(low), Math.abs(high));
+  const few = ticks(low, high, count), at = few.length < 2 ? ticks(low, high, 2 * count) : few, size = Math.max(Math.abs(low), Math.abs(high));
   if (high - low < 1e-4 * size && at.length > 0) {
     const offset = at[0];
     return { offset, marks: at.map((v) => [v, v === offset ? "0" : (v - offset).toExponential(0).replace("e+", "e")]) };
@@ -349,5 +349,6 @@ function drawTimeline(canvas, rows, now, span) {
   });
   pen.fillStyle = theme.dim;
   pen.textAlign = "center";
-  for (let ago = 0; ago <= span; ago += 10) pen.fillText(ago === 0 ? "now" : `-${ago} s`, Math.min(place(now - ago), right - 12), height - 8);
+  const room = pen.measureText("-00 s").width + 8, every = [10, 20, 30, 60].find((seconds) => (seconds / span) * (right - left) >= room + 12) || span; // "now" is moved to the left
+  for (let ago = 0; ago <= span; ago += every) pen.fillText(ago === 0 ? "now" : `-${ago} s`, Math.min(place(now - ago), right - 12), height - 8);
 }
