@@ -367,6 +367,17 @@ class Lines(unittest.TestCase):
             self.assertLess(np.abs(np.interp(computed[:, 0], *reference[0].T) - computed[:, 1]).max(), 1e-12)
 
 
+class Times(unittest.TestCase):
+    def test_times_that_are_left_out_are_told(self):
+        x1, x2 = np.meshgrid(np.linspace(0, 1, 11), np.linspace(0, 1, 3))
+        grid = read({"x1": x1, "x2": x2, "rho": 1 + x1, "p": 1 + x1, "v1": x1, "v2": 0 * x1})
+        for count, told in ((12, ""), (13, "fields: 12 of 13 output times are drawn; --at TIME draws others\n")):
+            gas = data.Series("fluid", [data.Output(0.1 * k, [grid]) for k in range(count)], True)
+            with contextlib.redirect_stderr(io.StringIO()) as said:
+                self.assertEqual(len(list(fields.pictures([gas], fields.Look(scales.Scales(1, 1, 1))))), 12)
+            self.assertEqual(said.getvalue(), told)
+
+
 class Disk(unittest.TestCase):
     def test_deformation_gradient_of_a_linear_displacement_is_exact_also_at_the_seam(self):
         F = disk._deformation_gradient(ring())

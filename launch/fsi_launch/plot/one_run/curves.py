@@ -16,6 +16,7 @@ MOST_TIMES = 6
 REFERENCE = {"color": "black", "linewidth": 2.6, "alpha": 0.3, "zorder": 1}
 SAME_VALUE = 1e-11  # differences, part of the values, that are round-off
 PROPOSED = ".proposed_dt"   # of the name of a column
+OF_STRESS = ("traction_jump", "shear")      # which a solid without a stress of its own, as a rigid body, has none of
 FAR = 30            # times the step taken: proposals beyond take a logarithmic scale
 FEW = 16            # times, which are marked: between them nothing is known
 WORDS = {"dt": "time step", "force1": "force along $x$", "force2": "force along $y$", "centre1": "$x$ of the centre", "centre2": "$y$ of the centre",
@@ -200,7 +201,9 @@ def _proposals(axes, table, t):
 
 
 def _drawn_alone(name, values, time):
-    return values.dtype.kind == "f" and name != time and _bare(name) != "step" and not _bare(name).endswith(PROPOSED)
+    if values.dtype.kind != "f" or name == time or _bare(name) == "step" or _bare(name).endswith(PROPOSED):
+        return False
+    return _bare(name).rsplit(".", 1)[-1] not in OF_STRESS or values.any()
 
 
 def _table_picture(table, scales):
