@@ -168,6 +168,8 @@ class Page(WebTest):
                                    "return [rangeOf({...p, low: 0, high: 1e-20})[1], memory.state.interfaces.solid.velocity_scale]; })()")
         self.assertGreater(scale, 0)
         self.assertAlmostEqual(high / scale, 1e-11)
+        self.page.do("(() => { const [gas] = live.drawn; limitsOf(gas).seen = [1e-17, 1]; showBars(live.drawn); })()")
+        self.assertEqual(self.page.do("document.getElementById('gas-low').value"), "0")
         self.assertEqual(self.page.problems, [])
 
     def test_the_picture_of_a_run_that_pauses_is_that_of_where_it_stands(self):
