@@ -228,7 +228,7 @@ class SolidSolver {
   bool shows(Side side, int grid) const {
     return early_.ranks().first() || component(grid).boundary().sides().present(side);
   }
-  /// What this rank does on its part before it applies conditions; where its numbers break, they do on all ranks then.
+  /// What this rank does on its part before it applies conditions; where its solution diverges, it does on all ranks then.
   template <class Action>
   void attempt(const Action& action) {
     together_.attempt(action);

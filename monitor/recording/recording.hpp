@@ -20,7 +20,8 @@ struct Heard {
 };
 
 /// Writes a recording. While it grows it is a series of small files beside a file of links, each written
-/// aside, synced and renamed, so that a kill leaves all but the last seconds; at the end it becomes one file.
+/// to a temporary file, synced and renamed, so that a kill leaves all but the last seconds; at the end it
+/// becomes one file.
 class Recorder {
  public:
   /// @throws OutputFailed

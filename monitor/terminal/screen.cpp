@@ -25,6 +25,11 @@ double still_power(const Side& side) {
   return still * side.velocity_scale * side.traction_scale * (side.s.empty() ? 0 : side.s.back());
 }
 
+/// False of a rigid body or a beam, say: there is nothing that the gas's traction could be compared with.
+bool has_stress(const Side& side) {
+  return side.s.size() < 2 || !side.p_predicted_solid.empty();
+}
+
 Style style_of_status(const std::string& status) {
   if (status == "running" || status == "alive") return Style::good;
   if (status == "aborted" || status == "lost" || status == "failed" || status == "stopped" ||
@@ -180,10 +185,10 @@ class Painter {
     if (rho < none) line += fmt::format(" rho {:.4g}  p {:.4g}", rho, p);
     if (cells < none) line += fmt::format("  cells {:.2f}", cells);
     if (det_F < none) line += fmt::format("  det F {:.4g}", det_F);
-    if (rho < none) line += fmt::format("   first order {}  floors {}", fallbacks, floors);
+    if (rho < none) line += fmt::format("  first order {}  floors {}", fallbacks, floors);
     if (line == "min") return;
     const auto broken = state_.non_finite();
-    const int end = frame_.put(0, row_, line + "   ", Style::plain);
+    const int end = frame_.put(0, row_, line + "  ", Style::plain);
     if (broken.empty()) {
       frame_.put(end, row_++, "all finite", Style::good);
     } else {
@@ -208,13 +213,14 @@ class Painter {
     const std::size_t first = selected < most ? 0 : selected + 1 - most;
     for (std::size_t k = first; k < std::min(sides.size(), first + most); ++k) {
       const Side& side = sides[k];
-      frame_.put(0, row_++,
-                 fmt::format("{:<{}} {:>7} {:>7} {:>7} {:>8} {:>7} {:>7} {:>8} {:>8}",
-                             side.name.substr(0, static_cast<std::size_t>(name)), name,
-                             compact(side.velocity_jump, 7), compact(side.traction_jump, 7),
-                             compact(side.gap, 7), compact(side.power, 8), compact(side.p_min, 7),
-                             compact(side.p_max, 7), compact(side.v_min, 8), compact(side.v_max, 8)),
-                 sides.size() > 1 && k == selected ? Style::selected : Style::plain);
+      frame_.put(
+          0, row_++,
+          fmt::format("{:<{}} {:>7} {:>7} {:>7} {:>8} {:>7} {:>7} {:>8} {:>8}",
+                      side.name.substr(0, static_cast<std::size_t>(name)), name,
+                      compact(side.velocity_jump, 7), has_stress(side) ? compact(side.traction_jump, 7) : "-",
+                      compact(side.gap, 7), compact(side.power, 8), compact(side.p_min, 7),
+                      compact(side.p_max, 7), compact(side.v_min, 8), compact(side.v_max, 8)),
+          sides.size() > 1 && k == selected ? Style::selected : Style::plain);
     }
   }
 
@@ -251,7 +257,8 @@ class Painter {
   struct Small {
     std::string title, series;
     bool logarithmic = false;
-    double floor = 0;  ///< see Plot
+    double floor = 0;   ///< see Plot
+    bool none = false;  ///< there is no such thing in this run
   };
 
   void histories(int rows) {
@@ -264,7 +271,8 @@ class Painter {
                {.title = "w jump",
                 .series = side->name + ".traction_jump",
                 .logarithmic = true,
-                .floor = round_off * side->traction_scale},
+                .floor = round_off * side->traction_scale,
+                .none = !has_stress(*side)},
                {.title = "dt", .series = "dt"},
                {.title = "power", .series = side->name + ".power", .floor = still_power(*side)}};
       if (columns_ >= 120)
@@ -274,10 +282,11 @@ class Painter {
     for (std::size_t k = 0; k < small.size(); ++k) {
       PlotCurve curve{.style = Style::projected};
       for (const auto& point : state_.history().of(small[k].series).points()) {
+        if (small[k].none) break;
         curve.x.push_back(point.at);
         curve.y.push_back(point.value);
       }
-      const std::string last = curve.y.empty() ? "" : compact(curve.y.back());
+      const std::string last = small[k].none ? "-" : curve.y.empty() ? "" : compact(curve.y.back());
       draw(frame_, {.column = static_cast<int>(k) * width, .row = row_, .columns = width - 1, .rows = rows},
            {.title = fmt::format("{}{} {}", small[k].logarithmic ? "lg " : "", small[k].title, last),
             .curves = {std::move(curve)},
@@ -309,7 +318,7 @@ class Painter {
         "",
         "comp/wt   computing and waiting over the last seconds",
         "Mpt/s     million grid points advanced per computing second",
-        "p50/p99   round trip: half, 99 of 100 are faster",
+        "p50/p99   the others' answer: half, 99 of 100 are faster",
         "v jump    largest n.v of gas minus solid, predicted",
         "w jump    largest difference of the tractions, predicted",
         "gap       largest distance of the two sides",

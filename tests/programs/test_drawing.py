@@ -171,6 +171,13 @@ class Proposals(unittest.TestCase):
         self.assertEqual([len(axes.lines) for axes in figure.axes], [2, 1])
         self.assertEqual([line.get_label() for line in figure.axes[0].lines], ["taken", "fluid"])
 
+    def test_a_body_without_stress_has_no_panels_of_tractions(self):
+        t = np.array([0.0, 0.1, 0.2])
+        none = {"body.traction_jump [force/area]": 0 * t, "body.shear [force/area]": 0 * t}
+        for columns, panels in ((none, 1), ({key: 1 + t for key in none}, 3)):
+            figure = curves._table_picture(data.Table("interface", {"t [time]": t, "body.gap [length]": 1e-3 * t, **columns}), scales.Scales(1, 1, 1))
+            self.assertEqual(len([axes for axes in figure.axes if axes.get_visible()]), panels)
+
 
 if __name__ == "__main__":
     unittest.main()

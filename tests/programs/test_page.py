@@ -168,6 +168,8 @@ class Page(WebTest):
                                    "return [rangeOf({...p, low: 0, high: 1e-20})[1], memory.state.interfaces.solid.velocity_scale]; })()")
         self.assertGreater(scale, 0)
         self.assertAlmostEqual(high / scale, 1e-11)
+        self.page.do("(() => { const [gas] = live.drawn; limitsOf(gas).seen = [1e-17, 1]; showBars(live.drawn); })()")
+        self.assertEqual(self.page.do("document.getElementById('gas-low').value"), "0")
         self.assertEqual(self.page.problems, [])
 
     def test_the_picture_of_a_run_that_pauses_is_that_of_where_it_stands(self):
@@ -195,6 +197,48 @@ class Page(WebTest):
         for quantity in ("shear", "p_max", "power"):
             self.becomes(f"memory.history['solid.{quantity}'][0][0] === {begun}", words=f"{quantity} before the monitor began is not shown")
         self.becomes("memory.limiters[0][0]", 0)
+        self.assertEqual(self.page.problems, [])
+
+    def test_proposals_have_the_colours_of_gas_and_solid_and_say_who_takes_substeps(self):
+        self.begin()
+        self.page.show(self.url)
+        self.shows("proposals-legend", "fluid")
+        colours = "coloursOf([%s].map((role) => ({ role }))).join() === [%s].map((name) => theme[name]).join()"
+        self.assertTrue(self.page.do(colours % ("'solid', 'fluid', 'fluid', 'solid'", "'solid', 'gas', 'good', 'busy'")))
+        of_a_body = "takesSubsteps({dt: 0.5, limited_by: 'fluid', participants: {body: {proposed_dt: %s}}}, 'body')"
+        self.assertEqual([self.page.do(of_a_body % dt) for dt in ("0.1", "0.6", "null")], [True, False, False])
+        marks = "logAxis(Math.log10(%s), Math.log10(%s), 3).marks.map(([, label]) => label).join(' ')"
+        self.assertEqual(self.page.do(marks % (0.011, 0.0144)), "0.012 0.014")
+        self.assertEqual(self.page.do("axis(0.13, 1.51, 2).marks.map(([value]) => value)"), [0.5, 1, 1.5])
+        self.assertEqual(self.page.do(marks % (0.9, 60)), "1e0 2e0 5e0 1e1 2e1 5e1")
+        self.assertEqual(self.page.problems, [])
+
+    def test_a_phone_shows_all_of_the_width_and_no_label_over_another(self):
+        self.begin()
+        self.page.ask("Emulation.setDeviceMetricsOverride", width=390, height=844, deviceScaleFactor=1, mobile=True)
+        self.page.show(self.url)
+        self.shows("proposals-legend", "limited by")
+        self.assertEqual(self.page.do("document.documentElement.scrollWidth"), 390)
+        self.assertLess(self.page.do("document.querySelector('header').offsetHeight"), 844 / 4)
+        over = """(() => {
+            const drawn = [], draw = CanvasRenderingContext2D.prototype.fillText;
+            CanvasRenderingContext2D.prototype.fillText = function (text, x, y) {
+                if (/^(now|-\\d+ s)$/.test(text)) drawn.push([x - this.measureText(text).width / 2, x + this.measureText(text).width / 2]);
+                draw.apply(this, arguments);
+            };
+            drawTimeline(document.getElementById("timeline"), [], 0, 60);
+            CanvasRenderingContext2D.prototype.fillText = draw;
+            drawn.sort((a, b) => a[0] - b[0]);
+            return [drawn.length > 2, drawn.filter(([left], k) => k && left < drawn[k - 1][1]).length];
+        })()"""
+        self.assertEqual(self.page.do(over), [True, 0])
+        self.assertEqual(self.page.problems, [])
+
+    def test_a_rigid_body_has_no_stress_that_would_be_compared(self):
+        self.begin("rigid_piston", "--set", "time.dt=1e-7", "--set", "output.times=[1e-6, 1]", "--set", "expect={}")
+        self.page.show(self.url)
+        self.becomes("[...document.querySelectorAll('#interfaces td')].filter((cell) => cell.innerText === '\u2013').length", 2)
+        self.becomes("[...document.querySelectorAll('#histories canvas')].filter((one) => /no stress of its own/.test(one.getAttribute('aria-label'))).length", 2)
         self.assertEqual(self.page.problems, [])
 
     def test_one_cursor_reads_all_plots_and_a_zoom_holds_for_all(self):
@@ -234,6 +278,8 @@ class Page(WebTest):
         self.becomes(drawn, run.summary()["steps"] + 1, "not all that the table holds is drawn")
         self.becomes("plots.get(document.getElementById('proposals')).plot.curves.map((one) => one.name + ' ' + (one.x.length > 10)).join()",
                      "fluid true,solid true,agreed on true")
+        self.becomes("[...document.querySelectorAll('section')].filter((section) => section.hidden).length", 4, "what a folder does not hold is not hidden")
+        self.shows("notice", "fsi monitor --record")
         self.assertEqual(self.page.problems, [])
 
     def test_lost_connection_is_shown_while_the_run_goes_on(self):

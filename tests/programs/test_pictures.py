@@ -21,7 +21,7 @@ from matplotlib.image import AxesImage  # noqa: E402
 from fsi_launch import plot  # noqa: E402
 from fsi_launch.failure import UserMistake  # noqa: E402
 from fsi_launch.plot.look import caption, shading, style  # noqa: E402
-from fsi_launch.plot.one_run import curves, disk, fields, schlieren  # noqa: E402
+from fsi_launch.plot.one_run import disk, fields, schlieren  # noqa: E402
 from fsi_launch.plot.reading import data, mesh, scales  # noqa: E402
 from fsi_launch.plot.several_runs import outlines, several, side_by_side  # noqa: E402
 
@@ -228,6 +228,15 @@ class Times(unittest.TestCase):
         with self.assertRaisesRegex(UserMistake, "fluid has no output at t = 0.7: it has 0, 0.5, 1"):
             data.at_times(self.series, [0.5, 0.7])
 
+    def test_times_that_are_left_out_are_told(self):
+        x1, x2 = np.meshgrid(np.linspace(0, 1, 11), np.linspace(0, 1, 3))
+        grid = read({"x1": x1, "x2": x2, "rho": 1 + x1, "p": 1 + x1, "v1": x1, "v2": 0 * x1})
+        for count, told in ((12, ""), (13, "fields: 12 of 13 output times are drawn; --at TIME draws others\n")):
+            gas = data.Series("fluid", [data.Output(0.1 * k, [grid]) for k in range(count)], True)
+            with contextlib.redirect_stderr(io.StringIO()) as said:
+                self.assertEqual(len(list(fields.pictures([gas], fields.Look(scales.Scales(1, 1, 1))))), 12)
+            self.assertEqual(said.getvalue(), told)
+
 
 class Levels(unittest.TestCase):
     def level(self, points, kind):
@@ -323,34 +332,6 @@ class Schlieren(unittest.TestCase):
         around = data.Output(1.0, [ring()])
         (left, right), (bottom, top) = schlieren._box(self.gas(lambda x, y: 1 + x), [around])
         self.assertEqual([round(one, 3) for one in (left, right, bottom, top)], [-0.8, 1, -0.8, 1])
-
-
-class Lines(unittest.TestCase):
-    def test_only_runs_that_depend_on_one_coordinate_throughout_have_lines(self):
-        x1, x2 = np.meshgrid(np.linspace(0, 1, 11), np.linspace(0, 1, 3))
-        alone = read({"x1": x1, "x2": x2, "rho": x1, "p": x1, "v1": x1, "v2": 0 * x1})
-        rest = {key: 0 * x1 for key in ("u1", "u2", "v1", "v2", "P11")}
-        body = data.Series("body", [data.Output(1.0, [read({"x1": x1, "x2": x2, "x1_bar": x1, "x2_bar": x2, **rest})])])
-        rigid = data.Series("rigid", [data.Output(1.0, [read({"x1": x1[:2], "x2": x2[:2]})])])
-        self.assertEqual([curves._has_an_inside(one) for one in (body, rigid)], [True, False])
-        for grids, found in (([alone], ["lines"]), ([alone, ring()], [])):
-            series = [data.Series("fluid", [data.Output(1.0, grids)]), body]
-            self.assertEqual([name for name, _ in curves.pictures(series, [], scales.Scales(1, 1, 1), {})], found)
-
-    def test_a_reference_is_drawn_at_its_own_time_and_place_in_space(self):
-        x1, x2 = np.meshgrid(np.linspace(0, 1, 11), np.linspace(0, 1, 3))
-        fields = {"x1": 2 * x1, "x2": x2, "x1_bar": x1, "x2_bar": x2, "u1": x1, "u2": 0 * x1, "v1": 3 * x1, "v2": 0 * x1,
-                  "P11": 4 * x1}
-        block = data.Series("block", [data.Output(t, [read(fields)]) for t in (0.0, 1.0)])
-        fine = np.linspace(0, 1, 101)
-        table = {"solid": {"x_bar": fine, "u": fine, "v": 3 * fine, "P11": 4 * fine}}
-        figure = curves._lines_picture([block], scales.Scales(1, 1, 1), {1.0 + 1e-13: table})
-        for axes in figure.axes:
-            drawn = [line for line in axes.lines if len(line.get_xdata()) > 1]
-            reference = [line.get_xydata() for line in drawn if len(line.get_xdata()) == len(fine)]
-            self.assertEqual((len(drawn), len(reference)), (3, 1))
-            computed = drawn[-2 if drawn[-1].get_xdata().size == len(fine) else -1].get_xydata()
-            self.assertLess(np.abs(np.interp(computed[:, 0], *reference[0].T) - computed[:, 1]).max(), 1e-12)
 
 
 class Disk(unittest.TestCase):

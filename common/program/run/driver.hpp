@@ -33,7 +33,7 @@ struct LastState {
   std::uint64_t step = 0;
 };
 
-/// Runs a time loop. Where the numbers break, the failure learns the step and what may help, and the solver
+/// Runs a time loop. Where the solution diverges, the failure learns the step and what may help, and the solver
 /// leaves the state before it.
 template <class Loop>
 void with_last_state(Participant& solver, const LastState& last, const Loop& loop) {

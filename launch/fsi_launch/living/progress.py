@@ -90,8 +90,9 @@ class Progress:
     def _words(self):
         """(rank, text) of all there is to say; rank 0 is said on the narrowest terminal."""
         state, (steps, rate) = self._state, self._speed()
-        words = [(0, f"{100 * self._part():3.0f} %"), (2, f"t {state['t']:.3g} of {state['t_end']:.3g}"), (3, f"step {state['step']}"),
-                 (5, f"dt {state['dt']:.1e}" + (f" ({state['limit']})" if state["limit"] else ""))]
+        words = [(0, f"{100 * self._part():3.0f} %"), (2, f"t {state['t']:.3g} of {state['t_end']:.3g}"), (3, f"step {state['step']}")]
+        if state["dt"] > 0:     # the end has none
+            words.append((5, f"dt {state['dt']:.1e}" + (f" ({state['limit']})" if state["limit"] else "")))
         if rate > 0:
             words.append((6, f"{steps:.0f} steps/s"))
         words.append((4, clock(time.monotonic() - self._began)))

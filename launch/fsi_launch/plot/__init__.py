@@ -55,7 +55,9 @@ def _take_words(directories):
     paths = [data.finest_level(directory) / "case.yaml" for directory in directories]
     texts = [path.read_text(encoding="utf-8") for path in paths if path.is_file()]
     units.use_those_of([several.entries(text) for text in texts])
-    caption.use(caption.of_case(texts[0], several.entries(texts[0])) if len(directories) == len(texts) == 1 else "")
+    names = {several.entries(text).get("name", "") for text in texts}
+    in_common = names.pop() if len(texts) == len(directories) and len(names) == 1 else ""
+    caption.use(caption.of_case(texts[0], several.entries(texts[0])) if len(directories) == len(texts) == 1 else in_common)
 
 
 def style_or_mistake():

@@ -21,11 +21,11 @@ def merge(directory, programs):
     if not tables:
         return
     times = dict.fromkeys(time for _, rows in tables for time in rows)
-    aside = Path(directory) / "probes.csv.part"
-    with open(aside, "w", encoding="utf-8", newline="") as file:
+    temporary = Path(directory) / "probes.csv.part"
+    with open(temporary, "w", encoding="utf-8", newline="") as file:
         table = csv.writer(file, lineterminator="\n")
         table.writerow(["t [time]", *(name for heading, _ in tables for name in heading)])
         for time in sorted(times, key=float):
             table.writerow([time, *(value for heading, rows in tables
                                     for value in rows.get(time, [""] * len(heading)))])
-    os.replace(aside, Path(directory) / "probes.csv")
+    os.replace(temporary, Path(directory) / "probes.csv")

@@ -84,13 +84,13 @@ def merge(parts, case, status, reason, wall_s):
 def write(directory, summary):
     """Writes DIR/summary.json, whole or not at all."""
     path = Path(directory) / "summary.json"
-    aside = path.with_suffix(".json.tmp")
-    with open(aside, "w", encoding="utf-8") as file:
+    temporary = path.with_suffix(".json.tmp")
+    with open(temporary, "w", encoding="utf-8") as file:
         json.dump(summary, file, indent=2)
         file.write("\n")
         file.flush()
         os.fsync(file.fileno())
-    os.replace(aside, path)
+    os.replace(temporary, path)
 
 
 # --- expectations

@@ -91,6 +91,12 @@ function over(state) {
   return state && (state.status === "ended" || state.status === "aborted");
 }
 
+// The folder of a run has no profiles along its interfaces.
+function withoutProfiles(state) {
+  const sides = Object.values(state.interfaces);
+  return over(state) && sides.length > 0 && sides.every((side) => side.s.length < 2);
+}
+
 function showHead(state) {
   const lost = !memory.connected;
   const status = state ? state.status : "connecting";
@@ -99,7 +105,7 @@ function showHead(state) {
   const notices = [];
   if (state && state.abort) notices.push(`${state.abort.from} ended the run: ${state.abort.reason}`);
   if (state && state.non_finite.length) notices.push(`not finite: ${state.non_finite.join(", ")}`);
-  if (state && state.status === "ended") notices.push("the run has ended; this is its last state");
+  if (state && state.status === "ended") notices.push("the run has ended; this is its last state" + (withoutProfiles(state) ? "; shapes and profiles are kept by fsi monitor --record" : ""));
   if (lost && state) notices.push(over(state) ? "the monitor has left" : "connection to the monitor lost; trying again. This is the last state heard");
   for (const button of document.querySelectorAll("[data-command]")) button.disabled = over(state) || lost;
   $("notice").hidden = !notices.length;
@@ -115,7 +121,10 @@ function showHead(state) {
   $("facts").replaceChildren(...facts.map(([name, value]) => make("div", {}, make("span", {}, name + " "), make("b", {}, String(value ?? "\u2013")))));
 }
 
-function showTabs(names) {
+// Above the profiles, or above the histories where there are none.
+function showTabs(names, state) {
+  const place = $(withoutProfiles(state) ? "history-tabs" : "profile-tabs");
+  if ($("tabs").parentElement !== place) place.append($("tabs"));
   const key = names.join("\n") + memory.chosen;
   if ($("tabs").dataset.key === key) return;
   $("tabs").dataset.key = key;
@@ -138,6 +147,7 @@ function showShapes(state) {
   $("shape-note").textContent = sides.length ? "dashed: the shape at t = 0" : "";
 }
 
+const NO_STRESS = "none: this solid has no stress of its own";
 const ROUND_OFF = 1e-14; // jumps that are smaller parts of what they compare are none
 const STILL = 1e-11; // what varies by a smaller part of the gas's speed or pressure is drawn as what does not vary
 // [name, title, what makes it round-off: null where the plot is not logarithmic]
@@ -151,10 +161,11 @@ function showHistories() {
   if ($("histories").children.length !== wanted.length) $("histories").replaceChildren(...wanted.map(() => make("canvas", {})));
   $("history-of").textContent = memory.chosen || "";
   wanted.forEach(([what, title, scale], k) => {
-    const list = memory.history[`${memory.chosen}.${what}`] || [];
+    const known = memory.history[`${memory.chosen}.${what}`] || [], none = OF_STRESS.includes(what) && !hasStress(side);
+    const list = none || (scale && known.every(([, value]) => !value)) ? [] : known; // a logarithmic axis has no zero
     drawPlot($("histories").children[k], { title: title + (scale ? ", log" : ""), axis: "t", x: "t", log: scale !== null, floor: scale ? ROUND_OFF * scale(side) : 0,
       tiny: what === "power" ? STILL * side.velocity_scale * side.traction_scale * side.s[side.s.length - 1] : 0,
-      nothing: "zero or nothing yet", value: list.length ? short(list[list.length - 1][1]) : "",
+      nothing: none ? NO_STRESS : known.length ? "zero" : "nothing yet", value: list.length ? short(list[list.length - 1][1]) : "",
       curves: [{ x: list.map((e) => e[0]), y: list.map((e) => e[1]), colour: theme.projected }] });
   });
 }
@@ -169,7 +180,7 @@ function showProfiles(side) {
   };
   const none = { axis: "s", x: "s", curves: [], nothing: "no interface" };
   const title = (name) => (minus && side ? `${name} minus projected` : name);
-  const draw = (canvas, name, sets, scale) => drawPlot($(canvas), side ? { title: title(name), axis: "s", x: "s", robust: true, tiny: STILL * scale, curves: curves(...sets), nothing: side.s.length ? "none: this solid has no stress of its own" : "was not recorded" } : { title: name, ...none });
+  const draw = (canvas, name, sets, scale) => drawPlot($(canvas), side ? { title: title(name), axis: "s", x: "s", robust: true, tiny: STILL * scale, curves: curves(...sets), nothing: side.s.length ? NO_STRESS : "was not recorded" } : { title: name, ...none });
   draw("pressure", "pressure p", side && [side.p_predicted, side.p_predicted_solid, side.p_projected], side && side.traction_scale);
   draw("velocity", "normal velocity v_n", side && [side.v_predicted_gas, side.v_predicted, side.v_projected], side && side.velocity_scale);
   const free = side && side.w_tangential.map(() => 0); // the gas has no viscosity: the projection takes it away
@@ -194,8 +205,9 @@ function show() {
   const names = Object.keys(state.interfaces);
   if (!names.includes(memory.chosen)) memory.chosen = names[0] || null;
   const alone = !names.length && Object.values(state.participants).some((program) => program.role !== "coupler" && program.step > 0);
-  for (const section of document.querySelectorAll("section.wide")) section.hidden = alone; // a solver without interfaces
-  showTabs(names);
+  for (const section of document.querySelectorAll("section.wide")) section.hidden = alone || withoutProfiles(state); // a solver without interfaces
+  $("timeline-section").hidden = over(state) && !Object.values(memory.timeline).some((line) => line.length > 1);
+  showTabs(names, state);
   showShapes(state);
   showProfiles(state.interfaces[memory.chosen]);
   showHistories();

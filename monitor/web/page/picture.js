@@ -193,7 +193,7 @@ function showBars(layers) {
     for (const [name, value] of [["low", low], ["high", high]]) {
       const field = $(`${id}-${name}`);
       field.disabled = limits.mode !== "fixed";
-      if (document.activeElement !== field) field.value = short(value) === "\u2013" ? "" : Number(value.toPrecision(4));
+      if (document.activeElement !== field) field.value = short(value) === "\u2013" ? "" : Math.abs(value) < STILL * Math.max(Math.abs(low), Math.abs(high)) ? 0 : Number(value.toPrecision(4));
     }
     const { pen, width, height } = open($(`${id}-scale`)), table = mapOf(picture);
     for (let x = 0; x < width; ++x) {

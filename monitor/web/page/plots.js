@@ -43,7 +43,7 @@ function ticks(low, high, count) {
 
 // Labels of an axis: with a common offset where the numbers differ in their last digits only.
 function axis(low, high, count) {
-  const at = ticks(low, high, count), size = Math.max(Math.abs(low), Math.abs(high));
+  const few = ticks(low, high, count), at = few.length < 2 ? ticks(low, high, 2 * count) : few, size = Math.max(Math.abs(low), Math.abs(high));
   if (high - low < 1e-4 * size && at.length > 0) {
     const offset = at[0];
     return { offset, marks: at.map((v) => [v, v === offset ? "0" : (v - offset).toExponential(0).replace("e+", "e")]) };
@@ -51,13 +51,14 @@ function axis(low, high, count) {
   return { offset: null, marks: at.map((v) => [v, Math.abs(v) < 1e-12 * size ? "0" : short(Number(v.toPrecision(6)))]) };
 }
 
-// Marks of a logarithmic axis between powers of ten: 1e-3, 2e-3, 5e-3 ... while there is room, else whole powers.
+// Marks of a logarithmic axis between powers of ten: 1e-3, 2e-3, 5e-3 ... while there is room, else whole powers; even steps where less than two of them lie on it.
 function logAxis(low, high, count) {
   const all = [];
   for (let power = Math.floor(low); power <= high; ++power) {
     for (const first of [1, 2, 5]) all.push([power + Math.log10(first), `${first}e${power}`]);
   }
   const within = all.filter(([place]) => place >= low && place <= high);
+  if (within.length < 2) return { offset: null, marks: axis(10 ** low, 10 ** high, count).marks.filter(([value]) => value > 0).map(([value]) => [Math.log10(value), short(value)]) };
   if (within.length <= 2 * count) return { offset: null, marks: within };
   const whole = within.filter(([, label]) => label.startsWith("1")), every = Math.ceil(whole.length / (count + 1));
   return { offset: null, marks: whole.filter((_, k) => k % every === 0) };
@@ -115,8 +116,8 @@ function drawPlot(canvas, plot) {
     plots.delete(canvas);
     return;
   }
-  const pad = 0.06 * (up[1] - up[0]);
-  const [low, high] = [up[0] - pad, up[1] + pad];
+  const pad = 0.06 * (up[1] - up[0]), under = plot.strip && plot.strip.length ? 2.5 * pad : pad; // a band covers no curve
+  const [low, high] = [up[0] - under, up[1] + pad];
   const scale = (plot.log ? logAxis : axis)(low, high, Math.max(2, Math.floor(height / 42)));
   const box = { left: 58, right: width - 8, top: 20, bottom: height - 20 };
   const place = (x, y) => [box.left + ((x - across[0]) / (across[1] - across[0])) * (box.right - box.left),
@@ -348,5 +349,6 @@ function drawTimeline(canvas, rows, now, span) {
   });
   pen.fillStyle = theme.dim;
   pen.textAlign = "center";
-  for (let ago = 0; ago <= span; ago += 10) pen.fillText(ago === 0 ? "now" : `-${ago} s`, Math.min(place(now - ago), right - 12), height - 8);
+  const room = pen.measureText("-00 s").width + 8, every = [10, 20, 30, 60].find((seconds) => (seconds / span) * (right - left) >= room + 12) || span; // "now" is moved to the left
+  for (let ago = 0; ago <= span; ago += every) pen.fillText(ago === 0 ? "now" : `-${ago} s`, Math.min(place(now - ago), right - 12), height - 8);
 }

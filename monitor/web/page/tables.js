@@ -49,8 +49,18 @@ function showTraffic(state) {
       one.latency_p99_us ? `${short(Math.round(one.latency_p50_us))} / ${short(Math.round(one.latency_p99_us))} \u00b5s` : "\u2013"])));
 }
 
-const PROPOSAL_COLOURS = ["gas", "solid", "good", "busy", "bad"];
 const SETTING_COLOUR = "dim";
+
+// The first gas and the first solid have the colours they have along the interface.
+function coloursOf(programs) {
+  const own = { fluid: ["gas"], solid: ["solid"] }, others = ["good", "busy", "bad"];
+  return programs.map(({ role }) => theme[(own[role] || []).shift() || others.shift() || "ink"]);
+}
+
+// Whose proposal is well below the step that others limit divides it.
+function takesSubsteps(state, name) {
+  return name !== state.limited_by && state.participants[name].proposed_dt !== null && state.participants[name].proposed_dt < 0.9 * state.dt;
+}
 
 // ", 98 % of the steps" a program or a setting limited so far.
 function shareOf(state, by) {
@@ -58,10 +68,10 @@ function shareOf(state, by) {
   return total && state.limits[by] ? `, ${short(Number((100 * state.limits[by] / total).toPrecision(3)))} % of the steps` : "";
 }
 
-// What everybody proposed, and what was agreed on. A solid that takes substeps may propose less.
+// What everybody proposed, and what was agreed on.
 function showProposals(state) {
   const names = Object.keys(state.participants).filter((name) => state.participants[name].role !== "coupler");
-  const colours = names.map((_, k) => theme[PROPOSAL_COLOURS[k % PROPOSAL_COLOURS.length]]);
+  const colours = coloursOf(names.map((name) => state.participants[name]));
   const curves = names.map((name, k) => ({ name, list: memory.history[`${name}.proposed_dt`] || [], colour: colours[k] }));
   curves.push({ name: "agreed on", list: memory.history.dt || [], colour: theme.projected, dash: [2, 3] });
   const colourOf = (name) => (names.includes(name) ? colours[names.indexOf(name)] : theme[SETTING_COLOUR]);
@@ -69,12 +79,18 @@ function showProposals(state) {
     strip: memory.limiters.map(([t, name]) => [t, colourOf(name)]),
     curves: curves.map(({ list, ...rest }) => ({ x: list.map((e) => e[0]), y: list.map((e) => e[1]), ...rest })) });
   const shares = Object.keys(state.limits || {}).filter((name) => state.limits[name]).map((name) => `${name}${shareOf(state, name)}`).join("; ");
-  const key = names.join("\n") + theme.gas + shares;
+  const words = names.map((name) => (takesSubsteps(state, name) ? `${name} (takes substeps)` : name)), key = words.join("\n") + theme.gas + shares;
   if ($("proposals-legend").dataset.key === key) return;
   $("proposals-legend").dataset.key = key;
   const mark = (colour, style) => { const line = make("i", {}); line.style.borderTop = `2.5px ${style} ${colour}`; return line; };
-  $("proposals-legend").replaceChildren(...names.flatMap((name, k) => [mark(colours[k], "solid"), name]), mark(theme.projected, "dotted"), "agreed on",
+  $("proposals-legend").replaceChildren(...words.flatMap((text, k) => [mark(colours[k], "solid"), text]), mark(theme.projected, "dotted"), "agreed on",
     mark(theme[SETTING_COLOUR], "solid"), "a setting", make("span", { className: "dim" }, shares ? `\u00b7 limited by ${shares}` : ""));
+}
+
+// Of a rigid body or a beam, say, there is nothing that the gas's traction could be compared with.
+const OF_STRESS = ["traction_jump", "shear"];
+function hasStress(side) {
+  return side.s.length < 2 || side.p_predicted_solid.length > 0;
 }
 
 function showTables(state) {
@@ -82,10 +98,11 @@ function showTables(state) {
   const rows = Object.entries(state.participants).map(([name, p]) => row("td", [name,
     make("span", { className: KIND[p.standing] || "" }, p.standing), p.step, proposal(state, name, p), meter(p.computing_now ?? p.computing_share),
     p.point_updates_per_s > 0 ? count(p.point_updates_per_s) : "\u2013", short(p.steps_per_s), count(p.bus.messages_per_s), count(p.bus.bytes_per_s),
-    `${short(p.bus.round_trip_p50_us / 1e3)} / ${short(p.bus.round_trip_p99_us / 1e3)} ms`, health(p)]));
+    p.bus.round_trip_p99_us > 0 ? `${short(p.bus.round_trip_p50_us / 1e3)} / ${short(p.bus.round_trip_p99_us / 1e3)} ms` : "\u2013", health(p)]));
   $("programs").replaceChildren(head, ...rows);
   const sides = Object.entries(state.interfaces);
   $("interface-section").hidden = !sides.length;
   $("interfaces").replaceChildren(row("th", ["", "velocity jump", "traction jump", "tangential traction", "gap", "power", "p min", "p max", "v_n min", "v_n max"]),
-    ...sides.map(([name, s]) => row("td", [name, ...["velocity_jump", "traction_jump", "shear", "gap", "power", "p_min", "p_max", "v_min", "v_max"].map((k) => short(s[k]))])));
+    ...sides.map(([name, s]) => row("td", [name, ...["velocity_jump", "traction_jump", "shear", "gap", "power", "p_min", "p_max", "v_min", "v_max"].map(
+      (what) => (OF_STRESS.includes(what) && !hasStress(s) ? "\u2013" : short(s[what])))])));
 }

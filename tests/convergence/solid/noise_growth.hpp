@@ -70,7 +70,7 @@ inline void add_noise(FieldView q, double h) {
 }
 
 /// Largest deviation of v and P after `steps` steps, relative to the largest in the first hundred; infinite
-/// where the numbers break.
+/// where the solution diverges.
 template <class L>
 double growth_of_noise(const NoiseCase& noise, int steps) {
   const L law{.lambda = 1, .mu = 1};

@@ -56,6 +56,11 @@ class Widths(unittest.TestCase):
         for words in ("20 %", "t 0.2 of 1", "step 2", "left"):
             self.assertIn(words, line)
 
+    def test_the_end_has_no_step(self):
+        self.assertIn("dt 1.0e-01", self.shown.text(120))
+        self.shown.hear("progress step=3 t=1 dt=0 limit= t_end=1")
+        self.assertNotIn("dt", self.shown.text(120))
+
     def test_wide_terminal_says_everything(self):
         line = self.shown.text(120)
         for words in ("dt 1.0e-01 (waves in the solid)", "steps/s", "1:15", "1:20 left"):

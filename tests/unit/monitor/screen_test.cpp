@@ -181,6 +181,15 @@ TEST(Screen, PowersOfRoundOffAreDrawnFlat) {
   EXPECT_LE(rows_of_powers(1e-25), 2);
 }
 
+TEST(Screen, ARigidBodyHasNoTractionThatWouldBeCompared) {
+  EXPECT_FALSE(shows(screen(coupled(), 2, {}, {.columns = 80, .rows = 40}), "lg w jump -"));
+  RunState state(entry("r-1"));
+  auto coupler = with_interface("beam", 40);
+  coupler.interfaces[0].p_predicted_solid.clear();
+  state.hear(coupler, 0);
+  EXPECT_TRUE(shows(screen(state, 0, {}, {.columns = 80, .rows = 40}), "lg w jump -"));
+}
+
 TEST(Screen, NoTimeIsLeftWhileARunIsPaused) {
   RunState state = coupled();
   EXPECT_FALSE(shows(screen(state, 2, {}, {}), "left -"));

@@ -16,10 +16,12 @@ MOST_TIMES = 6
 REFERENCE = {"color": "black", "linewidth": 2.6, "alpha": 0.3, "zorder": 1}
 SAME_VALUE = 1e-11  # differences, part of the values, that are round-off
 PROPOSED = ".proposed_dt"   # of the name of a column
+OF_STRESS = ("traction_jump", "shear")      # which a solid without a stress of its own, as a rigid body, has none of
 FAR = 30            # times the step taken: proposals beyond take a logarithmic scale
 FEW = 16            # times, which are marked: between them nothing is known
 WORDS = {"dt": "time step", "force1": "force along $x$", "force2": "force along $y$", "centre1": "$x$ of the centre", "centre2": "$y$ of the centre",
          "velocity1": "velocity of the centre along $x$", "velocity2": "velocity of the centre along $y$", "angle": "angle turned",
+         "velocity_jump": "velocity jump", "traction_jump": "traction jump", "shear": "tangential traction", "p_max": "largest pressure",
          "momentum1_defect": "momentum along $x$, defect", "momentum2_defect": "momentum along $y$, defect", "mass_defect": "mass, defect",
          "energy_defect": "energy, defect", "kinetic": "kinetic energy", "strain": "strain energy", "work": "work of the gas",
          "rho": "density $\\rho$", "p": "pressure $p$", "T": "temperature $T$", "theta": "rotation $\\theta$", "N": "axial force $N$",
@@ -47,13 +49,35 @@ def _direction(grid):
     return e / np.linalg.norm(e)
 
 
-def _along(grid, key, e):
-    """(coordinate, values) on the middle line; "v" and "u" stand for the components along it."""
-    j = len(grid.x1) // 2
+def along(grid, key, floor):
+    """(coordinate, values) on the middle line, round-off as zero; "v" and "u" stand for the components along it."""
+    j, e = len(grid.x1) // 2, _direction(grid)
     s = grid.x1[j] * e[0] + grid.x2[j] * e[1]
-    if key in ("v", "u"):
-        return s, grid.fields[f"{key}1"][j] * e[0] + grid.fields[f"{key}2"][j] * e[1]
-    return s, grid.fields[key][j]
+    values = grid.fields[f"{key}1"][j] * e[0] + grid.fields[f"{key}2"][j] * e[1] if key in ("v", "u") else grid.fields[key][j]
+    return s, np.where(np.abs(values) > floor, values, 0)
+
+
+def lines_of(one):
+    """((field, its label), ..) of a program's lines."""
+    return GAS_LINES if one.is_gas() else SOLID_LINES
+
+
+def line_panels(first):
+    """(figure, axes[field][program]) with the titles of the lines that the programs of `first` have."""
+    figure, panels = pyplot.subplots(3, len(first), figsize=(4.4 * len(first), 6.3), squeeze=False, sharex="col")
+    for column, one in enumerate(first):
+        for row, (key, label) in enumerate(lines_of(one)):
+            text = units.label(label, unit_of(key))
+            panels[row][column].set_title(text if row else f"{one.name}: {text}", loc="left")
+        panels[-1][column].set_xlabel(units.label("position along the line", "length"))
+    return figure, panels
+
+
+def along_one_coordinate(series):
+    """The gas and the solids with an inside, if their fields depend on one coordinate only; else none."""
+    inside = [one for one in series if _has_an_inside(one)]
+    grids = [one.outputs[-1].grids for one in inside]
+    return inside if all(len(some) == 1 and _depends_on_one_coordinate(some[0]) for some in grids) else []
 
 
 def _reference_line(axes, one, key, table):
@@ -71,24 +95,18 @@ def _has_an_inside(one):
 
 
 def _lines_picture(series, scales, reference):
-    kinds = [GAS_LINES if one.is_gas() else SOLID_LINES for one in series]
-    figure, panels = pyplot.subplots(3, len(series), figsize=(4.4 * len(series), 6.3), squeeze=False, sharex="col")
-    for column, (one, lines) in enumerate(zip(series, kinds)):
+    figure, panels = line_panels(series)
+    for column, one in enumerate(series):
         shown = sorted({round(k) for k in np.linspace(0, len(one.outputs) - 1, min(MOST_TIMES, len(one.outputs)))})
         colours = pyplot.get_cmap(style.GAS_MAP)(np.linspace(0, 0.85, len(shown)))
-        for row, (key, label) in enumerate(lines):
+        for row, (key, _) in enumerate(lines_of(one)):
             axes = panels[row][column]
             for index, colour in zip(shown, colours):
                 output = one.outputs[index]
-                s, values = _along(output.grids[0], key, _direction(output.grids[0]))
-                values = np.where(np.abs(values) > scales.floor(_unit(key)), values, 0)
-                axes.plot(s, values, color=colour, label=units.moment(output.t, 3))
+                axes.plot(*along(output.grids[0], key, scales.floor(unit_of(key))), color=colour, label=units.moment(output.t, 3))
                 if table := several.at(reference, output.t):
                     _reference_line(axes, one, key, table)
-            _steady(axes, np.concatenate([line.get_ydata() for line in axes.lines]))
-            axes.set_title(units.label(label, _unit(key)), loc="left")
-        panels[0][column].set_title(f"{one.name}: {units.label(lines[0][1], _unit(lines[0][0]))}", loc="left")
-        panels[-1][column].set_xlabel(units.label("position along the line", "length"))
+            steady(axes, np.concatenate([line.get_ydata() for line in axes.lines]))
     if reference:
         panels[0][0].plot([], [], label="reference", **REFERENCE)
     panels[0][0].legend()
@@ -116,7 +134,7 @@ def _groups(table):
     return {key: keys == key for key in sorted(set(keys))}
 
 
-def _unit(heading):
+def unit_of(heading):
     """The unit of a column; of a probe's column, which has none, that of its field."""
     if "[" in heading:
         return heading.split("[")[1].rstrip("]")
@@ -135,10 +153,10 @@ def _words(name):
 def _title(heading):
     """A heading for people, with its unit in symbols where the case says which."""
     name, bracket, unit = heading.partition(" [")
-    return units.heading(_words(name) + bracket + unit) if bracket else units.label(_words(name), _unit(heading))
+    return units.heading(_words(name) + bracket + unit) if bracket else units.label(_words(name), unit_of(heading))
 
 
-def _steady(axes, values):
+def steady(axes, values):
     """Room around values that differ by round-off only, which is not worth a scale."""
     largest = np.nanmax(np.abs(values), initial=0)
     if largest == 0:
@@ -183,7 +201,9 @@ def _proposals(axes, table, t):
 
 
 def _drawn_alone(name, values, time):
-    return values.dtype.kind == "f" and name != time and _bare(name) != "step" and not _bare(name).endswith(PROPOSED)
+    if values.dtype.kind != "f" or name == time or _bare(name) == "step" or _bare(name).endswith(PROPOSED):
+        return False
+    return _bare(name).rsplit(".", 1)[-1] not in OF_STRESS or values.any()
 
 
 def _table_picture(table, scales):
@@ -197,12 +217,12 @@ def _table_picture(table, scales):
     for axes, name in zip(panels.flat, names):
         if _bare(name) == "dt":  # the start has none
             table.columns[name][table.columns[name] == 0] = np.nan
-        floor, largest = scales.floor(_unit(name)), np.nanmax(np.abs(table.columns[name]), initial=0)
+        floor, largest = scales.floor(unit_of(name)), np.nanmax(np.abs(table.columns[name]), initial=0)
         axes.set_title(_title(name), loc="left")
         if largest <= floor:
             _zero(axes, table.columns[time], largest)
             continue
-        _steady(axes, table.columns[name])
+        steady(axes, table.columns[name])
         for label, mask in _groups(table).items():
             _curve(axes, name, table.columns[time][mask], table.columns[name][mask], label, floor)
         if _bare(name) == "dt":
@@ -219,10 +239,8 @@ def _table_picture(table, scales):
 
 def pictures(series, tables, scales, reference):
     """(name, figure or a function that makes it) of the curves a run has; `reference`: its one-dimensional solution {t: tables}, or nothing."""
-    inside = [one for one in series if _has_an_inside(one)]
-    plain = all(len(one.outputs[-1].grids) == 1 for one in inside)
-    if inside and plain and all(_depends_on_one_coordinate(one.outputs[-1].grids[0]) for one in inside):
-        yield "lines", partial(_lines_picture, inside, scales, reference)
+    if plain := along_one_coordinate(series):
+        yield "lines", partial(_lines_picture, plain, scales, reference)
     for table in tables:
         if figure := _table_picture(table, scales):
             yield table.name, figure

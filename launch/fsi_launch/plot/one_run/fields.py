@@ -1,5 +1,6 @@
 """Pictures of the fields at the output times, solids in deformed position (the paper's figure 10)."""
 
+import sys
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
@@ -250,7 +251,10 @@ def pictures(series, look):
         return
     count = min(len(one.outputs) for one in series)  # a killed run may lack the last output of one program
     plan = _plan([replace(one, outputs=one.outputs[:count]) for one in series], look)
-    for index in times_shown(count):
+    shown = times_shown(count)
+    if len(shown) < count:
+        print(f"fields: {len(shown)} of {count} output times are drawn; --at TIME draws others", file=sys.stderr, flush=True)
+    for index in shown:
         yield f"fields_{index:04}", partial(_field_picture, plan, index)
 
 

@@ -3,7 +3,7 @@
 from fsi_launch.failure import UserMistake
 from fsi_launch.plot.one_run import beams
 from fsi_launch.plot.reading import data
-from fsi_launch.plot.several_runs import outlines, several, side_by_side
+from fsi_launch.plot.several_runs import lines, outlines, several, side_by_side
 
 
 def _case_of(directory):
@@ -29,9 +29,9 @@ def pictures(directories, out, times=()):
     series, cases = [data.at_times(data.all_series(one), times) for one in directories], [_case_of(one) for one in directories]
     told = several.labels(cases, [one.name for one in directories])
     same = len({several.entries(case).get("name") for case in cases}) == 1
-    parts = [*_beams(series, cases, out), *outlines.pictures(series, told, out),
+    parts = [*_beams(series, cases, out), *outlines.pictures(series, told, out), *lines.pictures(series, told),
              *(side_by_side.pictures(series, told) if same else ())]
     if not parts:
-        raise UserMistake("the runs hold nothing that can be compared: several runs are for beams, outlines of solids and, of "
-                          "one case, gas with shocks")
+        raise UserMistake("the runs hold nothing that can be compared: several runs are for beams, outlines of solids, fields "
+                          "along a line and, of one case, gas with shocks")
     yield from parts
