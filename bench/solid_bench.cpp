@@ -6,7 +6,7 @@
 
 #include "solid_solver/laws/neo_hookean.hpp"
 #include "solid_solver/laws/saint_venant_kirchhoff.hpp"
-#include "solid_solver/solid_solver.hpp"
+#include "solid_solver/ranks/solid_on_ranks.hpp"
 
 namespace {
 

@@ -34,7 +34,7 @@ def sanitized(root, preset):
     """Coupled runs of programs built with sanitizers."""
     if trouble := built(root, preset, *NEEDED):
         return trouble
-    command = ["tests/programs/sanitized_runs.py", preset]
+    command = ["tests/programs/binaries/sanitized_runs.py", preset]
     answer = subprocess.run(command, cwd=root, capture_output=True, text=True, check=False)
     return f"`{shlex.join(command)}`, exit code {answer.returncode}\n\n{answer.stdout.strip()}\n"
 

@@ -24,7 +24,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
 sys.path.insert(0, str(ROOT / "tests" / "programs"))
-import browser  # noqa: E402
+from monitor import browser  # noqa: E402
 
 FSI = str(ROOT / "launch" / "fsi")
 COLUMNS, ROWS = 100, 34

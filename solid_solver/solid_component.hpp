@@ -376,6 +376,3 @@ void SolidComponent<L>::archive(Archive& archive) {
 }
 
 }  // namespace fsi::solid
-
-#include "solid_solver/component_breakdown.hpp"       // IWYU pragma: export
-#include "solid_solver/ranks/component_on_ranks.hpp"  // IWYU pragma: export

@@ -336,5 +336,3 @@ ProbePoint SolidSolver<L>::locate(double x, double y) const {
 }
 
 }  // namespace fsi::solid
-
-#include "solid_solver/ranks/solid_on_ranks.hpp"  // IWYU pragma: export

@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "solid_solver/component_breakdown.hpp"
+#include "solid_solver/ranks/component_on_ranks.hpp"
 #include "solid_solver/solid_solver.hpp"
 
 namespace fsi::solid {

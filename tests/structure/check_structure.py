@@ -3,6 +3,7 @@
 
 equations  every required equation of the paper has tagged code and a tagged test
 includes   who may include what: the arrows between the folders point one way
+circles    no header includes, itself or through others, one that includes it
 kernels    the loops over points know common/core and each other; they neither throw nor write
 headers    a file includes, itself or through headers of this tree, what declares the names it uses
 lengths    no source file is longer than 400 lines
@@ -147,6 +148,28 @@ def check_includes(root):
                 yield f"{path}:{number}: includes {target}: {reason}"
 
 
+# --- circles -------------------------------------------------------------------------------------------------------
+
+
+def check_circles(root):
+    quoted = {path.as_posix(): {target: number for number, in_quotes, target in includes_of(root, path) if in_quotes}
+              for path in files(root, CXX)}
+    done, above = set(), []
+
+    def follow(where):
+        above.append(where)
+        for target, number in quoted[where].items():
+            if target in above:
+                yield f"{where}:{number}: includes in a circle: {' -> '.join([*above[above.index(target):], target])}"
+            elif target in quoted and target not in done:
+                yield from follow(target)
+        done.add(above.pop())
+
+    for where in quoted:
+        if where not in done:
+            yield from follow(where)
+
+
 # --- kernels -------------------------------------------------------------------------------------------------------
 
 KERNEL_FOLDERS = ("fluid_solver/kernels", "fluid_solver/kernels/riemann", "solid_solver/kernels", "solid_solver/laws")
@@ -258,8 +281,8 @@ def check_words(root):
                 yield f"{path}:{number}: '{match.group(1)}' marks unfinished work"
 
 
-RULES = {"equations": check_equations, "includes": check_includes, "kernels": check_kernels, "headers": check_headers,
-         "lengths": check_lengths, "words": check_words}
+RULES = {"equations": check_equations, "includes": check_includes, "circles": check_circles, "kernels": check_kernels,
+         "headers": check_headers, "lengths": check_lengths, "words": check_words}
 
 
 def main(arguments):

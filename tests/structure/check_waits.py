@@ -10,7 +10,7 @@ import re
 import sys
 from pathlib import Path
 
-HOMES = {"tests/waiting.hpp", "tests/programs/running.py", "tests/programs/browser.py", "tests/unit/launch/launcher.py"}
+HOMES = {"tests/waiting.hpp", "tests/programs/running.py", "tests/programs/monitor/browser.py", "tests/unit/launch/launcher.py"}
 # Checks of the sources, and tools that say how long they took and judge nothing by it.
 NO_TESTS = ("tests/structure/", "tests/mutations/", "tests/instruction_sets/")
 CLOCKS = {

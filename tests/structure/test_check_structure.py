@@ -91,6 +91,12 @@ class Equations(Copy):
 
 
 class Includes(Copy):
+    def test_headers_must_not_include_each_other(self):
+        found = self.with_line("circles", "solid_solver/solid_points.hpp", '#include "solid_solver/solid_solver.hpp"')
+        self.assertTrue(found)
+        for offence in found:
+            self.assertIn("solid_solver/solid_points.hpp -> solid_solver/solid_solver.hpp", offence)
+
     def test_programs_must_not_include_each_other(self):
         self.assert_bites("includes", "coupler/exchange/matching.cpp", '#include "fluid_solver/gas_options.hpp"')
         self.assert_bites("includes", "monitor/main.cpp", '#include "solid_solver/laws/law.hpp"')

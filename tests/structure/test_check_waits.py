@@ -20,13 +20,13 @@ class Waits(unittest.TestCase):
 
     def test_clocks_and_sleeps_are_found(self):
         for line in ("time.sleep(1)", "start = time.monotonic()", "process.wait(timeout=10)", "self.assertTrue(until(done, 5))"):
-            self.assertEqual(len(self.found("tests/programs/test_a.py", line)), 1, line)
+            self.assertEqual(len(self.found("tests/programs/runs/test_a.py", line)), 1, line)
         for line in ("usleep(1000);", "std::this_thread::sleep_for(1s);", "const auto start = std::chrono::steady_clock::now();"):
             self.assertEqual(len(self.found("tests/unit/bus/a_test.cpp", line)), 1, line)
 
     def test_conditions_are_not(self):
         for line in ("until(lambda: run.checkpoints())", "let_pass(0.5)", "run.wait(timeout=WATCHDOG)", '"--set", "time.end=0.2"'):
-            self.assertEqual(self.found("tests/programs/test_a.py", line), [], line)
+            self.assertEqual(self.found("tests/programs/runs/test_a.py", line), [], line)
 
     def test_clocks_have_their_homes(self):
         self.assertEqual(self.found("tests/programs/running.py", "time.sleep(1)"), [])

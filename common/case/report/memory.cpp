@@ -17,7 +17,7 @@ namespace {
 using config::Node;
 
 /// Bytes at the peak of a run for each point: fields at two times, coordinates, metrics, lists of donors, and
-/// what output and checkpoints gather. Measured; tests/programs/test_memory.py
+/// what output and checkpoints gather. Measured; tests/programs/runs/test_memory.py
 /// holds them against the programs.
 struct Cost {
   double lattice;  ///< rectangle along the axes

@@ -5,7 +5,8 @@ import tempfile
 import unittest
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "launch"))
+ROOT = Path(__file__).resolve().parents[3]
+sys.path.insert(0, str(ROOT / "launch"))
 
 # The beginning of a script that stands for a program. `here(name)` says that it has come so far, `wait(names)` waits until others
 # have said so.

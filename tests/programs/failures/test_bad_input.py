@@ -1,0 +1,143 @@
+#!/usr/bin/python3
+"""The user's mistakes: exit 2, one line that says where and what to write, nothing started, nothing made."""
+
+import os
+import subprocess
+import sys
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+from running import BIN, EndToEnd, FSI, LONG, ROOT  # noqa: E402
+
+PISTON = (ROOT / "configs" / "elastic_piston.yaml").read_text(encoding="utf-8")
+
+
+class BadInput(EndToEnd):
+    def refused(self, *arguments):
+        """The one line that a refused run prints."""
+        run = self.launch(*arguments)
+        self.assertEqual(run.wait(), 2, run.stdout + run.stderr)
+        lines = run.stderr.strip().splitlines()
+        self.assertEqual(len(lines), 1, run.stderr)
+        self.assertEqual(run.stdout, "")
+        self.assertFalse(run.directory.exists(), "a folder was made")
+        self.assertEqual(run.programs(), {})
+        return lines[0]
+
+    def changed(self, old, new):
+        """The line for a case file in which `old` is replaced; it names the place in the file."""
+        self.assertIn(old, PISTON)
+        path = self.folder / "case.yaml"
+        path.write_text(PISTON.replace(old, new, 1), encoding="utf-8")
+        line = self.refused(str(path))
+        self.assertRegex(line, r"case\.yaml:\d+:\d+: ")
+        return line
+
+    def test_output_that_nobody_reads_any_more_ends_the_command_silently(self):
+        reading, writing = os.pipe()
+        os.close(reading)
+        answer = subprocess.run([FSI, "gallery"], stdout=writing, stderr=subprocess.PIPE, text=True, check=False)
+        os.close(writing)
+        self.assertEqual((answer.returncode, answer.stderr), (141, ""))
+
+    def test_unknown_key_and_what_was_meant(self):
+        self.assertRegex(self.changed("cfl: 0.9", "clf: 0.9"), r"clf.*cfl")
+
+    def test_negative_density(self):
+        self.assertRegex(self.changed("rho: density_ratio\n", "rho: -density_ratio\n"), r"rho")
+
+    def test_wrong_expression(self):
+        self.changed("lambda: density_ratio * c_p^2 / 3", "lambda: density_ratio * (c_p^2 / 3")
+
+    def test_unknown_name_in_an_expression(self):
+        self.assertRegex(self.changed("lambda: density_ratio", "lambda: densityratio"), r"densityratio")
+
+    def test_law_that_does_not_exist(self):
+        self.assertRegex(self.changed("law: linear_elastic", "law: liner_elastic"), r"linear_elastic")
+
+    def test_two_solids_with_one_name(self):
+        self.assertRegex(self.changed("solids:\n", "solids:\n  solid: {law: linear_elastic}\n"), r"solid")
+
+    def test_interface_points_that_do_not_meet(self):
+        grid = "grid: {x: [-1, 0], y: [0, 1], spacing: h, rotation: angle}"
+        self.changed(grid, grid.replace("y: [0, 1]", "y: [0, 0.9]"))
+
+    def test_missing_file(self):
+        self.assertIn("nowhere/to/be/found.yaml", self.refused("nowhere/to/be/found.yaml"))
+
+    def test_misspelt_case(self):
+        self.assertIn("elastic_piston", self.refused("elastic_pistn"))
+
+    def test_wrong_options(self):
+        self.assertIn("time.ennd", self.refused("elastic_piston", "--set", "time.ennd=1"))
+        self.assertIn("neo_hokean", self.refused("elastic_piston", "--solid", "solid=neo_hokean"))
+        self.assertIn("beam", self.refused("elastic_piston", "--solid", "beam=neo_hookean"))
+        self.assertIn("--sett", self.refused("elastic_piston", "--sett", "time.end=1"))
+
+    def test_check_says_the_same_and_starts_nothing(self):
+        path = self.folder / "case.yaml"
+        path.write_text(PISTON.replace("cfl: 0.9", "clf: 0.9"), encoding="utf-8")
+        for case, code in (("elastic_piston", 0), (str(path), 2)):
+            answer = subprocess.run([FSI, "check", case], env={"FSI_BIN": str(BIN), "PATH": "/usr/bin:/bin"},
+                                    capture_output=True, text=True, check=False)
+            self.assertEqual(answer.returncode, code, answer.stderr)
+
+    def test_results_are_not_overwritten_unasked(self):
+        run = self.complete("elastic_piston", "--set", "grid.factor=1", "--set", "expect={}")
+        again = self.launch("elastic_piston", "--set", "grid.factor=1", "--set", "expect={}")
+        self.assertEqual(again.wait(), 2)
+        self.assertIn("--overwrite", again.stderr)
+        self.assertEqual(run.summary()["status"], "completed")
+        self.complete("elastic_piston", "--set", "grid.factor=1", "--set", "expect={}", "--overwrite")
+
+    def test_overwriting_takes_nothing_else_and_no_living_run(self):
+        short = ("elastic_piston", "--set", "grid.factor=1", "--set", "expect={}")
+        run = self.complete(*short)
+        notes = run.directory / "notes.txt"
+        notes.write_text("mine", encoding="utf-8")
+        refused = self.launch(*short, "--overwrite")
+        self.assertEqual(refused.wait(), 2)
+        self.assertIn("notes.txt", refused.stderr)
+        self.assertEqual(notes.read_text(encoding="utf-8"), "mine")
+        self.assertEqual(run.summary()["status"], "completed")
+        living = self.launch(*LONG, out="long")
+        living.until_stepping()
+        refused = self.launch(*short, "--overwrite", out="long")
+        self.assertEqual(refused.wait(), 2)
+        self.assertIn("still going on", refused.stderr)
+        self.assertEqual(len(living.programs()), 3)
+
+    def test_a_restart_goes_on_not_back(self):
+        run = self.complete("elastic_piston", "--set", "grid.factor=2", "--set", "expect={}", "--set", "output.checkpoint_every=10")
+        back = self.launch("--restart", str(run.directory), "--set", "time.end=0.1", out=None)
+        self.assertEqual(back.wait(), 2)
+        self.assertIn("time.end", back.stderr)
+        again = self.launch("--restart", str(run.directory), "--set", "expect={}", out=None)
+        self.assertEqual(again.wait(), 0, again.stderr)
+        self.assertIn("the run is complete", again.stdout + again.stderr)
+
+    def test_all_levels_are_checked_before_the_first_runs(self):
+        answer = subprocess.run([FSI, "converge", "elastic_piston", "--levels", "1,20000", "--out", self.folder / "levels"], cwd=self.folder,
+                                env=os.environ | {"FSI_BIN": str(BIN)}, capture_output=True, text=True, check=False)
+        self.assertEqual(answer.returncode, 2, answer.stderr)
+        self.assertIn("level 20000: ", answer.stderr)
+        self.assertFalse((self.folder / "levels").exists())
+
+    def test_no_such_verb(self):
+        answer = subprocess.run([FSI, "rn"], capture_output=True, text=True, check=False)
+        self.assertEqual(answer.returncode, 2)
+        self.assertRegex(answer.stderr, r"^fsi: no verb 'rn'; there are run, submit, test, .*completion$")
+
+    def test_a_rate_between_grids_takes_three(self):
+        answer = subprocess.run([FSI, "converge", "rigid_piston", "--levels", "1,2", "--min-rate", "5"], cwd=self.folder,
+                                env=os.environ | {"FSI_BIN": str(BIN)}, capture_output=True, text=True, check=False)
+        self.assertEqual(answer.returncode, 2, answer.stderr)
+        answer = subprocess.run([FSI, "converge", "rigid_piston", "--levels", "1,2,4", "--min-rate", "5"], cwd=self.folder,
+                                env=os.environ | {"FSI_BIN": str(BIN)}, capture_output=True, text=True, check=False)
+        self.assertEqual(answer.returncode, 1, answer.stderr)
+        self.assertIn("must be at least 5", answer.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,185 @@
+#!/usr/bin/python3
+"""Accidents other than a lost program: broken numbers, a full or vanished folder, requests at the wrong time; and a short
+form of the campaign of `fsi faults`."""
+
+import json
+import math
+import os
+import subprocess
+import sys
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+from running import BIN, EndToEnd, FSI, LONG, WATCHDOG, let_pass, until  # noqa: E402
+
+BREAKS = ("elastic_piston", "--set", "parameters.density_ratio=1e-3", "--set", "interface.projection=traditional",
+          "--set", "output.times=[0]")
+
+
+class BrokenNumbers(EndToEnd):
+    def test_state_just_before_is_written_and_still_sound(self):
+        import h5py
+        run = self.launch(*BREAKS)
+        self.assertEqual(run.wait(), 3, run.stderr)
+        self.assertRegex(run.stderr, r"step \d+, t = .*grid|step \d+, t = .*point")
+        failure = run.summary()["failure"]
+        self.assertEqual(failure["step"], run.summary()["steps"] + 1)
+        self.assertGreater(failure["t"], run.summary()["t"])
+        self.assertEqual(len(failure["point"]), 1 if failure["interface"] else 2)
+        self.assertNotRegex(failure["what"], r"step \d|t = |grid|point")
+        for word in (f"step {failure['step']}", f"({', '.join(map(str, failure['point']))})", failure["what"]):
+            self.assertIn(word, run.summary()["reason"])
+        for name, field in (("fluid", "p"), ("solid_solid", "u1")):
+            with h5py.File(run.directory / "last_state" / f"{name}.h5") as file:
+                ahead = run.summary()["dt"]["max"] if name != "fluid" else 0  # a solid shows what it has predicted
+                self.assertGreater(file.attrs["t"], 0)
+                self.assertLessEqual(file.attrs["t"], run.summary()["t"] + ahead + 1e-12)
+                values = next(iter(file.values()))[field][:]
+                self.assertTrue(all(math.isfinite(value) for value in values.flat))
+                if field == "p":
+                    self.assertGreater(values.min(), 0)
+
+
+class LostFolder(EndToEnd):
+    """A file in the place of a folder stops root as well as anybody."""
+
+    OUTPUTS = ("elastic_piston", "--set", "grid.factor=2", "--set", "expect={}", "--set", "time.dt=1e-5", "--set", "time.end=100",
+               "--set", "output.times=[100]", "--set", "output.every=0.01")
+
+    def lose(self, folder, *more):
+        run = self.launch(*self.OUTPUTS, *more)
+        self.assertTrue(until(lambda: len(list(run.directory.glob("fields/*"))) >= 4))
+        victim = run.directory / folder
+        if victim.exists():
+            victim.rename(run.directory / "gone")
+        victim.write_text("a file\n")
+        return run
+
+    def test_output_that_cannot_be_written_ends_the_run_with_code_5(self):
+        run = self.lose("fields")
+        self.assertEqual(run.wait(), 5, run.stderr)
+        self.assertIn("fields", run.stderr)
+        self.assertEqual(run.summary()["status"], "failed")
+        self.assert_nothing_left(run)
+
+    def test_run_goes_on_without_if_told_to_and_counts_what_is_lost(self):
+        run = self.lose("checkpoints", "--set", "output.on_failure=go_on", "--set", "output.checkpoint_every=50")
+        self.assertTrue(until(lambda: "the run goes on without" in run.log("fluid")))
+        run.ctl("stop")
+        self.assertEqual(run.wait(), 0, run.stderr)
+        self.assertEqual(run.summary()["status"], "stopped")
+        self.assertGreater(run.summary()["counters"]["lost_outputs"], 0)
+
+
+class FullDisk(EndToEnd):
+    """As the shell's limit of a file's size makes one for all that is run below it."""
+
+    def test_the_program_that_hit_it_is_named_and_exits_5(self):
+        run = self.launch(*LostFolder.OUTPUTS, script="import resource\nresource.setrlimit(resource.RLIMIT_FSIZE, (60000, 60000))")
+        self.assertEqual(run.wait(), 5, run.stderr)
+        origin = run.summary()["failure"]["origin"]
+        self.assertIn(origin, ("fluid", "solid", "coupler"))
+        self.assertRegex(run.summary()["reason"], rf"^{origin}: .*(File too large|free space)")
+
+    def test_a_report_that_finds_no_room_reaches_the_launcher_in_memory(self):
+        """Nothing fits any more, neither the programs' reports nor the words they leave in their logs."""
+        run = self.launch(*LONG, "--set", "output.checkpoint_every=1000", "--pause-at", "100")
+        programs = run.until_paused()
+        for name in ("parts", "checkpoints"):
+            (run.directory / name).write_text("a file\n")
+        self.assertEqual(len(programs), 3)
+        run.ctl("resume")
+        self.assertEqual(run.wait(), 5, run.stderr)
+        self.assertIn(run.summary()["failure"]["origin"], ("fluid", "solid", "coupler"))
+        self.assertIn("/checkpoints", run.summary()["reason"])
+
+
+class Requests(EndToEnd):
+    def entry(self, run):
+        """(path, content) of its entry in the registry."""
+        path = next((run.runtime / "amp-fsi").glob("*.json"))
+        return path, json.loads(path.read_text(encoding="utf-8"))
+
+    def send_with_key(self, run, key, word):
+        """What somebody can do who knows the name of the run and has a registry of his own: nobody hears him."""
+        path, content = self.entry(run)
+        others = self.folder / "others" / "amp-fsi"
+        others.mkdir(parents=True, exist_ok=True)
+        (others / path.name).write_text(json.dumps(content | {"key": key}), encoding="utf-8")
+        environment = os.environ | {"FSI_BIN": str(BIN), "XDG_RUNTIME_DIR": str(others.parent)}
+        answer = subprocess.run([str(FSI), "ctl", content["run"], word], env=environment, timeout=WATCHDOG, capture_output=True,
+                                text=True, check=False)
+        self.assertEqual(answer.returncode, 4, answer.stderr)
+
+    def test_requests_without_the_key_of_the_run_change_nothing(self):
+        run = self.launch(*LONG)
+        run.until_stepping()
+        self.send_with_key(run, "", "stop")
+        self.send_with_key(run, "sign:" + "0" * 64, "pause")
+        run.until_further()
+        self.assertEqual(run.checkpoints(), [])
+        run.ctl("stop")
+        self.assertEqual(run.wait(), 0, run.stderr)
+        alone = self.launch(*LONG, out="alone")
+        self.assertTrue(until(lambda: alone.written() > run.written()))
+        alone.ctl("stop")
+        self.assertEqual(alone.wait(), 0, alone.stderr)
+        self.assertEqual(run.table(), alone.table()[:len(run.table())])
+
+    def test_key_is_nowhere_but_in_the_entry_that_only_the_user_reads(self):
+        run = self.launch(*LONG)
+        programs = run.until_stepping()
+        path, content = self.entry(run)
+        self.assertEqual(path.stat().st_mode & 0o777, 0o600)
+        self.assertEqual(path.parent.stat().st_mode & 0o777, 0o700)
+        key = content["key"].encode()
+        self.assertGreaterEqual(len(key), 32)
+        for pid in programs.values():
+            self.assertNotIn(key, (Path("/proc") / str(pid) / "cmdline").read_bytes())
+        run.ctl("stop")
+        self.assertEqual(run.wait(), 0, run.stderr)
+        for file in run.directory.rglob("*"):
+            self.assertTrue(file.is_dir() or key not in file.read_bytes(), file)
+
+    def test_paused_run_takes_no_step_but_checkpoints_and_ends_at_a_stop(self):
+        run = self.launch(*LONG, "--pause-at", "100")
+        run.until_paused()
+        before = run.written()
+        run.ctl("checkpoint")
+        self.assertTrue(until(lambda: run.checkpoints()))
+        self.assertEqual(run.checkpoints(), [101])  # a checkpoint takes one step
+        let_pass(1)
+        self.assertLess(run.written() - before, 32 * len(run.table()[-1]))  # lines are written sixteen at a time
+        run.ctl("resume")
+        run.until_further()
+        run.ctl("stop")
+        self.assertEqual(run.wait(), 0, run.stderr)
+        self.assertEqual(run.summary()["status"], "stopped")
+        self.assertEqual(run.checkpoints()[-1], run.summary()["steps"])
+
+    def test_run_that_nobody_named_is_not_stopped_by_a_script(self):
+        run = self.launch(*LONG)
+        run.until_stepping()
+        environment = os.environ | {"FSI_BIN": str(BIN), "XDG_RUNTIME_DIR": str(run.runtime)}
+        answer = subprocess.run([str(FSI), "ctl", "stop"], env=environment, stdin=subprocess.DEVNULL, capture_output=True, text=True,
+                                timeout=WATCHDOG, check=False)
+        self.assertEqual(answer.returncode, 2)
+        self.assertRegex(answer.stderr, "name the run that shall stop: elastic_piston-")
+        run.until_further()
+        run.ctl("stop")
+        self.assertEqual(run.wait(), 0, run.stderr)
+
+
+class Campaign(EndToEnd):
+    def test_every_kind_of_fault_once(self):
+        out = self.folder / "trials.json"
+        environment = os.environ | {"FSI_BIN": str(BIN)}
+        answer = subprocess.run([str(FSI), "faults", "--count", "9", "--jobs", "3", "--out", str(out)], env=environment,
+                                capture_output=True, text=True, check=False)
+        self.assertEqual(answer.returncode, 0, answer.stdout + answer.stderr)
+        self.assertEqual(len(json.loads(out.read_text())), 9)
+
+
+if __name__ == "__main__":
+    unittest.main()

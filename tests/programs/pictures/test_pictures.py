@@ -1,0 +1,380 @@
+#!/usr/bin/python3
+"""What pictures of component grids are made of: cells, seams, numbers and scales."""
+
+import contextlib
+import io
+import sys
+import tempfile
+import types
+import unittest
+from pathlib import Path
+
+import h5py
+import numpy as np
+from matplotlib import pyplot
+from matplotlib.collections import TriMesh
+from matplotlib.image import AxesImage
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+from running import ROOT  # noqa: E402
+from fsi_launch import plot  # noqa: E402
+from fsi_launch.failure import UserMistake  # noqa: E402
+from fsi_launch.plot.look import caption, shading, style  # noqa: E402
+from fsi_launch.plot.one_run import disk, fields, schlieren  # noqa: E402
+from fsi_launch.plot.reading import data, mesh, scales  # noqa: E402
+from fsi_launch.plot.several_runs import outlines, several, side_by_side  # noqa: E402
+
+HOLE, RIM, OUTER = 0.5, 0.55, 0.8  # radii: unused points, the ring's inside and outside
+
+
+def read(arrays):
+    """A grid as read from a file: groups are mappings from names to arrays."""
+    return data._read_grid("grid", arrays)
+
+
+def background():
+    """A square of [-1, 1] with a hole."""
+    x1, x2 = np.meshgrid(np.linspace(-1, 1, 81), np.linspace(-1, 1, 81))
+    r = np.hypot(x1, x2)
+    return read({"x1": x1, "x2": x2, "kind": np.where(r < HOLE, data.UNUSED, np.where(r < RIM + 0.1, 2, 1)),
+                 "rho": np.where(r < HOLE, np.nan, 1)})
+
+
+def ring():
+    """A ring about the hole whose last points lie one spacing before its first ones."""
+    angle, r = np.meshgrid(np.arange(200) * 2 * np.pi / 200, np.linspace(RIM, OUTER, 9))
+    x1, x2 = r * np.cos(angle), r * np.sin(angle)
+    return read({"x1": x1, "x2": x2, "x1_bar": x1, "x2_bar": x2, "rho": np.ones_like(r),
+                 "u1": 0.3 * x1 + 0.2 * x2, "u2": -0.1 * x1 + 0.1 * x2})
+
+
+def area(triangles):
+    x, y = triangles.x[triangles.triangles], triangles.y[triangles.triangles]
+    return 0.5 * np.abs((x[:, 1] - x[:, 0]) * (y[:, 2] - y[:, 0]) - (x[:, 2] - x[:, 0]) * (y[:, 1] - y[:, 0])).sum()
+
+
+def circle(r, corners=200):
+    """Area of the regular polygon in a circle."""
+    return 0.5 * corners * r ** 2 * np.sin(2 * np.pi / corners)
+
+
+class Shading(unittest.TestCase):
+    """Colours over a grid."""
+
+    def setUp(self):
+        figure, self.axes = pyplot.subplots()
+        self.addCleanup(pyplot.close, figure)
+
+    def test_even_grids_are_images_with_the_holes_left_free_and_others_are_triangles(self):
+        grid = background()
+        drawn = shading.shade(self.axes, grid, grid.x1 + 2 * grid.x2, "viridis", (0, 1))
+        self.assertIsInstance(drawn, AxesImage)
+        self.assertEqual(int(drawn.get_array().mask.sum()), int((~grid.used()).sum()))
+        left, right, bottom, top = drawn.get_extent()
+        n2, n1 = grid.x1.shape
+        h = (right - left) / n1     # a point lies in the middle of its pixel
+        self.assertAlmostEqual(left + h * (10 + 0.5), grid.x1[0, 10])
+        self.assertAlmostEqual(bottom + (top - bottom) / n2 * (70 + 0.5), grid.x2[70, 0])
+        self.assertEqual(drawn.get_array()[70, 10], grid.x1[70, 10] + 2 * grid.x2[70, 10])
+        self.assertEqual(drawn.get_clim(), (0, 1))
+        around = ring()
+        self.assertIsInstance(shading.shade(self.axes, around, around.x1, "viridis", (0, 1)), TriMesh)
+
+    def test_grids_that_are_nearly_even_or_turned_are_triangles(self):
+        even = background()
+        for x1, x2 in ((even.x1 + 0.01 * even.x1 ** 3, even.x2), (even.x1 + 0.1 * even.x2, even.x2), (-even.x1, even.x2)):
+            grid = read({"x1": x1, "x2": x2, "rho": np.ones_like(x1)})
+            self.assertIsInstance(shading.shade(self.axes, grid, grid.x1, "viridis", (0, 1)), TriMesh)
+
+    def moving(self, speed):
+        """Series of a gas that moves at up to 1 and of a solid at up to `speed`, at two times."""
+        def output(grid, t, v):
+            zero = np.zeros_like(grid.x1)
+            grid.fields.update(v1=v * t * grid.x1, v2=v * t * grid.x2, p=1 + zero, rho=1 + zero, **{f"P{c}": zero for c in ("11", "12", "21", "22")})
+            return data.Output(t, [grid])
+        return [data.Series(name, [output(make(), t, v) for t in (0.5, 1.0)]) for name, make, v in (("fluid", background, 0.7), ("body", ring, speed))]
+
+    def test_velocities_have_one_scale_over_time_and_over_the_interface_unless_the_solid_is_slow(self):
+        size = scales.of_run(self.moving(1.0))
+        for speed, shared in ((1.0, True), (0.01, False)):
+            plan = fields._plan(self.moving(speed), fields.Look(size))
+            panel = next(one for one in plan.panels if one.title.startswith("speed"))
+            self.assertEqual(panel.one_scale(), shared)
+            self.assertAlmostEqual(panel.solid_range[1] if not shared else panel.gas_range[1], speed * OUTER if not shared else 0.7 * np.sqrt(2), places=6)
+
+
+class Captions(unittest.TestCase):
+    def test_wide_spacings_are_no_fractions(self):
+        self.assertEqual([caption.spacing(factor) for factor in (4, 0.2, 0.1, 0.04)], ["h = 1/40", "h = 1/2", "h = 1", "h = 2.5"])
+        self.assertEqual(caption.spacing(20, "m"), "h = 0.005 m")
+
+    def test_case_grid_law_and_own_parameters(self):
+        text = (ROOT / "configs" / "shock_ellipse.yaml").read_text(encoding="utf-8")
+        resolved = "name: shock_ellipse\n" + text.replace("rho_bar: 0.1", "rho_bar: 0.01").replace("grid: {factor: 4}", "grid:\n  factor: 4")
+        self.assertEqual(caption.of_case(resolved, several.entries(resolved)), "shock_ellipse, h = 1/40, neo hookean, rho_bar = 0.01")
+        own = resolved.replace("name: shock_ellipse", "name: mine")
+        self.assertEqual(caption.of_case(own, several.entries(own)), "mine, h = 1/40, neo hookean")
+
+
+    def test_a_long_title_takes_as_many_lines_as_fit(self):
+        figure, _ = pyplot.subplots(figsize=(4.4, 3.2))
+        caption.head(figure, "A shock of Mach 2 and a rigid cylinder: regular reflection, then a Mach stem, and all that follows")
+        figure.draw_without_rendering()
+        self.assertGreaterEqual(figure._suptitle.get_text().count("\n"), 1)
+        self.assertLess(figure._suptitle.get_window_extent().width, figure.bbox.width)
+
+
+class Cells(unittest.TestCase):
+    def test_holes_are_left_free(self):
+        grid = background()
+        triangles = mesh.triangles(grid)
+        self.assertTrue(np.isfinite(grid.fields["rho"].ravel()[triangles.triangles]).all())
+        self.assertLess(area(triangles), 4 - circle(HOLE))
+
+    def test_a_grid_without_kinds_is_used_everywhere(self):
+        self.assertTrue(ring().used().all())
+
+    def test_a_ring_is_drawn_without_a_gap(self):
+        self.assertAlmostEqual(area(mesh.triangles(ring())), circle(OUTER) - circle(RIM), places=12)
+
+    def test_what_a_ring_covers_is_drawn_once_but_for_the_cells_it_cuts(self):
+        both = area(mesh.triangles(background(), mesh.uncovered(background(), [ring()]))) + area(mesh.triangles(ring()))
+        domain, cut = 4 - circle(RIM), 2 * np.pi * (OUTER + RIM) * 0.025 * np.sqrt(2)
+        self.assertGreater(both, domain)
+        self.assertLess(both, domain + cut)
+
+    def test_the_ring_is_laid_over_the_background(self):
+        self.assertTrue(background().is_cartesian())
+        self.assertFalse(ring().is_cartesian())
+
+
+class Numbers(unittest.TestCase):
+    def test_nearly_constant_pressure_is_shown_about_a_round_number(self):
+        self.assertEqual(style.short_numbers(9.9985, 10.0006), (10.0, -3))
+
+    def test_plain_numbers_stay_plain(self):
+        self.assertEqual(style.short_numbers(0.2, 1.4), (0.0, 0))
+
+    def test_units_are_made_of_length_speed_and_pressure(self):
+        size = scales.Scales(length=2.0, speed=5.0, pressure=3.0)
+        self.assertEqual(size.of("force/area"), 3.0)
+        self.assertEqual(size.of("length/time"), 5.0)
+        self.assertEqual(size.of("force*length/depth"), size.of("force"))
+        self.assertEqual(size.of("power"), size.of("force") * size.of("length/time"))
+        self.assertEqual(size.of("energy/depth"), size.of("force"))
+        self.assertEqual(size.floor("apples"), 0.0)
+
+    def test_without_fields_nothing_is_taken_for_round_off(self):
+        for unit in ("length/time", "force/area", "force*length/depth", "power/depth"):
+            self.assertEqual(scales.of_run([]).floor(unit), 0.0)
+
+
+class Folders(unittest.TestCase):
+    """What is drawn of the folder of a run that has no output times, and of folders that are no run's."""
+
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory(prefix="fsi-test-")
+        self.addCleanup(scratch.cleanup)
+        self.run_ = Path(scratch.name) / "run"
+        for name in ("fields", "last_state"):
+            (self.run_ / name).mkdir(parents=True)
+        (self.run_ / "case.yaml").write_text("name: piston\n", encoding="utf-8")
+        (self.run_ / "interface.csv").write_text("step,t [time],gap [length]\n0,0,0\n1,0.1,1e-3\n2,0.2,3e-3\n", encoding="utf-8")
+
+    def write_state(self, path):
+        x1, x2 = np.meshgrid(np.linspace(0, 1, 5), np.linspace(0, 1, 4))
+        with h5py.File(path, "w") as file:
+            file.attrs["t"] = 0.2
+            for key, values in {"x1": x1, "x2": x2, "rho": 1 + x1, "p": 2 + x1, "v1": x1, "v2": x2}.items():
+                file[f"gas/{key}"] = values
+
+    def plot(self, folder):
+        """Names of the pictures."""
+        with contextlib.redirect_stdout(io.StringIO()) as printed:
+            plot.main(types.SimpleNamespace(directories=[folder], out=None, contours=False, movie=False, at=[], format="png"))
+        return [Path(line).stem for line in printed.getvalue().split("\n") if line]
+
+    def test_tables_are_drawn_before_the_first_output_time(self):
+        self.assertEqual(self.plot(self.run_), ["interface"])
+
+    def test_the_last_state_of_a_run_that_broke_is_drawn(self):
+        self.write_state(self.run_ / "last_state" / "fluid.h5")
+        self.assertEqual(self.plot(self.run_), ["fields_last", "interface"])
+
+    def test_a_part_of_a_run_is_refused_and_the_folder_of_the_run_named(self):
+        with self.assertRaisesRegex(UserMistake, f"part of a run.*'{self.run_.resolve()}'"):
+            self.plot(self.run_ / "fields")
+
+    def test_a_single_output_is_not_taken_for_a_series(self):
+        (self.run_ / "case.yaml").unlink()
+        self.write_state(self.run_ / "fields" / "solid_block_000000.h5")
+        with self.assertRaisesRegex(UserMistake, "not the series"):
+            self.plot(self.run_ / "fields")
+
+
+class Times(unittest.TestCase):
+    def setUp(self):
+        self.series = [data.Series(name, [data.Output(t, []) for t in (0.0, 0.5, 1.0 + 1e-13)]) for name in ("fluid", "block")]
+
+    def test_only_the_times_asked_for_are_drawn(self):
+        for one in data.at_times(self.series, [1.0, 0.0]):
+            self.assertEqual([output.t for output in one.outputs], [0.0, 1.0 + 1e-13])
+
+    def test_all_are_drawn_unless_some_are_asked_for(self):
+        self.assertEqual(data.at_times(self.series, []), self.series)
+
+    def test_a_time_without_output_is_refused_and_the_others_named(self):
+        with self.assertRaisesRegex(UserMistake, "fluid has no output at t = 0.7: it has 0, 0.5, 1"):
+            data.at_times(self.series, [0.5, 0.7])
+
+    def test_times_that_are_left_out_are_told(self):
+        x1, x2 = np.meshgrid(np.linspace(0, 1, 11), np.linspace(0, 1, 3))
+        grid = read({"x1": x1, "x2": x2, "rho": 1 + x1, "p": 1 + x1, "v1": x1, "v2": 0 * x1})
+        for count, told in ((12, ""), (13, "fields: 12 of 13 output times are drawn; --at TIME draws others\n")):
+            gas = data.Series("fluid", [data.Output(0.1 * k, [grid]) for k in range(count)], True)
+            with contextlib.redirect_stderr(io.StringIO()) as said:
+                self.assertEqual(len(list(fields.pictures([gas], fields.Look(scales.Scales(1, 1, 1))))), 12)
+            self.assertEqual(said.getvalue(), told)
+
+
+class Levels(unittest.TestCase):
+    def level(self, points, kind):
+        x1, x2 = np.meshgrid(np.linspace(0, 1, points), np.linspace(0, 1, points))
+        return {"x1": x1, "x2": x2, "kind": kind(x1, x2), "rho": 1 + x1}
+
+    def grids(self):
+        """A right half of fine cells, a left half of coarse ones, and a ring: as in a file, by names."""
+        angle, r = np.meshgrid(np.linspace(0, 2 * np.pi, 21), np.linspace(0.1, 0.2, 5))
+        return data._read_grids({
+            "air": self.level(13, lambda x, y: np.where(x < 0.499, data.UNUSED, data.DISCRETISED)),
+            "air_1": self.level(5, lambda x, y: np.where(x > 0.501, data.UNUSED, data.DISCRETISED)),
+            "ring": {"x1": 0.8 + r * np.cos(angle), "x2": 0.5 + r * np.sin(angle), "rho": r}})
+
+    def test_coarse_ones_are_drawn_before_fine_ones_and_these_before_fitted_grids(self):
+        self.assertEqual([(grid.name, grid.level) for grid in self.grids()], [("air_1", 1), ("air", 0), ("ring", 0)])
+        self.assertEqual(data.Output(0.0, self.grids()).background().name, "air")
+
+    def test_lines_are_where_cells_of_another_level_begin(self):
+        lines = mesh.level_outline(self.grids()[0])
+        self.assertEqual(len(lines), 4)
+        self.assertTrue((lines[:, :, 0] == 0.5).all())
+        np.testing.assert_allclose(sorted(lines[:, :, 1].ravel()), [0, 0.25, 0.25, 0.5, 0.5, 0.75, 0.75, 1])
+
+
+class SideBySide(unittest.TestCase):
+    def lattice(self, points, hole=0.0):
+        x1, x2 = np.meshgrid(np.linspace(-1, 1, points), np.linspace(-1, 1, points))
+        kind = np.where(np.hypot(x1, x2) < hole, data.UNUSED, data.DISCRETISED)
+        return read({"x1": x1, "x2": x2, "kind": kind, "rho": np.where(kind == data.UNUSED, np.nan, 2 + x1 * x2)})
+
+    def test_densities_are_compared_where_both_backgrounds_have_points(self):
+        for pair in ((self.lattice(21), self.lattice(41, 0.3)), (self.lattice(41, 0.3), self.lattice(21))):
+            x1, x2, (a, b) = side_by_side.on_common_points(*pair)
+            self.assertEqual(x1.shape, (21, 21))
+            known = np.hypot(x1, x2) >= 0.3
+            self.assertTrue((np.isnan(a) == ~known).all() and (a[known] == b[known]).all())
+
+    def test_backgrounds_without_common_points_are_not_compared(self):
+        self.assertIsNone(side_by_side.on_common_points(self.lattice(21), self.lattice(31)))
+
+    def test_runs_are_called_by_what_is_different_about_them(self):
+        case = "grid: \n  factor: {j}\ninterface:\n  projection: {p}\n"
+        cases = [case.format(j=j, p="full") for j in (8, 16)]
+        self.assertEqual(several.labels(cases, ["a", "b"]), ["h = 1/80", "h = 1/160"])
+        self.assertEqual(several.labels([cases[0]] * 2, ["a", "b"]), ["a", "b"])
+        unsaid = cases[0].replace("  projection: full\n", "")
+        self.assertEqual(several.labels([unsaid, cases[0]], ["a", "b"]), ["simplified", "full"])
+
+    def test_a_law_is_said_of_its_own_solid_where_there_are_several(self):
+        case = "solids:\n  block:\n    law: saint_venant_kirchhoff\n  egg:\n    law: {}\n"
+        cases = [case.format(law) for law in ("neo_hookean", "rigid")]
+        self.assertEqual(several.labels(cases, ["a", "b"]), ["egg: neo hookean", "egg: rigid"])
+        alone = [one.replace("  block:\n    law: saint_venant_kirchhoff\n", "") for one in cases]
+        self.assertEqual(several.labels(alone, ["a", "b"]), ["neo hookean", "rigid"])
+
+    def test_names_of_times_do_not_overlap_and_stay_where_there_is_room(self):
+        wide, high = outlines.LABEL
+        self.assertEqual(outlines.levels([(0, 0), (wide, 0), (2 * wide, 0)]), [0, 0, 0])
+        places = np.array([(0, 0), (wide / 2, 3), (wide / 3, -high / 2)])
+        placed = places - np.outer(outlines.levels(places), [0, high])
+        for k in range(3):
+            for other in range(k):
+                apart = np.abs(placed[k] - placed[other])
+                self.assertTrue(apart[0] >= wide or apart[1] >= high - 1e-6, placed)
+
+    def test_few_times_are_spread_evenly_and_common_to_all_runs(self):
+        runs = [dict.fromkeys(times, "output") for times in ((0, 0.5, 1, 2, 3, 4), (0, 0.5, 1 + 1e-12, 2, 3, 4, 5))]
+        self.assertEqual(several.few(several.common_times(runs)), [0.5, 2, 4])
+
+
+class Schlieren(unittest.TestCase):
+    def gas(self, density):
+        x1, x2 = np.meshgrid(np.linspace(0, 1, 41), np.linspace(0, 1, 21))
+        return data.Output(1.0, [read({"x1": x1, "x2": x2, "rho": density(x1, x2)})])
+
+    def test_a_front_is_a_shock_and_a_coarse_smooth_field_is_none(self):
+        self.assertTrue(schlieren.has_shocks(self.gas(lambda x, y: 1 + 0.3 * (x > 0.5))))
+        self.assertTrue(schlieren.has_shocks(self.gas(lambda x, y: 1 + 0.3 * (x > 0.5) + 0.2 * np.sin(6 * x))))
+        self.assertFalse(schlieren.has_shocks(self.gas(lambda x, y: 1 + 0.3 * np.sin(6 * x) * np.cos(6 * y))))
+        self.assertFalse(schlieren.has_shocks(self.gas(lambda x, y: 1 + 0.001 * (x > 0.5))))
+
+    def test_a_solid_that_rests_is_plain_and_has_no_colour_bar(self):
+        still = ring()
+        still.fields |= {"v1": 0 * still.x1, "v2": 0 * still.x1}
+        series = [data.Series("fluid", [self.gas(lambda x, y: 1 + 0.3 * (x > 0.5))]), data.Series("body", [data.Output(1.0, [still])])]
+        [(_, draw)] = schlieren.pictures(series, scales.Scales(1, 1, 1))
+        self.assertEqual(len(draw().axes), 1)
+        still.fields["v1"] += 1
+        self.assertEqual(len(draw().axes), 2)
+
+    def test_a_solid_beside_the_gas_is_within_the_picture(self):
+        around = data.Output(1.0, [ring()])
+        (left, right), (bottom, top) = schlieren._box(self.gas(lambda x, y: 1 + x), [around])
+        self.assertEqual([round(one, 3) for one in (left, right, bottom, top)], [-0.8, 1, -0.8, 1])
+
+
+class Disk(unittest.TestCase):
+    def test_deformation_gradient_of_a_linear_displacement_is_exact_also_at_the_seam(self):
+        F = disk._deformation_gradient(ring())
+        wanted = np.array([[1.3, 0.2], [-0.1, 1.1]])
+        self.assertLess(np.abs(F - wanted[:, :, None, None]).max(), 1e-11)  # round-off of differences of h = 1/40
+
+    def test_pressure_acts_along_the_radius_only_whatever_the_deformation(self):
+        F = np.array([[1.3, 0.2], [-0.1, 1.1]])
+        nominal = -7.0 * np.linalg.det(F) * np.linalg.inv(F)
+        normal, shear = disk._stress_on_circle(F, nominal, np.array(0.3), np.array(-0.4))
+        self.assertAlmostEqual(float(normal), -7.0, places=12)
+        self.assertAlmostEqual(float(shear), 0.0, places=12)
+
+    def test_the_stress_along_the_axis_is_the_normal_one_of_the_circle(self):
+        """On y = 0 the radius is the x axis: sigma_11 there is the traction's normal part that the other picture shows."""
+        grid = ring()
+        grid.fields |= {key: values + 0 * grid.x1 for key, values in (("P11", 2.0), ("P12", 0.5), ("P21", 0.25), ("P22", -1.0))}
+        grid.fields |= {key: 0 * grid.x1 for key in ("v1", "v2")}
+        grid = data.Grid(grid.name, grid.x1 + grid.fields["u1"], grid.x2 + grid.fields["u2"], grid.kind, grid.fields, grid.closed)
+        x = np.array([-0.95, 0.95])
+        found = disk._on_axis([grid], x, lambda one: {"normal": disk._sigma_11(one)})["normal"]
+        F = disk._deformation_gradient(grid)
+        normal, _ = disk._stress_on_circle(F, disk._nominal(grid.fields), np.ones_like(grid.x1), np.zeros_like(grid.x1))
+        self.assertLess(np.abs(found - normal[4, 0]).max(), 1e-11)
+
+    def test_the_axis_is_free_where_no_grid_is(self):
+        found = disk._on_axis([ring()], np.array([0.0, 0.6, -0.6, 2.0]), lambda one: {"x": one.x1})["x"]
+        self.assertTrue(np.isnan(found[[0, 3]]).all())
+        self.assertLess(np.abs(found[1:3] - [0.6, -0.6]).max(), 1e-12)
+
+    def test_the_reference_goes_on_on_the_other_side_of_the_centre(self):
+        r = np.linspace(0, 1, 5)
+        points = disk.Points(r, r, {"v_r": r, "normal": r ** 2})
+        x, v = disk._even(points, "v_r")
+        self.assertTrue(np.allclose(v, x) and np.allclose(disk._even(points, "normal")[1], x ** 2))
+
+    def test_the_reference_of_a_gas_around_a_disk_is_not_drawn_across_it(self):
+        r = np.linspace(1, 2, 3)
+        x, v = disk._even(disk.Points(r, r, {"v_r": r}), "v_r")
+        self.assertEqual(np.isnan(x).tolist(), [False] * 3 + [True] + [False] * 3)
+        self.assertEqual(np.isnan(v).tolist(), np.isnan(x).tolist())
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,173 @@
+#!/usr/bin/python3
+"""What `fsi new` writes is right and runs; `fsi check --plot` draws the grids that a run computes on."""
+
+import json
+import os
+import pty
+import re
+import subprocess
+import sys
+import unittest
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+from running import BIN, FSI, ROOT, WATCHDOG, EndToEnd  # noqa: E402
+from fsi_launch.plot.one_run import grids  # noqa: E402
+from fsi_launch.plot.reading import data  # noqa: E402
+
+CORNERS = "# corners\n0, 0\n2, -0.6\n2.4, 0.4\n1.2, 0.9\n"
+
+
+class InFolder(EndToEnd):
+    def fsi(self, *words, code=0, **options):
+        answer = subprocess.run([str(FSI), *words], env=os.environ | {"FSI_BIN": str(BIN)}, cwd=self.folder, text=True,
+                                stdin=subprocess.DEVNULL, capture_output=True, timeout=WATCHDOG, check=False, **options)
+        self.assertEqual(answer.returncode, code, answer.stdout + answer.stderr)
+        return answer
+
+    def facts(self, case):
+        """What `fsi_case` says of a case."""
+        answer = subprocess.run([BIN / "fsi_case", "resolve", case, "--json"], cwd=self.folder, capture_output=True, text=True, check=True)
+        return json.loads(answer.stdout)
+
+
+class New(InFolder):
+    def begin(self, *words):
+        """The first steps of a new case."""
+        (self.folder / "corners.csv").write_text(CORNERS)
+        self.fsi("new", "own", "--cells", "8", *words)
+        end = self.facts("own.yaml")["time"]["end"]
+        self.complete("own.yaml", "--set", f"time.end={0.02 * end}", "--no-progress")
+
+    def test_circle_of_aluminium_in_a_shock(self):
+        self.begin()
+
+    def test_scaled_outline_of_rubber(self):
+        self.begin("--outline", "corners.csv", "--size", "0.1", "--material", "rubber")
+        points = np.loadtxt(self.folder / "own_outline.csv", delimiter=",")
+        self.assertAlmostEqual(np.ptp(points, axis=0).max(), 0.1)
+
+    def test_straight_edges_fixed_in_a_stream(self):
+        self.begin("--outline", "corners.csv", "--straight", "--flow", "stream", "--mach", "2", "--law", "rigid", "--fixed")
+
+    def test_what_else_the_text_offers_is_valid(self):
+        (self.folder / "bar.csv").write_text("0, 0\n1, 0\n1, 4\n0, 4\n")
+        self.fsi("new", "bar", "--outline", "bar.csv", "--size", "0.1", "--straight", "--on-wall", "--defaults")
+        law, others = re.search(r"law: (\w+) +# or (.*): --solid", (self.folder / "bar.yaml").read_text(encoding="utf-8")).groups()
+        self.assertNotIn(law, others.split(", "))
+        for other in others.split(", "):
+            self.fsi("check", "bar.yaml", "--solid", f"body={other}")
+
+    def test_a_length_with_its_unit(self):
+        self.assertIn("without its unit", self.fsi("new", "own", "--size", "8cm", "--defaults", code=2).stderr)
+
+    def test_states_before_and_behind_the_shock_conserve_mass_momentum_and_energy(self):
+        self.fsi("new", "own", "--mach", "1.8", "--gamma", "1.3", "--density", "2", "--pressure", "5e4")
+        numbers = self.facts("own.yaml")["parameters"]
+        gamma, speed = numbers["gamma"], numbers["mach"] * numbers["a_0"]
+        self.assertAlmostEqual(numbers["a_0"] ** 2, 1.3 * 5e4 / 2)
+
+        def fluxes(rho, v, p):
+            w = speed - v
+            return np.array([rho * w, p + rho * w ** 2, gamma / (gamma - 1) * p / rho + 0.5 * w ** 2])
+
+        before, behind = fluxes(numbers["rho_0"], 0, numbers["p_0"]), fluxes(*(numbers[name] for name in ("rho_1", "v_1", "p_1")))
+        np.testing.assert_allclose(behind, before, rtol=1e-12)
+
+    def test_nothing_is_overwritten_unasked(self):
+        self.fsi("new", "own")
+        self.assertIn("own.yaml is there already", self.fsi("new", "own", code=2).stderr)
+        self.fsi("new", "own", "--overwrite", "--mach", "2")
+        self.assertEqual(self.facts("own.yaml")["parameters"]["mach"], 2)
+
+    def test_on_a_terminal_it_asks(self):
+        ours, theirs = pty.openpty()
+        answers = "\n0.2\nstream\n0.7\nsteel\nrigid\n\n"
+        with subprocess.Popen([str(FSI), "new", "own"], env=os.environ | {"FSI_BIN": str(BIN)}, cwd=self.folder, stdin=theirs,
+                              stdout=theirs, stderr=theirs, close_fds=True) as process:
+            os.close(theirs)
+            os.write(ours, answers.encode())
+            said = b""
+            try:
+                while chunk := os.read(ours, 4096):
+                    said += chunk
+            except OSError:     # what reading from a terminal nobody has open any more says
+                pass
+        os.close(ours)
+        self.assertEqual(process.returncode, 0, said.decode())
+        facts = self.facts("own.yaml")
+        self.assertEqual((facts["parameters"]["mach"], facts["solids"][0]["law"], facts["parameters"]["rho_bar"]), (0.7, "rigid", 7850))
+
+
+class FirstCase(InFolder):
+    """docs/first_case.md: its outline is saved, its commands are typed; pictures of fields are seen to elsewhere."""
+
+    def test_commands_of_the_page_work_as_they_stand_there(self):
+        page = (ROOT / "docs" / "first_case.md").read_text(encoding="utf-8")
+        blocks = [block.strip() for block in page.split("```")[1::2]]
+        (self.folder / "bean.csv").write_text(next(block for block in blocks if block.startswith("#")))
+        typed = [line for block in blocks for line in block.splitlines() if line.startswith("./launch/fsi")]
+        for line in typed:
+            words = line.split()[1:]
+            if words[0] in ("new", "check"):
+                self.fsi(*words)
+            elif words[0] == "run" and "--set" not in words:
+                self.fsi(*words, "--no-progress")
+        self.assertEqual((self.folder / "bean_grids.png").read_bytes()[:4], b"\x89PNG")
+        times = [float(word) for line in typed for flag, word in zip(line.split(), line.split()[1:]) if flag == "--at"]
+        with h5py.File(self.folder / "runs" / "bean" / "fluid.h5") as file:
+            written = [group.attrs["t"] for group in file.values()]
+        self.assertTrue(times and all(min(abs(t - there) for there in written) < 1e-9 * t for t in times), (times, written))
+
+
+class Grids(InFolder):
+    def test_pictures_in_the_formats_of_papers(self):
+        for name, begin in (("b.pdf", b"%PDF"), ("c.svg", b"<?xml")):
+            self.fsi("check", "plate", "--plot", name)
+            self.assertEqual((self.folder / name).read_bytes()[:len(begin)], begin)
+
+    def sides(self, case, *words):
+        """[(kind, line)] of the rim of the gas, as they are drawn."""
+        folder = self.folder / "grids"
+        subprocess.run([BIN / "fsi_grids", case, folder, *words], check=True, cwd=ROOT)
+        entries = {f"fluid.boundary.{side}": "outflow" for side in ("left", "right", "top")} | {"fluid.boundary.bottom": "slip_wall"}
+        return grids._gas_sides(data.all_series(folder), entries)
+
+    def test_sides_of_the_gas_are_drawn_as_what_they_are(self):
+        sides = self.sides("elastic_ramp")
+        along = {kind: np.concatenate([line for other, line in sides if other == kind]) for kind, _ in sides}
+        self.assertTrue((along["wall"][:, 1] == 0).all() and along["wall"][:, 0].max() < 0.1)    # the floor before the ramp
+        ramp = along["surface of a body"]
+        np.testing.assert_allclose(ramp[:, 1], np.tan(np.radians(12)) * ramp[:, 0], atol=1e-12)
+        on_rim = np.isin(along["open"], (-1.0, 1.0, 2.0)).any(axis=1)
+        self.assertTrue(on_rim.all())
+
+    def test_a_curve_without_a_body_is_a_wall(self):
+        sides = self.sides("rotating_disk_walled", "--set", "grid.factor=2")
+        radii = {kind: np.concatenate([np.hypot(*line.T) for other, line in sides if other == kind]) for kind, _ in sides}
+        np.testing.assert_allclose(radii["wall"], 2)
+        np.testing.assert_allclose(radii["surface of a body"], 1)
+
+    def test_mistakes(self):
+        self.assertIn(".svg", self.fsi("check", "plate", "--plot", "a.jpg", code=2).stderr)
+        self.assertIn("no folder", self.fsi("check", "plate", "--plot", "nowhere/a.png", code=2).stderr)
+
+    def test_they_are_those_of_a_run(self):
+        changes = ("--set", "grid.factor=2", "--set", "time.end=1e-3", "--set", "output.times=[0]")
+        run = self.complete("two_cylinders", *changes, "--no-progress")
+        subprocess.run([BIN / "fsi_grids", "two_cylinders", self.folder / "grids", "--set", "grid.factor=2"], check=True, cwd=ROOT)
+        files = sorted(path.name for path in run.directory.glob("*.h5"))
+        self.assertEqual(files, sorted(path.name for path in (self.folder / "grids").glob("*.h5")))
+        for name in files:
+            with h5py.File(run.directory / name) as computed, h5py.File(self.folder / "grids" / name) as drawn:
+                self.assertEqual(list(computed["000000"]), list(drawn["000000"]))
+                for grid in computed["000000"]:
+                    for key in ("x1", "x2", "kind"):
+                        np.testing.assert_array_equal(computed["000000"][grid][key], drawn["000000"][grid][key], f"{name} {grid} {key}")
+
+
+if __name__ == "__main__":
+    unittest.main()

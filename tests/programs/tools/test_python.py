@@ -1,0 +1,119 @@
+#!/usr/bin/python3
+"""Runs are started, steered, varied and read from Python; the scripts in examples/python do what they say."""
+
+import json
+import os
+import subprocess
+import sys
+import unittest
+from pathlib import Path
+
+import numpy
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+from running import BIN, EndToEnd, FSI, ROOT, WATCHDOG  # noqa: E402
+import amp_fsi  # noqa: E402
+
+COARSE = {"grid.factor": 2, "expect": {}}
+
+
+class FromPython(EndToEnd):
+    def setUp(self):
+        super().setUp()
+        runtime = self.folder / "runtime"
+        runtime.mkdir(exist_ok=True)
+        before = dict(os.environ)
+        self.addCleanup(os.environ.update, before)
+        os.environ |= {"FSI_BIN": str(BIN), "XDG_RUNTIME_DIR": str(runtime), "PYTHONPATH": str(ROOT / "launch")}
+
+    def test_run_is_read(self):
+        run = amp_fsi.run("elastic_piston", set=COARSE | {"output.times": [0.1, 0.2], "time.end": 0.2}, out=self.folder / "run")
+        self.assertEqual(run.summary["status"], "completed")
+        self.assertEqual(run.programs, ("fluid", "solid"))
+        self.assertEqual(run.times("solid"), [0.1, 0.2])
+        (first,), (last,) = run.fields("fluid", t=0.1).values(), run.fields("fluid").values()
+        self.assertFalse(numpy.array_equal(first["p"], last["p"]))
+        numpy.testing.assert_allclose(last["T"] * last["rho"], last["p"])
+        self.assertEqual(run.interface["t"][-1], 0.2)
+        self.assertEqual(run.units("forces_solid")["angle"], "rad")
+        with self.assertRaisesRegex(ValueError, "it has 0.1, 0.2"):
+            run.fields("fluid", t=0.15)
+        with self.assertRaisesRegex(KeyError, "there are fluid, solid"):
+            run.fields("disk")
+
+    def test_mistake_and_failure_have_their_codes_and_reasons(self):
+        with self.assertRaisesRegex(amp_fsi.RunFailed, "did you mean `factor`") as caught:
+            amp_fsi.run("elastic_piston", set={"grid.fctor": 2}, out=self.folder / "mistake")
+        self.assertEqual((caught.exception.code, caught.exception.run), (2, None))
+        with self.assertRaises(amp_fsi.RunFailed) as caught:
+            amp_fsi.run("elastic_piston", set=COARSE | {"parameters.density_ratio": 1e-3, "interface.projection": "traditional"},
+                        out=self.folder / "broken")
+        self.assertEqual(caught.exception.code, 3)
+        self.assertEqual(caught.exception.run.summary["status"], "failed")
+
+    def test_run_is_steered(self):
+        running = amp_fsi.start("elastic_piston", set=COARSE | {"time.dt": 1e-7}, out=self.folder / "run")
+        running.until(lambda: (self.folder / "run" / "interface.csv").is_file())
+        running.pause()
+        running.until(lambda: running.state()["status"] == "paused")
+        self.assertTrue(running.going())
+        running.resume()
+        running.stop()
+        self.assertEqual(running.wait().summary["status"], "stopped")
+
+    def test_study_goes_on_where_it_was(self):
+        vary = {"parameters.density_ratio": [0.01, 1]}
+        first = amp_fsi.study("elastic_piston", vary, set=COARSE, jobs=2, out=self.folder / "study")
+        self.assertEqual([row["status"] for row in first["rows"]], ["completed"] * 2)
+        kept = self.folder / "study" / "density_ratio=1" / "summary.json"
+        before = kept.stat().st_mtime_ns
+        (self.folder / "study" / "density_ratio=0.01" / "summary.json").unlink()
+        again = amp_fsi.study("elastic_piston", vary, set=COARSE, jobs=2, out=self.folder / "study")
+        self.assertEqual(kept.stat().st_mtime_ns, before)
+        self.assertEqual([row["quantities"] for row in again["rows"]], [row["quantities"] for row in first["rows"]])
+        self.assertTrue((self.folder / "study" / "study.png").is_file())
+        changed = amp_fsi.study("elastic_piston", vary, set=COARSE | {"time.end": 0.4}, out=self.folder / "study")
+        self.assertEqual({row["t"] for row in changed["rows"]}, {0.4})
+
+    def test_study_checks_all_cases_first(self):
+        answer = subprocess.run([FSI, "study", "elastic_piston", "--vary", "time.end=0.1,0", "--out", self.folder / "study"],
+                                capture_output=True, text=True, check=False, timeout=WATCHDOG)
+        self.assertEqual(answer.returncode, 2, answer.stderr)
+        self.assertIn("time.end", answer.stderr)
+        self.assertFalse((self.folder / "study").exists())
+
+    def test_study_tells_what_failed_and_keeps_the_rest(self):
+        answer = subprocess.run([FSI, "study", "elastic_piston", "--set", "grid.factor=2", "--set", "parameters.density_ratio=1e-3", "--vary",
+                                 "interface.projection=traditional,simplified", "--show", "interface.max_gap", "--out", self.folder / "study"],
+                                capture_output=True, text=True, check=False, timeout=WATCHDOG)
+        self.assertEqual(answer.returncode, 3, answer.stderr)
+        result = json.loads((self.folder / "study" / "study.json").read_text(encoding="utf-8"))
+        self.assertEqual([row["status"] for row in result["rows"]], ["failed", "completed"])
+        self.assertGreater(result["rows"][1]["quantities"]["interface.max_gap"], 0)
+
+    def test_study_refuses_a_quantity_that_no_run_has(self):
+        for wanted, said in (("interface.gap", "it has step, t, .*solid.gap"), ("forces_body.force1:max", "there are .*interface")):
+            answer = subprocess.run([FSI, "study", "elastic_piston", "--set", "grid.factor=2", "--vary", "parameters.density_ratio=0.1,1",
+                                     "--show", wanted, "--out", self.folder / "study"],
+                                    capture_output=True, text=True, check=False, timeout=WATCHDOG)
+            self.assertEqual(answer.returncode, 2, answer.stderr)
+            self.assertRegex(answer.stderr.splitlines()[-1], f"--show {wanted}: .*{said}")
+            self.assertFalse((self.folder / "study" / "density_ratio=1").exists())     # the first run told it
+
+    def example(self, name):
+        answer = subprocess.run(["/usr/bin/python3", ROOT / "examples" / "python" / f"{name}.py", self.folder / name],
+                                capture_output=True, text=True, check=False, timeout=WATCHDOG)
+        self.assertEqual(answer.returncode, 0, answer.stderr)
+        return answer.stdout
+
+    def test_example_light_piston(self):
+        lines = self.example("light_piston").splitlines()
+        self.assertEqual([line.split()[-1] for line in lines[2:5]], ["broke"] * 3)
+        self.assertTrue((self.folder / "light_piston" / "velocity.png").is_file())
+
+    def test_example_stop_when(self):
+        self.assertTrue(self.example("stop_when").startswith("stopped at t = "))
+
+
+if __name__ == "__main__":
+    unittest.main()

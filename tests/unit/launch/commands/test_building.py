@@ -1,0 +1,100 @@
+#!/usr/bin/python3
+"""What the command configures and builds, and for which instruction set; cmake and ninja are stand-ins that write down how they were
+called."""
+
+import os
+import shutil
+import subprocess
+import sys
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+from launcher import InScratch, ROOT  # noqa: E402
+
+CMAKE = """#!/bin/bash
+echo "$*" >>"$CALLS"
+build=$PWD/build/release march=native
+[[ ! -f $build/CMakeCache.txt ]] || march=$(sed -n 's/^FSI_MARCH:STRING=//p' "$build/CMakeCache.txt")
+for word in "$@"; do [[ $word != FSI_MARCH=* ]] || march=${word#*=}; done
+printf 'CMAKE_HOME_DIRECTORY:INTERNAL=%s\\nFSI_MARCH:STRING=%s\\n' "$PWD" "$march" >"$build/CMakeCache.txt"
+if [[ $march == nonsense ]]; then echo "Error: nonsense"; exit 1; fi
+printf 'build bin/%s: LINK\\n' fsi_case fluid_solver coupler solid_solver_neo_hookean reference_piston >"$build/build.ninja"
+"""
+NINJA = """#!/bin/bash
+echo "ninja ${*:5}" >>"$CALLS"
+"""
+CASE = """#!/bin/bash
+echo '{"name": "piston", "resolved": "", "participants": [{"name": "fluid", "executable": "fluid_solver"},
+  {"name": "solid", "executable": "somebody_elses"}, {"name": "coupler", "executable": "coupler"}],
+  "reference": {"kind": "piston_1d"}, "expect": [], "time": {"end": 1}, "output_times": [], "projection": "full",
+  "restart_digest": "", "cost": {"programs": []}}'
+"""
+
+
+class Building(InScratch):
+    def setUp(self):
+        super().setUp()
+        shutil.copytree(ROOT / "launch", self.folder / "launch")
+        self.tools = self.folder / "tools"
+        self.tools.mkdir()
+        # dpkg-query: every package is there; ccache: none of this machine's is asked.
+        for name, text in {"cmake": CMAKE, "ninja": NINJA, "dpkg-query": "#!/bin/bash\necho -n installed\n"}.items():
+            (self.tools / name).write_text(text)
+            (self.tools / name).chmod(0o755)
+        self.calls = self.folder / "calls"
+
+    def build(self, march=None, verb="check"):
+        """(how cmake and ninja were called, what the command said)"""
+        self.calls.write_text("")
+        environment = {key: value for key, value in os.environ.items() if key not in ("FSI_BIN", "FSI_MARCH")}
+        environment |= {"PATH": f"{self.tools}:{os.environ['PATH']}", "CALLS": str(self.calls)}
+        if march is not None:
+            environment["FSI_MARCH"] = march
+        answer = subprocess.run([self.folder / "launch" / "fsi", verb, "nothing"], env=environment, capture_output=True,
+                                text=True, check=False)
+        return self.calls.read_text().splitlines(), answer.stderr
+
+    def configured(self, march=None):
+        return [call for call in self.build(march)[0] if not call.startswith("ninja")]
+
+    def test_the_first_build_is_for_this_machine_and_the_next_configures_nothing(self):
+        self.assertEqual(self.configured(), ["--preset release"])
+        self.assertEqual(self.configured(), [])
+
+    def test_an_instruction_set_holds_from_the_first_time_it_is_named(self):
+        self.assertEqual(self.configured("x86-64-v3"), ["--preset release -D FSI_MARCH=x86-64-v3"])
+        self.assertEqual(self.configured("x86-64-v3"), [])
+        self.assertEqual(self.configured(), [])
+
+    def test_another_one_configures_anew(self):
+        self.configured("x86-64-v3")
+        self.assertEqual(self.configured("native"), ["--preset release -D FSI_MARCH=native"])
+
+    def test_one_that_is_refused_leaves_the_build_as_it_was(self):
+        self.configured("x86-64-v3")
+        calls, said = self.build("nonsense")
+        self.assertEqual(len(calls), 1)
+        self.assertIn("Error: nonsense", said)
+        self.assertEqual(self.configured(), [])
+        self.assertEqual(self.configured("x86-64-v3"), [])
+
+    def test_one_that_is_refused_at_once_leaves_nothing(self):
+        self.configured("nonsense")
+        self.assertEqual(self.configured(), ["--preset release"])
+
+    def test_a_run_builds_what_it_needs_and_nothing_else(self):
+        programs = self.folder / "build" / "release" / "bin"
+        programs.mkdir(parents=True)
+        (programs / "fsi_case").write_text(CASE)
+        (programs / "fsi_case").chmod(0o755)
+        calls, said = self.build(verb="run")
+        self.assertEqual(calls[1:], ["ninja bin/fsi_case bin/fsi_xdmf", "ninja bin/fluid_solver bin/coupler bin/reference_piston"])
+        self.assertIn("the program fluid_solver is not in", said)   # the stand-in has built nothing
+
+    def test_a_check_builds_the_checker(self):
+        self.assertEqual(self.build()[0][1:], ["ninja bin/fsi_case"])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,193 @@
+#!/usr/bin/python3
+"""`fsi new` before it asks the programs: outlines, materials, sizes, questions."""
+
+import math
+import sys
+import unittest
+from pathlib import Path
+from types import SimpleNamespace
+
+import yaml
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+from launcher import InScratch  # noqa: E402
+from fsi_launch import new  # noqa: E402
+from fsi_launch.failure import UserMistake  # noqa: E402
+from fsi_launch.new import materials, outline, questions, text  # noqa: E402
+from fsi_launch.new.problem import Problem  # noqa: E402
+
+OPTIONS = ("name", "outline", "straight", "on_wall", "size", "flow", "mach", "density", "pressure", "gamma", "material", "law", "fixed", "end",
+           "cells")
+
+
+def options(**given):
+    return SimpleNamespace(**{name: None for name in OPTIONS} | {"name": "case", "straight": False, "fixed": False, "on_wall": False} | given)
+
+
+def problem(**given):
+    return new.problem_of(options(**given))
+
+
+class Outlines(InScratch):
+    def read(self, content):
+        path = self.folder / "outline.csv"
+        path.write_text(content)
+        return outline.read(path, straight=True)
+
+    def test_separators_comments_and_headings(self):
+        expected = ((0.0, 0.0), (1.0, 0.0), (0.5, 2.0))
+        for content in ("0,0\n1,0\n.5,2\n", "# outline\nx; y\n0; 0\n1; 0  # foot\n\n0.5; 2\n", "0 0\n1\t0\n0.5 2\n", "0,0\n1,0\n0.5,2\n0,0\n"):
+            with self.subTest(content):
+                self.assertEqual(self.read(content).points, expected)
+
+    def test_mistakes_say_where(self):
+        for content, said in (("0,0\n1,x\n", "outline.csv:2: '1,x' is no point"), ("0,0\n1,0,3\n", "outline.csv:2"), ("0,0\n1,1\n", "3 points")):
+            with self.subTest(content), self.assertRaises(UserMistake) as caught:
+                self.read(content)
+            self.assertIn(said, str(caught.exception))
+        with self.assertRaises(UserMistake):
+            outline.read(self.folder / "nowhere.csv")
+
+    def test_a_smooth_curve_needs_a_point_more_than_a_triangle(self):
+        self.read("0,0\n1,0\n.5,2\n")
+        with self.assertRaises(UserMistake) as caught:
+            outline.read(self.folder / "outline.csv")
+        self.assertIn("--straight", str(caught.exception))
+
+    def test_scaled_outline_has_the_size_and_the_shape(self):
+        before = self.read("0,0\n4,0\n4,2\n0,2\n")
+        after = outline.scaled(before, 0.1)
+        self.assertAlmostEqual(after.size(), 0.1)
+        x_low, x_high, y_low, y_high = after.box()
+        self.assertAlmostEqual((x_high - x_low) / (y_high - y_low), 2)
+
+
+class Materials(unittest.TestCase):
+    def test_bars_of_steel_and_aluminium_carry_sound_equally_fast_and_rubber_slower_than_air(self):
+        speed = {name: math.sqrt(one.E / one.rho) for name, one in materials.TABLE.items()}
+        self.assertLess(abs(speed["steel"] - speed["aluminium"]), 0.02 * speed["steel"])
+        self.assertLess(speed["rubber"], 340)
+
+    def test_all_are_elastic(self):
+        for one in materials.TABLE.values():
+            self.assertTrue(one.rho > 0 and one.E > 0 and 0 < one.nu < 0.5, one)
+
+    def test_of_ones_own(self):
+        own = materials.material_of("1000,1e6,0.4")
+        self.assertEqual((own.rho, own.E, own.nu), (1000, 1e6, 0.4))
+
+    def test_mistakes(self):
+        for word in ("unobtainium", "1,2", "1000,1e6,0.5", "-1,1e6,0.3"):
+            with self.subTest(word), self.assertRaises(UserMistake):
+                materials.material_of(word)
+
+
+class Sizes(unittest.TestCase):
+    def test_gas_reaches_a_length_and_a_half_beyond_the_body_in_whole_spacings(self):
+        for size in (3e-4, 0.07, 1.0, 12.3):
+            one = problem(size=size)
+            h, (x_low, x_high, y_low, y_high) = one.spacing(), one.domain()
+            self.assertTrue(0.4 * size / 20 < h <= size / 20 * 1.0001, (size, h))
+            for reach in (-x_low, x_high, -y_low, y_high):
+                self.assertGreaterEqual(reach * 1.0001, 2 * size)
+                self.assertAlmostEqual(reach / h, round(reach / h), places=6)
+            self.assertTrue(x_low < one.shock() < -0.5 * size)
+
+    def test_shock_has_passed_the_body_at_the_end(self):
+        one = problem(size=0.2, mach=2.0)
+        self.assertGreater(one.shock() + 2.0 * one.sound() * one.duration(), 0.1)
+
+    def test_air_at_sea_level_carries_sound_at_340_metres_per_second(self):
+        self.assertAlmostEqual(problem().sound(), 340.3, delta=0.1)
+
+    def test_mistakes(self):
+        for given in ({"mach": 1.0}, {"mach": -1.0, "flow": "stream"}, {"density": 0.0}, {"gamma": 1.0}, {"cells": 2}, {"size": 0.0},
+                      {"fixed": True}, {"straight": True}, {"on_wall": True}, {"end": float("nan")}):
+            with self.subTest(given), self.assertRaises(UserMistake):
+                problem(**given)
+
+
+class Text(unittest.TestCase):
+    def test_all_of_it_is_what_was_asked_for(self):
+        case = yaml.safe_load(text.write(problem(material="steel", law="rigid", fixed=True, mach=1.7, end=2e-3), "case.yaml", None))
+        body, parameters = case["solids"]["body"], case["parameters"]
+        self.assertEqual((body["law"], body["motion"], case["units"]), ("rigid", "fixed", "SI"))
+        self.assertEqual((parameters["mach"], float(parameters["E"]), case["time"]["end"]), (1.7, 205e9, 0.002))
+
+    def test_straight_edges_are_a_polygon_through_the_same_points(self):
+        points = ((0.0, 0.0), (0.1, 0.0), (0.1, 0.05))
+        one = Problem("case", outline.Outline(Path("o.csv"), points), materials.TABLE["steel"], straight=True)
+        shape = yaml.safe_load(text.write(one, "case.yaml", "o.csv"))["solids"]["body"]["shape"]
+        self.assertEqual((shape["kind"], [tuple(corner) for corner in shape["corners"]]), ("polygon", list(points)))
+
+
+class OnAWall(InScratch):
+    def shape_of(self, content, **given):
+        (self.folder / "o.csv").write_text(content)
+        case = yaml.safe_load(text.write(problem(outline=str(self.folder / "o.csv"), straight=True, **given), "case.yaml", None))
+        return case, case["solids"]["body"]
+
+    def test_an_elastic_bar_has_sharp_corners_and_a_house_round_ones(self):
+        bar, house = "0,0\n.1,0\n.1,.2\n0,.2\n", "0,0\n.1,0\n.1,.2\n.05,.3\n0,.2\n"
+        self.assertEqual(self.shape_of(bar, on_wall=True)[1]["shape"]["radius"], 0)
+        for content, given in ((house, {"on_wall": True}), (bar, {}), (bar, {"on_wall": True, "law": "rigid", "fixed": True})):
+            self.assertGreater(self.shape_of(content, **given)[1]["shape"]["radius"], 0)
+
+    def test_four_corners_are_a_block_where_none_is_hollow(self):
+        square, arrow = ((0, 0), (1, 0), (1, 1), (0, 1)), ((0, 0), (1, 0), (0.2, 0.2), (0, 1))
+        for points, block in ((square, True), (square[::-1], True), (arrow, False), (square[:3], False)):
+            self.assertEqual(outline.is_block(outline.Outline(Path("o.csv"), points)), block)
+
+    def test_the_lowest_edge_is_the_foot(self):
+        for content in ("0,-1\n1,-1\n1,2\n0,2\n", "1,2\n1,-1\n0,-1\n0,2\n", "0,2\n0,-1\n1,-1\n1,2\n"):
+            case, body = self.shape_of(content, on_wall=True)
+            corners = body["shape"]["corners"]
+            self.assertEqual((corners[0][1], corners[-1][1]), (-1, -1))
+            self.assertEqual({tuple(corner) for corner in corners}, {(0, -1), (1, -1), (1, 2), (0, 2)})
+            self.assertEqual(body["shape"]["walls"], ["bottom", "bottom"])
+            self.assertEqual(body["boundary"]["bottom"], "clamped")
+            self.assertEqual((case["fluid"]["grid"]["y"][0], case["fluid"]["boundary"]["bottom"]), (-1, "slip_wall"))
+
+    def test_without_a_level_foot_it_is_refused(self):
+        with self.assertRaises(UserMistake) as caught:
+            self.shape_of("0,0\n1,0.1\n1,2\n0,2\n", on_wall=True)
+        self.assertIn("level edge", str(caught.exception))
+
+
+class Questions(InScratch):
+    def ask(self, given, *answers):
+        """The options after these answers, and what was said."""
+        said, left = [], list(answers)
+
+        def ask(words):
+            said.append(words)
+            if not left:
+                raise EOFError
+            return left.pop(0)
+
+        questions.ask_for_missing(given, ask, said.append)
+        self.assertEqual(left, [])
+        return given, said
+
+    def test_empty_answers_take_the_defaults(self):
+        given, _ = self.ask(options(), *[""] * len(questions.QUESTIONS))
+        one = new.problem_of(given)
+        self.assertEqual((one.flow, one.mach, one.material.name, one.law), ("shock", 1.3, "aluminium", "neo_hookean"))
+
+    def test_what_was_given_is_not_asked_for(self):
+        given, said = self.ask(options(flow="stream", mach=2.0, size=1.0, law="rigid", end=1.0), "", "steel")
+        self.assertEqual((given.mach, given.material), (2.0, "steel"))
+        self.assertFalse([words for words in said if "Mach" in words])
+
+    def test_wrong_answers_are_asked_for_again(self):
+        given, said = self.ask(options(outline="x", size=1.0, flow="shock", law="rigid", end=1.0), "fast", "-2", "1.5", "cheese", "steel")
+        self.assertEqual((given.mach, given.material), (1.5, "steel"))
+        self.assertIn("  'fast' is no number", said)
+
+    def test_no_more_answers(self):
+        with self.assertRaises(UserMistake):
+            self.ask(options())
+
+
+if __name__ == "__main__":
+    unittest.main()

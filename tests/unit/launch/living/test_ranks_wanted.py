@@ -1,0 +1,105 @@
+#!/usr/bin/python3
+"""Who gets how many ranks and which cores by --ranks, and what is said where that cannot be."""
+
+import json
+import sys
+import unittest
+from pathlib import Path
+from types import SimpleNamespace
+from unittest import mock
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+from launcher import InScratch  # noqa: E402
+from fsi_launch import paths  # noqa: E402
+from fsi_launch.failure import UserMistake  # noqa: E402
+from fsi_launch.living import ranks  # noqa: E402
+from fsi_launch.results import verdict  # noqa: E402
+
+
+def case(cost=None, **programs):
+    return SimpleNamespace(programs=programs, cost=cost or {})
+
+
+PISTON = case(fluid="fluid_solver", solid="solid_solver_beam", coupler="coupler")
+ELLIPSE = {"fluid": "fluid_solver", "ellipse": "solid_solver_neo_hookean", "coupler": "coupler"}
+TWO_GASES = case(left="fluid_solver", right="fluid_solver", plate="solid_solver_beam", coupler="coupler")
+
+
+def with_cores(number):
+    return mock.patch("os.sched_getaffinity", return_value=set(range(number)))
+
+
+class Wanted(InScratch):
+    def refused(self, text):
+        with self.assertRaises(UserMistake) as caught:
+            ranks.wanted(text, PISTON)
+        return str(caught.exception)
+
+    def test_nothing_asked_or_one_rank_is_nothing_new(self):
+        self.assertEqual(ranks.wanted(None, PISTON), {})
+        self.assertEqual(ranks.wanted("fluid=1,solid=1", PISTON), {})
+
+    def test_each_gas_its_own(self):
+        self.assertEqual(ranks.wanted("left=2,right=3", TWO_GASES), {"left": 2, "right": 3})
+
+    def test_what_cannot_be(self):
+        self.assertIn("solid (solid_solver_beam) computes in one process only", self.refused("solid=2"))
+        self.assertIn("no participant 'gas'; it has fluid, solid, coupler", self.refused("gas=2"))
+        for program in ("solid_solver_rigid", "bin/mine"):
+            with self.assertRaises(UserMistake) as caught:
+                ranks.wanted("solid=2", case(solid=program))
+            self.assertIn(f"solid ({program}) computes in one process only", str(caught.exception))
+        for word in ("fluid", "fluid=0", "fluid=65", "fluid=two"):
+            self.assertIn(f"'{word}' is not NAME=N with N from 1 to 64", self.refused(word))
+
+    def test_solids_with_a_grid(self):
+        self.assertEqual(ranks.wanted("fluid=2,ellipse=3", case(**ELLIPSE)), {"fluid": 2, "ellipse": 3})
+
+    def test_auto_gives_a_core_to_who_has_most_to_do(self):
+        cost = {"fluid": {"points": 1e6, "seconds_a_step": 0.1}, "ellipse": {"points": 1e5, "seconds_a_step": 0.25}}
+        for cores, expected in ((2, {}), (3, {"ellipse": 2}), (4, {"ellipse": 3}), (5, {"ellipse": 3, "fluid": 2}),
+                                (16, {"fluid": 11, "ellipse": 5})):     # a rank has 20 000 points
+            with with_cores(cores):
+                self.assertEqual(ranks.wanted("auto", case(cost, **ELLIPSE)), expected, cores)
+
+    def test_auto_takes_the_cores_that_others_leave(self):
+        for cores, expected in ((2, {}), (3, {"fluid": 2}), (8, {"fluid": 7})):
+            with with_cores(cores):
+                self.assertEqual(ranks.wanted("auto", PISTON), expected)
+        with with_cores(8):
+            self.assertEqual(ranks.wanted("auto", TWO_GASES), {"left": 4, "right": 3})
+
+    def test_cores_are_disjoint_where_there_are_enough(self):
+        with with_cores(8):
+            found = ranks.cores({"left": 3, "right": 4})
+            self.assertEqual([len(found["left"]), len(found["right"])], [3, 4])
+            self.assertFalse(found["left"] & found["right"])
+            self.assertEqual(ranks.cores({"left": 4, "right": 4}), {})
+
+    def test_without_mpi_one_is_told_what_to_install(self):
+        with mock.patch.object(paths, "BIN", self.folder), mock.patch("shutil.which", return_value=None):
+            ranks.expect_mpi({})
+            with self.assertRaises(UserMistake) as caught:
+                ranks.expect_mpi({"fluid": 2})
+        self.assertIn("sudo apt-get install openmpi-bin libopenmpi-dev", str(caught.exception))
+
+    def test_who_is_to_blame_is_who_was_lost_first(self):
+        (self.folder / "parts").mkdir()
+        told = {1: "lost rank 2 of fluid (process 12): it has ended", 3: "lost rank 3 of gas (process 1): it has ended"}
+        for rank, reason in told.items():
+            (self.folder / "parts" / f"fluid.rank{rank}.json").write_text(json.dumps({"reason": reason}), encoding="utf-8")
+        first = "fluid: lost rank 1 of fluid (process 11): it has ended"
+        self.assertEqual(verdict._of_ranks("fluid", self.folder, first), told[1])
+        self.assertEqual(verdict._of_ranks("fluid", self.folder, "the disk is full"), "the disk is full")
+
+    def test_who_goes_on_after_a_stop_does_not_blame_those_who_left_because_of_it(self):
+        (self.folder / "parts").mkdir()
+        left = self.folder / "parts" / "fluid.rank1.json"
+        stopped, ended = "lost rank {} of fluid (process 10): it has been stopped for 4 s", "lost rank {} of fluid (process 11): it has ended"
+        for first, later in ((stopped, ended), (ended, stopped)):
+            left.write_text(json.dumps({"reason": later.format(0)}), encoding="utf-8")
+            self.assertIn("stopped", verdict._of_ranks("fluid", self.folder, first.format(1)))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,222 @@
+#!/usr/bin/python3
+"""summary.json is merged from what the programs leave, and the case's expectations are held against it."""
+
+import json
+import sys
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+from launcher import InScratch  # noqa: E402
+from fsi_launch.results import probes, summary, verdict  # noqa: E402
+from fsi_launch.case import Case  # noqa: E402
+from fsi_launch.living.supervise import Ending, Outcome  # noqa: E402
+
+
+def piston():
+    programs = {"fluid": "fluid_solver", "solid": "solid_solver_linear_elastic", "coupler": "coupler"}
+    return Case(name="piston", text="", programs=programs, reference="none", expect=[])
+
+
+class Summary(InScratch):
+    def part(self, name, **content):
+        (self.folder / "parts").mkdir(exist_ok=True)
+        (self.folder / "parts" / f"{name}.json").write_text(json.dumps({"participant": name} | content))
+
+    def merged(self, status="completed"):
+        return summary.merge(summary.read_parts(self.folder, piston().programs), piston(), status, "", 1.0)
+
+    def test_coupler_tells_time_and_steps(self):
+        self.part("fluid", steps=9, t=0.7)
+        self.part("coupler", steps=10, t=0.8, dt_min=0.05, dt_max=0.1, interface={"max_gap": 1e-6},
+                  dt_limited_by={"fluid": 8, "time.growth": 2})
+        merged = self.merged()
+        self.assertEqual((merged["t"], merged["steps"], merged["dt"]), (0.8, 10, {"min": 0.05, "max": 0.1, "limited_by": {"fluid": 8, "time.growth": 2}}))
+        self.assertIn("step limited by: fluid 80 %, time.growth 20 %", summary.describe(merged, self.folder))
+        self.assertEqual(merged["interface"], {"max_gap": 1e-6})
+
+    def test_who_limited_next_to_no_step_is_not_worth_a_word(self):
+        self.assertEqual(summary.limiters({"time.growth": 2, "fluid": 996, "beam": 0, "output.times": 9}), "fluid 99 %, output.times 1 %")
+        self.assertEqual(summary.limiters({}), "")
+
+    def test_errors_of_all_programs_in_the_papers_order(self):
+        self.part("solid", errors={"P_bar": 3e-5, "u_bar": 1e-4})
+        self.part("fluid", errors={"T": 1e-6, "rho": 2e-5})
+        self.assertEqual(list(self.merged()["errors"]), ["rho", "T", "u_bar", "P_bar"])
+
+    def test_counters_add_up(self):
+        self.part("solid", counters={"floors": 2})
+        self.part("fluid", counters={"floors": 3, "first_order_fallbacks": 1})
+        self.assertEqual(self.merged()["counters"], {"first_order_fallbacks": 1, "floors": 5})
+
+    def test_worst_noise_of_all_programs_is_told_with_its_place_where_it_is_much(self):
+        ripple = {"field": "v1", "grid": "outline", "point": [3, 40], "place": [0.25, 1.5], "t": 6.5}
+        self.part("fluid", noise={"value": 0.004, "noisy": False} | ripple)
+        self.assertNotIn("warning", summary.describe(self.merged(), self.folder))
+        self.part("solid", noise={"value": 0.041, "noisy": True} | ripple)
+        merged = self.merged()
+        self.assertEqual(merged["noise"], {"value": 0.041, "participant": "solid", "noisy": True} | ripple)
+        self.assertIn('warning: noise of the grid\'s scale: v1 of solid ripples by 4.1 % of its range, grid "outline", point (3, 40)'
+                      ' at (0.25, 1.5), t = 6.5', summary.describe(merged, self.folder))
+
+    def test_overlap_is_told_where_it_was_poor_and_only_there(self):
+        sound = {"amplification": 2.9, "implicit": 40, "narrowed": 0, "lines_left_out": 0,
+                 "grid": "ring", "point": [3, 6], "place": [0.25, 1.5], "t": 0.5}
+        self.part("fluid", overlap=sound)
+        self.part("body", overlap=sound | {"amplification": 1.0})
+        merged = self.merged()
+        self.assertEqual(merged["overlap"], {"fluid": sound})  # `body` is none of the piston's programs
+        self.assertNotIn("overlap", summary.describe(merged, self.folder))
+        self.part("fluid", overlap=sound | {"amplification": 41.5, "narrowed": 7, "lines_left_out": 3})
+        self.assertIn('overlap of fluid\'s grids: interpolation amplified errors 41.5 times (sound: 3.125), grid "ring", point (3, 6) at '
+                      "(0.25, 1.5), t = 0.5; 7 points with fewer donors; 3 grid lines left out", summary.describe(self.merged(), self.folder))
+        self.part("fluid", overlap=sound | {"amplification": None})
+        self.assertIn("amplified errors", summary.describe(self.merged(), self.folder))
+
+    def test_jumps_are_said_to_be_before_the_projection_and_have_a_scale(self):
+        self.part("coupler", interface={"max_velocity_jump": 67.3, "max_traction_jump": 7.3e6, "max_gap": 1e-6,
+                                        "velocity_scale": 673.0, "traction_scale": 1e7})
+        words = summary.describe(self.merged(), self.folder)
+        self.assertIn("before the projection: velocity 6.73e+01 (10 % of the gas's speed, 673), traction 7.30e+06 (73 % of", words)
+
+    def test_program_that_left_nothing_is_lost(self):
+        self.part("coupler", steps=3, t=0.1)
+        merged = self.merged("failed")
+        self.assertEqual(merged["participants"]["solid"]["status"], "lost")
+        self.assertIn("piston failed", summary.describe(merged, self.folder))
+
+    def test_run_without_any_part_still_has_a_summary(self):
+        merged = self.merged("failed")
+        summary.write(self.folder, merged)
+        self.assertEqual(json.loads((self.folder / "summary.json").read_text())["status"], "failed")
+
+
+class Verdict(InScratch):
+    def judge(self, *endings, signal=0, **parts):
+        endings = [Ending(name, code, 0.0) for name, code in endings]
+        return verdict.judge(Outcome(endings, signal), piston(), self.folder, parts)
+
+    def test_failure_is_recorded_with_where_it_began(self):
+        place = {"step": 12, "t": 0.3, "grid": "gas", "point": [4, 2], "position": [0.4, 0.2], "what": "p = -1"}
+        broke = {"reason": "step 12, t = 0.3: p = -1", "origin": "fluid", "steps": 11, "t": 0.29, "failure": place}
+        heard = {"reason": "fluid: step 12, t = 0.3: p = -1", "origin": "fluid", "steps": 11, "t": 0.29, "failure": place}
+        found = self.judge(("coupler", 3), ("solid", 3), ("fluid", 3), fluid=broke, solid=heard, coupler=heard)
+        self.assertEqual((found.code, found.reason), (3, "fluid: step 12, t = 0.3: p = -1"))
+        self.assertEqual(found.failure, place | {"origin": "fluid", "told_by": "fluid", "exit_code": 3, "signal": None, "program": None,
+                                                 "interface": None, "reference_position": None})
+
+    def test_failure_of_a_program_that_left_no_report_has_no_place(self):
+        found = self.judge(("coupler", 4), ("solid", 4), ("fluid", -9))
+        self.assertEqual(found.failure, {"origin": "fluid", "told_by": "fluid", "exit_code": 4, "signal": "SIGKILL",
+                                         "what": found.reason} | dict.fromkeys(verdict.PLACE))
+
+    def test_a_solid_called_like_a_word_before_a_colon_is_not_taken_for_the_origin(self):
+        own = {"reason": "solid: no such thing", "origin": "fluid"}
+        self.assertEqual(self.judge(("fluid", 1), ("solid", 4), ("coupler", 4), fluid=own).reason, "fluid: solid: no such thing")
+
+    def test_verdict_on_a_stopped_program_is_that_of_its_peers_not_that_it_was_killed(self):
+        own = {"reason": "solid (pid 7) has been silent for 4 s (time.peer_timeout); is it stopped?", "origin": "coupler"}
+        heard = {"reason": f"coupler: {own['reason']}", "origin": "coupler"}
+        endings = [Ending("fluid", 4, 0.0), Ending("solid", -9, 0.1, ours=True), Ending("coupler", 4, 0.2)]
+        found = verdict.judge(Outcome(endings), piston(), self.folder, {"fluid": heard, "coupler": own})
+        self.assertEqual((found.code, found.reason), (4, f"coupler: {own['reason']}"))
+
+    def test_program_that_was_killed_by_the_limit_of_a_file_is_output_that_failed(self):
+        self.assertEqual(self.judge(("solid", -25), ("fluid", 4), ("coupler", 4)).code, 5)
+
+    def test_run_that_ended_well_although_it_was_asked_to_end_is_complete(self):
+        done = {"status": "completed"}
+        found = self.judge(("fluid", 0), ("solid", 0), ("coupler", 0), signal=15, fluid=done, solid=done, coupler=done)
+        self.assertEqual((found.code, found.status), (0, "completed"))
+        self.assertEqual(self.judge(("fluid", 0), ("solid", 0), ("coupler", 143), signal=15).code, 143)
+        self.assertEqual(self.judge(("reference", 0), signal=2).code, 130)
+
+    def test_copy_in_memory_stands_for_a_part_that_the_disk_lacks(self):
+        copies = {"fluid": '{"reason": "no space"}', "solid": "", "coupler": "{"}
+        self.assertEqual(summary.read_parts(self.folder, piston().programs, copies), {"fluid": {"reason": "no space"}})
+
+
+class Probes(InScratch):
+    def write(self, name, text):
+        (self.folder / "parts").mkdir(exist_ok=True)
+        (self.folder / "parts" / f"probes_{name}.csv").write_text(text)
+
+    def test_tables_of_all_programs_become_one(self):
+        self.write("fluid", "t [time],a.p\n0,1\n0.5,2\n")
+        self.write("solid", "t [time],b.u1,b.u2\n0,3,4\n0.5,5,6\n")
+        probes.merge(self.folder, ["fluid", "solid", "coupler"])
+        self.assertEqual((self.folder / "probes.csv").read_text(), "t [time],a.p,b.u1,b.u2\n0,1,3,4\n0.5,2,5,6\n")
+
+    def test_program_that_was_killed_leaves_gaps(self):
+        self.write("fluid", "t [time],a.p\n0,1\n0.5,2\n")
+        self.write("solid", "t [time],b.u1\n0,3\n")
+        probes.merge(self.folder, ["fluid", "solid"])
+        self.assertEqual((self.folder / "probes.csv").read_text(), "t [time],a.p,b.u1\n0,1,3\n0.5,2,\n")
+
+    def test_run_without_probes_has_no_table(self):
+        probes.merge(self.folder, ["fluid"])
+        self.assertEqual(list(self.folder.iterdir()), [])
+
+
+class ForPeople(unittest.TestCase):
+    """What is printed at the end of a run fits the terminal and says what matters most."""
+
+    def setUp(self):
+        part = {"points": 12345678, "substeps": 123456, "compute_s": 1234.5, "wait_s": 1234.5, "point_updates_per_s": 1.2e8, "peak_memory_mib": 1234}
+        self.summary = {
+            "case": "a_case_of_ones_own", "status": "completed", "t": 0.123456, "steps": 123456, "dt": {"min": 1.23e-7, "max": 2.34e-5}, "wall_s": 2469.12,
+            "participants": {"fluid": {"program": "fluid_solver"} | part, "body": {"program": "solid_solver_saint_venant_kirchhoff"} | part,
+                             "coupler": {"program": "coupler"} | part},
+            "errors": {name: 1.23e-5 for name in summary.ERROR_ORDER},
+            "interface": {"max_velocity_jump": 1.0, "max_traction_jump": 2.0, "velocity_scale": 10.0, "traction_scale": 10.0, "max_gap": 1e-9},
+            "counters": {"floors": 3}, "expectations": [{"met": True}]}
+
+    def lines(self, width):
+        return summary.describe(self.summary, "runs/somewhere", width).splitlines()
+
+    def test_no_line_is_longer_than_the_terminal(self):
+        for width in range(50, 140, 3):
+            self.assertLessEqual(max(map(len, self.lines(width)[:-1])), width)
+
+    def test_sixty_columns_keep_steps_time_memory_and_all_errors(self):
+        text = "\n".join(self.lines(60))
+        for words in ("123456", "2469.12 s", "1234 MiB", "own steps", *summary.ERROR_ORDER):
+            self.assertIn(words, text)
+
+    def test_nothing_is_left_away_where_there_is_no_terminal(self):
+        text = "\n".join(self.lines(None))
+        for words in ("updates", "waiting", "computing", "points", "memory", "20 % of the gas's pressure"):
+            self.assertIn(words, text)
+
+    def test_a_body_without_stress_has_no_jump_of_it(self):
+        self.summary["interface"]["max_traction_jump"] = 0.0
+        self.assertNotIn("traction", "\n".join(self.lines(None)))
+        self.assertIn("velocity 1.00e+00", "\n".join(self.lines(None)))
+
+
+class Expectations(unittest.TestCase):
+    def missed(self, entry, **content):
+        return summary.missed_expectations(content, [entry])
+
+    def test_bounds(self):
+        self.assertEqual(self.missed({"quantity": "errors.rho", "max": 1e-4}, errors={"rho": 9e-5}), [])
+        missed = self.missed({"quantity": "errors.rho", "max": 1e-4}, errors={"rho": 2e-4})
+        self.assertEqual(missed, ["check failed: errors.rho = 0.0002, must be at most 0.0001"])
+        self.assertEqual(len(self.missed({"quantity": "t", "min": 1.0, "max": 2.0}, t=0.5)), 1)
+
+    def test_word(self):
+        self.assertEqual(self.missed({"quantity": "status", "equals": "completed"}, status="completed"), [])
+        self.assertEqual(len(self.missed({"quantity": "status", "equals": "completed"}, status="failed")), 1)
+
+    def test_equal_numbers_however_they_are_written(self):
+        for wanted, missed in (("0", 0), ("0.0", 0), ("1", 1), ("none", 1)):
+            self.assertEqual(len(self.missed({"quantity": "counters.floors", "equals": wanted}, counters={"floors": 0.0})), missed)
+
+    def test_missing_or_not_finite_is_missed(self):
+        self.assertEqual(len(self.missed({"quantity": "errors.rho", "max": 1})), 1)
+        self.assertEqual(len(self.missed({"quantity": "errors.rho", "max": 1}, errors={"rho": None})), 1)
+        self.assertEqual(len(self.missed({"quantity": "errors.rho", "max": 1}, errors={"rho": float("nan")})), 1)
+
+
+if __name__ == "__main__":
+    unittest.main()
