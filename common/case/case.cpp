@@ -15,6 +15,7 @@
 #include "common/case/grids/choose_grids.hpp"
 #include "common/case/grids/other_choices.hpp"
 #include "common/case/read/build.hpp"
+#include "common/case/read/build_block.hpp"
 #include "common/case/read/build_shape.hpp"
 #include "common/case/read/restart.hpp"
 #include "common/case/report/memory.hpp"
@@ -131,6 +132,7 @@ void put_name(Node& root, const std::string& path) {
 /// Of what was written, and what the command line says.
 Case case_from(Node root, const std::string& file, double available) {
   const Scope scope = evaluate_scope(root);
+  refuse_points_of_no_rectangle(root);
   validate(root, schema::case_file, scope);
   put_name(root, file);
   const std::vector<std::string> chosen = choose_grids(root, scope);

@@ -16,6 +16,7 @@
 #include "common/program/participant.hpp"
 #include "solid_solver/program/body.hpp"
 #include "solid_solver/program/crew.hpp"
+#include "solid_solver/program/remedy.hpp"
 
 namespace fsi::solid {
 
@@ -121,19 +122,8 @@ class SolidParticipant final : public Participant {
   }
 
   std::string remedy() const override {
-    const SolidScheme& scheme = spec_.scheme;
-    const std::string path = "solids." + spec_.name + ".scheme";
-    if (scheme.limiter == SolidLimiter::none) return path + ".limiter: minmod, for jumps";
-    for (const auto& [key, beta] :
-         {std::pair{"tangential_stress", &scheme.tangential_stress},
-          std::pair{"displacement", &scheme.displacement}, std::pair{"relaxation", &scheme.relaxation}}) {
-      if (beta->rate == 0 && beta->scaled == 0)
-        return fmt::format("{} without `{}`, whose default damps what no wave carries", path, key);
-    }
-    if constexpr (requires { L::where_soft; })
-      return fmt::format("--solid {}=neo_hookean, unless the strains are small", spec_.name);
-    if (scheme.relaxation.scaled < 0.5) return path + ".relaxation: {scaled: 0.5}";
-    return "a smaller time.cfl";
+    constexpr bool softens = requires { L::where_soft; };
+    return remedy_for(spec_.name, spec_.scheme, spec_.lambda / spec_.mu, softens);
   }
   wire::Health health() const override {
     return {.min_rho = 0,

@@ -1,10 +1,17 @@
 #include "common/case/read/build_block.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "common/case/grids/block.hpp"
+#include "common/case/grids/no_grids_fit.hpp"
+#include "common/case/grids/node_tools.hpp"
 #include "common/case/read/build_shape.hpp"
 
 namespace fsi {
@@ -24,6 +31,40 @@ std::array<int, 2> points_of_block(const Node& grid, const std::array<Vec2, 4>& 
     fail(grid.place, path, "give `points: [.., ..]` or `spacing`, one of them");
   if (spacing != nullptr) return block_points(corners, *spacing->number);
   return {static_cast<int>(*points->items[0].number), static_cast<int>(*points->items[1].number)};
+}
+
+/// Points or spacing of a grid, as they are written.
+struct PointsAlone {
+  std::string key;
+  std::vector<std::string> values;
+
+  std::string text() const {
+    return key == "spacing" ? "spacing: " + values[0] : fmt::format("points: [{}]", fmt::join(values, ", "));
+  }
+  PointsAlone turned() const { return {key, {values.rbegin(), values.rend()}}; }
+};
+
+/// Nothing of a grid that says where it is.
+std::optional<PointsAlone> points_alone(const Node& grid) {
+  if (!grid.is_map() || !config::lacks(&grid, {"x", "y", "map", "kind"})) return std::nullopt;
+  if (const Node* spacing = grid.find("spacing")) return PointsAlone{"spacing", {spacing->text}};
+  const Node* points = grid.find("points");
+  if (points == nullptr || points->items.size() != 2) return std::nullopt;
+  return PointsAlone{"points", {points->items[0].text, points->items[1].text}};
+}
+
+OtherChoice as_block(const PointsAlone& points, const std::string& owner, bool sharpened) {
+  OtherChoice choice{
+      .words = fmt::format("write `grid: {{kind: block, {}}}`, from corner to corner of `shape`{}",
+                           points.text(), sharpened ? ", and its corners sharp, `radius: 0`" : ""),
+      .written = {{owner + ".grid.kind", "block"}}};
+  for (std::size_t k = 0; points.key == "points" && k < points.values.size(); ++k)
+    choice.written.emplace_back(fmt::format("{}.grid.points.{}", owner, k), points.values[k]);
+  if (sharpened) {
+    choice.written.emplace_back(owner + ".shape.radius", "0");
+    choice.left_out.push_back(owner + ".shape.sharpness");
+  }
+  return choice;
 }
 
 GridSpec build_block(const Reader& reader, const Owner& owner, const Node& node) {
@@ -59,6 +100,27 @@ GridSpec build_block(const Reader& reader, const Owner& owner, const Node& node)
 }
 
 }  // namespace
+
+void refuse_points_of_no_rectangle(const Node& root) {
+  const Node* solids = root.find("solids");
+  if (solids == nullptr || !solids->is_map()) return;
+  for (const config::Entry& solid : solids->entries) {
+    const Node *shape = solid.value.find("shape"), *grid = solid.value.find("grid");
+    const std::optional<PointsAlone> points =
+        shape == nullptr || grid == nullptr ? std::nullopt : points_alone(*grid);
+    if (!points) continue;
+    const std::string owner = "solids." + solid.key;
+    throw NoGridsFit(
+        {.place = grid->place,
+         .key = owner + ".grid",
+         .cause = fmt::format("`{}` says not where: `x` and `y` of a rectangle around `shape` are missing",
+                              points->text()),
+         .otherwise = "give `x: [.., ..]` and `y: [.., ..]` too",
+         .owner = owner,
+         .choices = {as_block(*points, owner, false), as_block(*points, owner, true),
+                     as_block(points->turned(), owner, false), as_block(points->turned(), owner, true)}});
+  }
+}
 
 GridSpec build_solid_grid(const Reader& reader, const Owner& owner) {
   const Node* node = owner.node.find("grid");

@@ -5,6 +5,10 @@
 
 namespace fsi {
 
+/// A solid with a `shape` whose `grid` has points and neither corners nor a kind: most likely they are meant from corner
+/// to corner. @throws NoGridsFit which proposes that
+void refuse_points_of_no_rectangle(const config::Node& root);
+
 /// The `grid` of a solid. @throws UserMistake
 GridSpec build_solid_grid(const Reader& reader, const Owner& owner);
 

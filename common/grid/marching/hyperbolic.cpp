@@ -85,11 +85,10 @@ void HyperbolicMarch::march(std::span<const double> curve, FieldView x, double t
     std::copy_n(curve.begin() + (c == 0 ? 0 : grid_.points), grid_.points, x.row(c, row_of(0)));
     if (closed()) x(c, grid_.points - 1, row_of(0)) = x(c, 0, row_of(0));
   }
-  if (!(mean_distance_ > 0)) mean_distance_ = mean_distance(x, row_of(0));
   concave_share_ = share_of_concave_points(x);
   double d = grid_.spacing;
   for (int line = 0; line + 1 < grid_.lines; ++line, d *= grid_.growth) {
-    const int steps = std::max(1, static_cast<int>(std::lround(d / mean_distance_)));
+    const int steps = steps_from(x, line, d);
     for (int k = 0; k < steps; ++k) step(x, row_of(line + (k > 0 ? 1 : 0)), row_of(line + 1), d / steps);
   }
   fill_ghosts(x);
@@ -128,6 +127,29 @@ std::string HyperbolicMarch::flat_on_wall(ConstFieldView x, double t) const {
   return "";
 }
 
+/// Steps in which the line after this one is reached, a distance d away; the first march decides. Where lines are farther
+/// apart than the curve's points, these are close for the sake of a bend, and beside it they come closer from line to
+/// line: there a step is no longer than about half of what the closest two are apart, for the curve may bend.
+int HyperbolicMarch::steps_from(ConstFieldView x, int line, double d) {
+  const auto at = static_cast<std::size_t>(line);
+  if (at < steps_.size()) return steps_[at];
+  double steps = std::max(1.0, std::round(d / mean_distance(x, row_of(0))));
+  if (steps > 1) {
+    measure_distances(x, row_of(line));
+    steps *= std::max(1.0, std::round(2 * d / steps * longest_step()));
+  }
+  steps_.push_back(static_cast<int>(steps));
+  return steps_.back();
+}
+
+/// Of a step of length 1 from the present line: the largest part of it in distances between points.
+double HyperbolicMarch::longest_step() const {
+  double longest = 0;
+  for (std::size_t k = 0; k < arc_.size(); ++k)
+    longest = std::max(longest, part(k) * smooth_[k + 1] / (arc_[k] * arc_[k]));
+  return longest;
+}
+
 /// Mean distance of the points along row j.
 double HyperbolicMarch::mean_distance(ConstFieldView x, int j) const {
   double sum = 0;
@@ -137,9 +159,7 @@ double HyperbolicMarch::mean_distance(ConstFieldView x, int j) const {
 
 /// From row j to row j_next, which may be the same one.
 void HyperbolicMarch::step(FieldView x, int j, int j_next, double d) {
-  measure(x, j);
-  std::ranges::copy(arc_, smooth_.begin() + 1);
-  relax(smooth_);
+  measure_distances(x, j);
   if (concave_share_ > 0) find_concave_places(x, j);
   if (!closed()) {
     keep_off_walls(x, j);
@@ -164,6 +184,13 @@ void HyperbolicMarch::measure(ConstFieldView x, int j) {
     here.blend = 0;
     arc_[static_cast<std::size_t>(k)] = (forward.norm() + backward.norm()) / (after - before == 1 ? 1 : 2);
   }
+}
+
+/// The same, and the distances smoothed.
+void HyperbolicMarch::measure_distances(ConstFieldView x, int j) {
+  measure(x, j);
+  std::ranges::copy(arc_, smooth_.begin() + 1);
+  relax(smooth_);
 }
 
 /// Jacobi sweeps towards the mean of the neighbours.

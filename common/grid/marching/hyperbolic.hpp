@@ -50,7 +50,7 @@ struct HyperbolicGrid {
 
 /// Marches grids of one description, in steps no longer than about the distance between points: where lines
 /// are farther apart than that, a line is reached in several steps, for one long step amplifies short waves
-/// of the curve until cells fold. How many steps is decided by the first curve.
+/// of the curve until cells fold. How many steps is decided by the first curve and the lines marched from it.
 ///
 /// An object owns the work memory, so that a march allocates nothing.
 class HyperbolicMarch {
@@ -80,8 +80,8 @@ class HyperbolicMarch {
   HyperbolicGrid grid_;
   LineSolver solver_;
   std::vector<LinePoint> line_;
-  std::vector<double> arc_;   ///< distance between points
-  double mean_distance_ = 0;  ///< the same of the first curve, its mean [length]
+  std::vector<double> arc_;  ///< distance between points
+  std::vector<int> steps_;   ///< in which the next line is reached, from the curve on; of the first march
   /// Smoothed along the line, point k at [k + 1], a neighbour beyond each end: distance between points, and
   /// depth over concave radius. The last one is work memory.
   std::vector<double> smooth_, concave_, before_;
@@ -90,9 +90,12 @@ class HyperbolicMarch {
   bool closed() const { return grid_.ends == Curve::closed; }
   int row_of(int line) const { return grid_.curve == Side::bottom ? line : grid_.lines - 1 - line; }
   double mean_distance(ConstFieldView x, int j) const;
+  int steps_from(ConstFieldView x, int line, double d);
+  double longest_step() const;
   double part(std::size_t k) const { return grid_.part.empty() ? 1 : grid_.part[k]; }
   void step(FieldView x, int j, int j_next, double d);
   void measure(ConstFieldView x, int j);
+  void measure_distances(ConstFieldView x, int j);
   void relax(std::vector<double>& line);
   void find_concave_places(ConstFieldView x, int j);
   double excess(std::size_t k) const;

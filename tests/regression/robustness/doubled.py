@@ -3,6 +3,8 @@
 
     tests/regression/robustness/doubled.py [--steps N] CASE ...       its first steps
     tests/regression/robustness/doubled.py --whole CASE ...           all of it
+    .. [--set KEY=VALUE]..                                             as for fsi run
+    .. [--times 1,2,4]                                                 of grid.factor
 
 Checks each case (a name in configs/ or in this folder, as own/star, or a path) with its own `grid.factor`, twice and four times that, runs what `check` calls valid for
 the time that so many steps of 2.5 times the estimate take (or to its end), and prints a table. Exit 1 where one is refused or does not come to its end.
@@ -53,11 +55,11 @@ def ran(path, settings, out, timeout):
     return answer.returncode, summary, words[-1]
 
 
-def became(path, times, steps, out):
+def became(path, times, given, steps, out):
     """Cells of the table's row: factor, points of the gas, dt, estimated seconds of the whole run, what became of the first steps."""
-    found, refusal = checked(path, [])
+    found, refusal = checked(path, given)
     factor = found["grid_factor"] * times if found else times
-    settings = ["--set", f"grid.factor={factor:g}"]
+    settings = [*given, "--set", f"grid.factor={factor:g}"]
     if found and times > 1:
         found, refusal = checked(path, settings)
     if not found:
@@ -83,11 +85,11 @@ def meeting(summary):
     return f"t = {summary['t']:.3f}: {told[0].split(',')[0].split(';')[0]}" if told else ""
 
 
-def became_whole(path, times, out):
+def became_whole(path, times, given, out):
     """Cells of the row: factor, points of the gas, estimated seconds, seconds, steps, what was counted, pressures, how it ended; is it sound?"""
-    found, refusal = checked(path, [])
+    found, refusal = checked(path, given)
     factor = found["grid_factor"] * times if found else times
-    settings = ["--set", f"grid.factor={factor:g}"]
+    settings = [*given, "--set", f"grid.factor={factor:g}"]
     if found and times > 1:
         found, refusal = checked(path, settings)
     if not found:
@@ -101,15 +103,15 @@ def became_whole(path, times, out):
     return cells, code == 0 or bool(meeting(summary))
 
 
-def whole(cases):
+def whole(cases, finer, given):
     """Prints the table of whole runs; are all sound?"""
     heads = ["case", "grid.factor", "points of the gas", "estimate, s", "wall, s", "steps", "counted", "p of the gas", "ended at"]
     print("| " + " | ".join(heads) + " |\n" + "|---" * len(heads) + "|", flush=True)
     sound = True
     for path in map(path_of, cases):
-        for times in (1, 2, 4):
+        for times in finer:
             with tempfile.TemporaryDirectory() as scratch:
-                cells, fine = became_whole(path, times, Path(scratch) / "run")
+                cells, fine = became_whole(path, times, given, Path(scratch) / "run")
             sound = sound and fine
             print(f"| {path.stem} | " + " | ".join(cells) + " |", flush=True)
     return sound
@@ -119,17 +121,20 @@ def main():
     options = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     options.add_argument("--steps", type=int, default=50)
     options.add_argument("--whole", action="store_true")
+    options.add_argument("--set", action="append", default=[], metavar="KEY=VALUE")
+    options.add_argument("--times", default="1,2,4")
     options.add_argument("cases", nargs="+")
     chosen = options.parse_args()
+    finer, given = [int(times) for times in chosen.times.split(",")], [word for value in chosen.set for word in ("--set", value)]
     if chosen.whole:
-        return 0 if whole(chosen.cases) else 1
+        return 0 if whole(chosen.cases, finer, given) else 1
     print("| case | grid.factor | points of the gas | dt | estimate of the whole run, s | first steps |\n" + "|---" * 6 + "|", flush=True)
     sound = True
     for case in chosen.cases:
         path = path_of(case)
-        for times in (1, 2, 4):
+        for times in finer:
             with tempfile.TemporaryDirectory() as scratch:
-                cells = became(path, times, chosen.steps, Path(scratch) / "run")
+                cells = became(path, times, given, chosen.steps, Path(scratch) / "run")
             sound = sound and cells[-1].endswith("steps")
             print(f"| {path.stem} | " + " | ".join(cells) + " |", flush=True)
     return 0 if sound else 1

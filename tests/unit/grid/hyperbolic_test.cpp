@@ -14,6 +14,7 @@
 #include "common/grid/geometry/quality.hpp"
 #include "common/grid/marching/line_solver.hpp"
 #include "common/grid/shapes/circle.hpp"
+#include "common/grid/shapes/rounded_polygon.hpp"
 #include "tests/unit/grid/marched.hpp"
 #include "tests/unit/grid/shapes_of_cases.hpp"
 
@@ -278,6 +279,41 @@ TEST(HyperbolicMarch, DoesNotAmplifyWavesShorterThanTheDistanceOfTheLines) {
       if (4 * waves > points) continue;
       EXPECT_LT(answer_to_a_wave(points, waves, swing), 4 * swing) << finer << " " << waves;
     }
+  }
+}
+
+/// The outline of a flap, 30 x 1 with arcs of radius 0.4 at its tip, whose line turns by an angle within 10 of its height.
+std::vector<double> bent_flap(int points, double angle) {
+  const PlaneCurve straight =
+      rounded_polygon({.corners = {{0.5, 0}, {0.5, 30}, {-0.5, 30}, {-0.5, 0}}, .radius = 0.4});
+  std::vector<double> curve = points_on(straight, points);
+  constexpr double place = 22, width = 5;
+  const auto slope = [&](double s) { return 0.5 * angle * (1 + std::tanh((s - place) / width)); };
+  for (std::size_t k = 0, n = curve.size() / 2; k < n; ++k) {
+    const double across = curve[k], height = curve[n + k];
+    double x = 0, y = 0;
+    constexpr int parts = 300;
+    for (int part = 0; part < parts; ++part) {
+      const double turn = slope(height * (part + 0.5) / parts);
+      x += std::sin(turn) * height / parts;
+      y += std::cos(turn) * height / parts;
+    }
+    curve[k] = x + across * std::cos(slope(height));
+    curve[n + k] = y - across * std::sin(slope(height));
+  }
+  return curve;
+}
+
+// Points are close for the sake of the tip, and beside its fan the outermost ones half as far apart: steps as long as
+// the curve's points are apart amplified short waves there, and cells folded at an angle of 0.4.
+TEST(HyperbolicMarch, LinesAroundARoundTipKeepTheirOrderWhenTheFlapBends) {
+  HyperbolicGrid description = beam_grid(304, 18, Side::top, 0.38);
+  description.blend = 2 * description.lines;
+  HyperbolicMarch marching(description);
+  Field x(marching.layout(), 2);
+  for (const double angle : {0.0, 0.2, 0.4, 0.6, 0.8}) {
+    marching.march(bent_flap(description.points, angle), x.view(), angle);
+    EXPECT_GT(cell_quality(x.view()), 0.5) << angle;
   }
 }
 

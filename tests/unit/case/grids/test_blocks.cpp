@@ -113,6 +113,34 @@ TEST(Blocks, PointsOnlyFarApartAlongThemAreRefused) {
   EXPECT_NE(message.find("solids.block.grid: cells 0.0556 x 0.01: "), std::string::npos) << message;
 }
 
+TEST(Blocks, PointsThatDoNotSayWhereAreTakenFromCornerToCornerByTheRemedy) {
+  const std::string message = mistake_in(block_case(square, "    grid: {points: [15, 13]}\n"));
+  for (const char* said : {"solids.block.grid: `points: [15, 13]` says not where",
+                           "write `grid: {kind: block, points: [15, 13]}`, from corner to corner of `shape` "
+                           "(tried: valid), or give"})
+    EXPECT_NE(message.find(said), std::string::npos) << message;
+  const std::string turned = mistake_in(
+      block_case("corners: [[-0.5, 0], [0.5, 0], [0.5, 0.1], [-0.5, 0.1]]", "    grid: {points: [7, 51]}\n"));
+  EXPECT_NE(turned.find("kind: block, points: [51, 7]}`, from corner to corner of `shape` (tried: valid)"),
+            std::string::npos)
+      << turned;
+  std::string round = block_case("corners: [[0.5, 0.5], [-0.5, 0.5], [-0.5, -0.5], [0.5, -0.5]]",
+                                 "    grid: {spacing: 0.1}\n");
+  round.replace(round.find("radius: 0"), 9, "sharpness: 30");
+  const std::string sharp = mistake_in(round);
+  EXPECT_NE(
+      sharp.find("kind: block, spacing: 0.1}`, from corner to corner of `shape`, and its corners sharp, "
+                 "`radius: 0` (tried: valid)"),
+      std::string::npos)
+      << sharp;
+  const std::string five =
+      mistake_in(block_case("corners: [[0.7, 0], [0.5, 0.5], [-0.5, 0.5], [-0.5, -0.5], [0.5, -0.5]]",
+                            "    grid: {points: [15, 13]}\n"));
+  EXPECT_EQ(five.find("kind: block, points: [15, 13]}`, from corner to corner of `shape` (tried: valid)"),
+            std::string::npos)
+      << five;
+}
+
 TEST(Blocks, TooManyPointsAreRefusedAtOnce) {
   for (const char* grid : {"spacing: 1e-6", "spacing: 1e-300", "points: [12000, 5]"}) {
     const std::string message =

@@ -350,7 +350,7 @@ TEST(CostOfARun, CountsTheSubstepsOfAStiffSolid) {
 TEST(CostOfARun, SaysWhereAFewSmallCellsSetTheStep) {
   // Points clustered at one place of the outline.
   const std::string drawn =
-      "{kind: circle, radius: 0.5, points: 120, weights: [{strength: 0.03, sharpness: 100, place: 0.5}]}";
+      "{kind: circle, radius: 0.5, points: 120, weights: [{strength: 0.1, sharpness: 100, place: 0.5}]}";
   EXPECT_NE(cost_text(cost_of(load_text(bodies_case({drawn})))).find("times smaller"), std::string::npos);
   EXPECT_EQ(cost_text(cost_of(load_text(bodies_case({circle})))).find("times smaller"), std::string::npos);
 }

@@ -178,7 +178,7 @@ TEST(LinesAtBends, AreChosenCloseAndGivenOnesThatAreTooWideAreRefusedWithOnesTha
   };
   for (const auto& [shape, wide, says] :
        {Body{"{kind: polygon, corners: [[-0.3, 0.6], [0.3, 0.6], [0.3, 1.2], [-0.3, 1.2]], radius: 0.03}",
-             "lines: 8, spacing: 0.05", "folded"},
+             "lines: 8, spacing: 0.05", "turns too sharply at ("},
         Body{wedge + "}", "lines: 8, spacing: 0.05", "turns too sharply at ("},
         Body{wedge + ", radius: 0.1, points: 240}", "lines: 12, spacing: 0.02", "too flat on the wall"}}) {
     const auto with = [&, shape = shape](const std::string& lines) {

@@ -1,0 +1,45 @@
+// What a solid that has broken proposes to change.
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "common/case/case.hpp"
+#include "solid_solver/program/remedy.hpp"
+
+namespace fsi::solid {
+namespace {
+
+SolidScheme relaxed(const fsi::Beta& relaxation) {
+  return {.tangential_stress = {.scaled = 0.5}, .displacement = {.scaled = 0.5}, .relaxation = relaxation};
+}
+
+std::string remedy_of(const fsi::Beta& relaxation, double stiffness) {
+  return remedy_for("bar", relaxed(relaxation), stiffness, false);
+}
+
+TEST(Remedy, TakesRelaxationOutOfANearlyIncompressibleSolidAndNeverPutsItIn) {
+  constexpr double stiffness = 49;  // nu = 0.49
+  const std::string out = "solids.bar.scheme.relaxation: {scaled: 0}, for lambda is 49 mu";
+  EXPECT_EQ(remedy_of({.scaled = 0.2}, stiffness), out);
+  EXPECT_EQ(remedy_of({.rate = 3}, stiffness), out);
+  EXPECT_EQ(remedy_of({}, stiffness), "a smaller time.cfl");
+}
+
+TEST(Remedy, PutsRelaxationIntoACompressibleSolid) {
+  EXPECT_EQ(remedy_of({.scaled = 0.2}, 1), "solids.bar.scheme.relaxation: {scaled: 0.5}");
+  EXPECT_NE(remedy_of({}, 1).find("without `relaxation`"), std::string::npos);
+  EXPECT_EQ(remedy_of({.scaled = 0.5}, 1), "a smaller time.cfl");
+}
+
+TEST(Remedy, NamesWhatIsMissingFirst) {
+  SolidScheme scheme = relaxed({.scaled = 0.2});
+  EXPECT_EQ(remedy_for("bar", scheme, 49, true), "--solid bar=neo_hookean, unless the strains are small");
+  scheme.displacement = {};
+  EXPECT_NE(remedy_for("bar", scheme, 49, true).find("without `displacement`"), std::string::npos);
+  scheme.limiter = SolidLimiter::none;
+  EXPECT_EQ(remedy_for("bar", scheme, 49, true), "solids.bar.scheme.limiter: minmod, for jumps");
+}
+
+}  // namespace
+}  // namespace fsi::solid
