@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "common/case/schema/laws.hpp"
+
 namespace fsi {
 
 namespace {
@@ -108,6 +110,27 @@ std::vector<OtherChoice> rounded_polygons(const Node& root, const std::vector<st
   return choices;
 }
 
+/// Sharp corners for polygons of bodies without an inside of grids, around which the gas's grid fans.
+std::vector<OtherChoice> sharp_polygons(const Node& root) {
+  OtherChoice choice;
+  const Node* solids = root.find("solids");
+  if (solids == nullptr || !solids->is_map()) return {};
+  std::vector<std::string> names;
+  for (const config::Entry& solid : solids->entries) {
+    const Node *law = solid.value.find("law"), *shape = solid.value.find("shape");
+    if (law == nullptr || is_continuum(law->text) || shape == nullptr || shape->find("corners") == nullptr)
+      continue;
+    if (const Node* radius = shape->find("radius"); radius != nullptr && radius->text == "0") continue;
+    const std::string key = fmt::format("solids.{}.shape", solid.key);
+    names.push_back(key);
+    choice.written.emplace_back(key + ".radius", "0");
+    choice.left_out.push_back(key + ".sharpness");
+  }
+  if (names.empty()) return {};
+  choice.words = fmt::format("write `radius: 0` in {}, for sharp corners", fmt::join(names, " and "));
+  return {choice};
+}
+
 /// What there is for all grids of a body: its bends and its thickness say how fine they are, not grid.factor.
 std::vector<OtherChoice> choices_for_solid(const Node& root, const std::string& owner, double h) {
   std::vector<OtherChoice> choices = left_out_of_solid(owner);
@@ -120,6 +143,7 @@ std::vector<OtherChoice> choices_for_solid(const Node& root, const std::string& 
 std::vector<OtherChoice> choices_for_gas(const Node& root, const std::string& owner, double factor,
                                          double h) {
   std::vector<OtherChoice> choices = left_out_of_gas(root, owner);
+  std::ranges::copy(sharp_polygons(root), std::back_inserter(choices));
   for (const double times : {2.0, 4.0}) {
     const std::string finer = fmt::format("{:g}", times * factor);
     choices.push_back({.words = fmt::format("write `grid: {{factor: {}}}` in place of {:g}", finer, factor),

@@ -16,8 +16,8 @@ struct TriedCase {
 };
 
 /// Tries one change of the case after the other: those that the mistake brings, numbers of grids left out (they
-/// are then chosen), rounder corners of polygons, for a gas grid.factor twice and four times what it is, for a body
-/// a rigid one that is held. Where a change mends one body and grids of another do not fit then, it is tried at both
+/// are then chosen), for a gas sharp corners of polygons without an inside and grid.factor twice and four times what it
+/// is, rounder corners, for a body a rigid one that is held. Where a change mends one body and grids of another do not fit then, it is tried at both
 /// in the end, and so on.
 /// @param root   the case as it was written, with what the command line says
 /// @param factor grid.factor of the case [-]

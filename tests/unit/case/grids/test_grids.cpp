@@ -256,6 +256,16 @@ TEST(RemediesForGrids, NumbersThatAreLeftOutAreToldOnlyWhereTheCaseIsThenValid) 
   EXPECT_NE(rings.find("leave out `lines` and `spacing` in fluid.body_fitted"), std::string::npos) << rings;
 }
 
+TEST(RemediesForGrids, ARigidOutlineWithAHollowSideIsToldSharpCornersBeforeAFinerGrid) {
+  const std::string foil =
+      bodies_case({"{kind: polygon, corners: [[-0.5, 0.02], [-0.45, -0.02], [-0.3, -0.03], [0, 0], "
+                   "[0.5, -0.02], [0, 0.09], [-0.3, 0.09], [-0.45, 0.06]]}"});
+  const std::string message = mistake_in(foil, {}, {"body_0=rigid"});
+  EXPECT_NE(message.find("write `radius: 0` in solids.body_0.shape, for sharp corners (tried: valid)"),
+            std::string::npos)
+      << message;
+}
+
 TEST(RemediesForGrids, ALowFootOfWhichNoNumberIsGivenIsToldTheFactorWithWhichItIsValid) {
   const std::string foot = bodies_case(
       {"{kind: polygon, corners: [[-1, -2], [-1, -1.98], [0, -1.8], [0, -2]], walls: [bottom, bottom]}"},
