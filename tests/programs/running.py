@@ -148,6 +148,16 @@ class EndToEnd(unittest.TestCase):
             pipe.close()
         run.process.wait()
 
+    def assert_as_undisturbed(self, run):
+        """Stops a run of LONG, which whoever looked at it or spoke to it has changed in no digit of how both sides differ, at no step."""
+        run.ctl("stop")
+        self.assertEqual(run.wait(), 0, run.stderr)
+        alone = self.launch(*LONG, out="alone")
+        self.assertTrue(until(lambda: alone.written() > run.written()))
+        alone.ctl("stop")
+        self.assertEqual(alone.wait(), 0, alone.stderr)
+        self.assertEqual(run.table(), alone.table()[:len(run.table())])
+
     def assert_nothing_left(self, run):
         until(lambda: not run.leftovers())
         self.assertEqual(run.leftovers(), [])

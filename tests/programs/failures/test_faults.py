@@ -119,13 +119,7 @@ class Requests(EndToEnd):
         self.send_with_key(run, "sign:" + "0" * 64, "pause")
         run.until_further()
         self.assertEqual(run.checkpoints(), [])
-        run.ctl("stop")
-        self.assertEqual(run.wait(), 0, run.stderr)
-        alone = self.launch(*LONG, out="alone")
-        self.assertTrue(until(lambda: alone.written() > run.written()))
-        alone.ctl("stop")
-        self.assertEqual(alone.wait(), 0, alone.stderr)
-        self.assertEqual(run.table(), alone.table()[:len(run.table())])
+        self.assert_as_undisturbed(run)
 
     def test_key_is_nowhere_but_in_the_entry_that_only_the_user_reads(self):
         run = self.launch(*LONG)

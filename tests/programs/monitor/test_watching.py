@@ -130,14 +130,7 @@ class Watching(EndToEnd):
         os.kill(frozen.pid, signal.SIGSTOP)
         killed.kill()
         run.until_further(100_000)
-        run.ctl("stop")
-        self.assertEqual(run.wait(), 0, run.stderr)
-        alone = self.launch(*LONG, out="alone")
-        self.assertTrue(until(lambda: alone.written() > run.written()))
-        alone.ctl("stop")
-        self.assertEqual(alone.wait(), 0, alone.stderr)
-        # how both sides differ, with all digits, at every step
-        self.assertEqual(run.table(), alone.table()[:len(run.table())])
+        self.assert_as_undisturbed(run)
 
     def test_terminal_shows_the_run_and_stops_it_when_asked_twice(self):
         run = self.launch(*LONG)

@@ -15,7 +15,7 @@ import urllib.request
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
-from running import LONG, WATCHDOG, until  # noqa: E402
+from running import WATCHDOG, until  # noqa: E402
 from served import WebTest  # noqa: E402
 
 
@@ -105,13 +105,7 @@ class Server(WebTest):
         side = seen["coupler"][1]
         self.assertTrue(any(abs(place - side[0]) < 1e-6 for place in x))  # the gas begins where the interface is
         run.until_further(20_000)
-        run.ctl("stop")
-        self.assertEqual(run.wait(), 0, run.stderr)
-        alone = self.launch(*LONG, out="alone")
-        self.assertTrue(until(lambda: alone.written() > run.written()))
-        alone.ctl("stop")
-        self.assertEqual(alone.wait(), 0, alone.stderr)
-        self.assertEqual(run.table(), alone.table()[:len(run.table())])
+        self.assert_as_undisturbed(run)
 
     def test_events_tell_every_change_and_the_end(self):
         run, monitor = self.begin()
