@@ -118,6 +118,7 @@ def beams_from_grid_to_grid(one):
 BEAMS = ((100, 100), (50, 50), (10, 10), (1, 10))
 CYLINDERS = Run("cylinders", "two_cylinders", ("grid.factor=8",))
 PISTON = Run("piston", "manufactured_piston", ("grid.factor=2", "output.times=[0, 0.5]"))
+FINEST = Run("ellipse-levels-32", "shock_ellipse", ("grid.factor=32", "fluid.grid.levels=3", "output.times=[0.5, 1, 1.5, 2, 3, 4]"))
 LAWS = ("neo_hookean", "rigid", "linear_elastic")
 
 FIGURES = (
@@ -157,8 +158,10 @@ FIGURES = (
         Picture(tuple(ellipse(law, 8) for law in LAWS), "outlines_ellipse", "At t = 0.5, 2 and 4."),)),
     Figure("18", "medium against fine grid", (
         Picture((ellipse("neo_hookean", 8), ellipse("neo_hookean", 16)), "schlieren_compared", "Neo-Hookean, h = 1/80 and 1/160, t = 2.",
-                ("--at", "2")),),
-           sections=("Shock and ellipse, neo_hookean: from grid to grid",)),
+                ("--at", "2")),
+        Picture((FINEST,), "schlieren", "Neo-Hookean, h = 1/320 on a background of three levels, whose rims are drawn.", ("--at", "2", "--at", "4"))),
+           sections=("Shock and ellipse, neo_hookean: from grid to grid",
+                     "Shock and ellipse, three levels: from grid to grid up to h = 1/320")),
     Figure("19", "simplified against full projection", (
         Picture((ellipse("neo_hookean", 16), ellipse("neo_hookean", 16, "full")), "schlieren_compared",
                 "Neo-Hookean at h = 1/160, t = 4, with the difference of the two.", ("--at", "4")),),

@@ -86,5 +86,13 @@ def _table(tools, runs):
     return f"last row: `{typed}`\n\n" + "\n".join(lines) + "\n"
 
 
+def _to_the_finest(tools):
+    """From grid to grid up to h = 1/320, to the end of the paper's run, and what the finest run takes."""
+    name, levels = "levels-to-the-finest", (4, 8, 16, 32)
+    text = tools.converge(name, CASE, ",".join(map(str, levels)), ["fluid.grid.levels=3", "output.times=[0.5, 1, 1.5, 2, 3, 4]"])
+    return text + "\n" + tools.costs([(f"h = 1/{10 * j}", tools.RUNS / name / f"level_{j}") for j in levels[-2:]])
+
+
 def studies(tools):
     yield "Shock and ellipse, background of three levels", lambda: _table(tools, RUNS)
+    yield "Shock and ellipse, three levels: from grid to grid up to h = 1/320", lambda: _to_the_finest(tools)

@@ -133,6 +133,20 @@ bool connects(const Outline& curves, const BodyGrids& grids, const BodyWish& wis
   return connects(grids.core, {ring});
 }
 
+/// Curves that leave the rectangle connect with no grids.
+bool reaches_beyond(const GridSpec& box, const std::vector<BodyFittedSpec>& rings) {
+  constexpr double round_off = 1e-6;  // of a cell, of points that stand on a side
+  if (box.rotation != 0) return false;
+  const double tolerance = round_off * std::min((box.x_b - box.x_a) / box.n1, (box.y_b - box.y_a) / box.n2);
+  return std::ranges::any_of(rings, [&](const BodyFittedSpec& ring) {
+    const auto n = static_cast<std::ptrdiff_t>(ring.curve.points());
+    const auto [left, right] = std::minmax_element(ring.curve.x.begin(), ring.curve.x.begin() + n);
+    const auto [low, high] = std::minmax_element(ring.curve.x.begin() + n, ring.curve.x.end());
+    return *left < box.x_a - tolerance || *right > box.x_b + tolerance || *low < box.y_a - tolerance ||
+           *high > box.y_b + tolerance;
+  });
+}
+
 /// How deep a ring may be: for bends and bays of its own curve, and between it and others; and how far apart
 /// its lines at most, for its bends and its ends on walls.
 struct Room {
@@ -247,6 +261,8 @@ GasGrids fit_rings(const GridSpec& background, const std::vector<BodyFittedSpec>
   std::vector<BodyFittedSpec> rings = given;
   const std::vector<Room> rooms = rooms_of(background, rings);
   const double spacing = (background.x_b - background.x_a) / (background.n1 - 1);
+  if (reaches_beyond(background, rings))
+    return {spacing, with_lines(rings, open, rooms, {usual_lines, 1, spacing, false})};
   for (const double refined : {1.0, 0.85, 0.7, 0.6, 0.5, 0.4, 0.3}) {
     const double h = refined == 1 ? spacing : as_written(refined * spacing);
     const GridSpec grid = refined == 1 ? background : with_spacing(background, h);

@@ -1,5 +1,6 @@
 #include "tests/unit/case/cases.hpp"
 
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -60,6 +61,15 @@ std::string mistake_in(const std::string& text, const std::vector<std::string>& 
     const std::size_t begin = message.find("case.yaml");
     return message.starts_with("/") && begin != std::string::npos ? message.substr(begin) : message;
   }
+}
+
+double processor_time() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  const auto seconds = [](const timeval& time) {
+    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+  };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
 }  // namespace fsi::tests

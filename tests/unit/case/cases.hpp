@@ -37,4 +37,7 @@ Case load_text(const std::string& text, const std::vector<std::string>& override
 std::string mistake_in(const std::string& text, const std::vector<std::string>& overrides = {},
                        const std::vector<std::string>& laws = {});
 
+/// Of this process [s].
+double processor_time();
+
 }  // namespace fsi::tests

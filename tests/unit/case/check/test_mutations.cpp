@@ -189,16 +189,6 @@ class Hostile {
   }
 };
 
-/// Processor time of this process [s].
-double processor_time() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  const auto seconds = [](const timeval& time) {
-    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
-  };
-  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
-
 /// Largest memory of this process so far [MB].
 double peak_memory() {
   rusage usage{};
@@ -236,7 +226,7 @@ struct Tally {
   /// Loads a damaged file: it must be fine, or a mistake with its place.
   void load(const std::string& path, const std::string& origin) {
     constexpr double most_memory = 500e6;  // of a run, so that no check builds more
-    const double before = processor_time();
+    const double before = tests::processor_time();
     ++files;
     try {
       load_case_within(most_memory, path);
@@ -246,7 +236,7 @@ struct Tally {
     } catch (const std::exception& error) {
       ADD_FAILURE() << origin << ": " << error.what();
     }
-    const double time = processor_time() - before;
+    const double time = tests::processor_time() - before;
     if (time > slowest) {
       slowest = time;
       slowest_file = origin;

@@ -296,13 +296,24 @@ TEST(RemediesForGrids, ATipThatIsTooFlatIsNotToldToBeStiffer) {
   EXPECT_EQ(message.find("stiffer"), std::string::npos) << message;
 }
 
+/// What a valid case with a circle takes [s], of processor time.
+double time_of_a_circle() {
+  const double before = tests::processor_time();
+  load_text(bodies_case({circle}));
+  return tests::processor_time() - before;
+}
+
 TEST(RemediesForGrids, CornersThatAreRoundedThroughTheirWallAreNamedAndNotTheBoxThatWasChosen) {
+  const double usual = time_of_a_circle(), before = tests::processor_time();
   const std::string message = mistake_in(
       bodies_case({"{kind: polygon, corners: [[0, -2], [1, -1.98], [1, -2]], walls: [bottom, bottom]}"},
                   "    boundary: {left: free, right: free, bottom: clamped, top: free}\n"));
   EXPECT_NE(message.find("its corners are rounded so far that the outline reaches ("), std::string::npos)
       << message;
   EXPECT_EQ(message.find("this box"), std::string::npos) << message;
+  // No grids are tried for a curve that leaves the rectangle, with none of the remedies; they would take thousands of times
+  // as long.
+  EXPECT_LT(tests::processor_time() - before, 300 * usual);
 }
 
 /// An elastic square alone, its waves of speed 2, without stabilisation.
