@@ -229,6 +229,12 @@ GridSpec with_spacing(GridSpec grid, double h) {
   return grid;
 }
 
+/// Given lines that meet those from the other side of the body leave no room for a core, whatever the rest is.
+bool given_lines_meet(const BodyWish& wish, const Measures& outline) {
+  return wish.lines && wish.line_spacing &&
+         depth_of(*wish.lines, wish.growth) * *wish.line_spacing >= 0.5 * outline.thickness.distance;
+}
+
 }  // namespace
 
 BodyGrids fit_body(const Outline& curves, double h, const BodyWish& wish, bool outline_only) {
@@ -236,7 +242,7 @@ BodyGrids fit_body(const Outline& curves, double h, const BodyWish& wish, bool o
   const double usual = depth_of(usual_lines, wish.growth) * h, room = outline.depth();
   const double bend = std::min(outline.inwards.radius, outline.outwards.radius);
   Trial trial{.depth = usual, .core = h, .curve = std::min(h, curve_by_radius * bend), .lines = usual_lines};
-  if (outline_only) return grids_of(curves, trial, wish, outline);
+  if (outline_only || given_lines_meet(wish, outline)) return grids_of(curves, trial, wish, outline);
   if (room < usual)
     trial = {.depth = room, .core = std::min(h, room / 4.5), .curve = trial.curve, .lines = 7};
   constexpr double most_points = 4e6, finer = 0.85;

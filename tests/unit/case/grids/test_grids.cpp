@@ -242,9 +242,18 @@ TEST(ChosenGrids, ABodyThatLiesOnAWallIsAskedWhetherItStandsThere) {
   }
 }
 
+/// What a valid case with a circle takes [s], of processor time.
+double time_of_a_circle() {
+  const double before = tests::processor_time();
+  load_text(bodies_case({circle}));
+  return tests::processor_time() - before;
+}
+
 TEST(RemediesForGrids, NumbersThatAreLeftOutAreToldOnlyWhereTheCaseIsThenValid) {
   const std::string deep = bodies_case({circle}, "    body_fitted: {lines: 20, spacing: 0.05}\n");
+  const double usual = time_of_a_circle(), before = tests::processor_time();
   const std::string message = mistake_in(deep);
+  EXPECT_LT(tests::processor_time() - before, 300 * usual);  // no core is tried between lines that meet
   EXPECT_NE(message.find(
                 "leave out `grid` and `body_fitted` of solids.body_0, which are then chosen (tried: valid)"),
             std::string::npos)
@@ -294,13 +303,6 @@ TEST(RemediesForGrids, ATipThatIsTooFlatIsNotToldToBeStiffer) {
                   "    boundary: {left: free, right: free, bottom: clamped, top: free}\n"));
   EXPECT_NE(message.find("degrees above its wall"), std::string::npos) << message;
   EXPECT_EQ(message.find("stiffer"), std::string::npos) << message;
-}
-
-/// What a valid case with a circle takes [s], of processor time.
-double time_of_a_circle() {
-  const double before = tests::processor_time();
-  load_text(bodies_case({circle}));
-  return tests::processor_time() - before;
 }
 
 TEST(RemediesForGrids, CornersThatAreRoundedThroughTheirWallAreNamedAndNotTheBoxThatWasChosen) {
