@@ -37,7 +37,8 @@ void throw_broken(const Moment& moment, const wire::PredictedInterface& state, s
 }
 
 void check_values(const Moment& moment, const wire::PredictedInterface& state, const char* quantity,
-                  std::span<const double> values, std::size_t expected, std::size_t points) {
+                  std::span<const double> values, std::size_t expected, std::size_t points,
+                  const std::string& remedy) {
   if (values.size() != expected) {
     throw PeerLost(fmt::format("\"{}\" sent {} numbers for {} of interface \"{}\", not {}", state.from,
                                values.size(), quantity, state.interface, expected));
@@ -45,7 +46,8 @@ void check_values(const Moment& moment, const wire::PredictedInterface& state, c
   if (all_finite(values)) return;
   for (std::size_t k = 0; k < expected; ++k) {
     if (!std::isfinite(values[k]))
-      throw_broken(moment, state, k % points, fmt::format("{} is {}", quantity, values[k]));
+      throw_broken(moment, state, k % points,
+                   fmt::format("{} is {}{}{}", quantity, values[k], remedy.empty() ? "" : ": ", remedy));
   }
 }
 

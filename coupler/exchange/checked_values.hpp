@@ -15,8 +15,10 @@ namespace fsi::coupler {
                                const std::string& what);
 
 /// Throws unless `values` holds `expected` finite numbers. @throws PeerLost, Diverged
+/// @param remedy what is said of numbers that are not finite: what they mean and what to do; "": nothing
 void check_values(const Moment& moment, const wire::PredictedInterface& state, const char* quantity,
-                  std::span<const double> values, std::size_t expected, std::size_t points);
+                  std::span<const double> values, std::size_t expected, std::size_t points,
+                  const std::string& remedy = "");
 
 struct MatrixSize {
   std::size_t rows = 0, columns = 0;

@@ -106,12 +106,20 @@ void InterfaceExchange::check_solid(const Moment& moment, const wire::PredictedI
     check_values(moment, solid, "the modal response g", solid.modal.g, k, k);
     return;
   }
-  check_values(moment, solid, "the traction", solid.w, 2 * n, n);
-  check_values(moment, solid, "the impedance matrix", solid.Z, 3 * n, n);
+  check_values(moment, solid, "the traction", solid.w, 2 * n, n, why_broken());
+  check_values(moment, solid, "the impedance matrix", solid.Z, 3 * n, n, why_broken());
   if (!(solid.z_p > 0)) {
     throw PeerLost(fmt::format("\"{}\" sent the impedance z_p = {} for interface \"{}\"", solid.from,
                                solid.z_p, pair_.name));
   }
+}
+
+/// What it means where a solid's answer to the gas is lost, and what to do.
+std::string InterfaceExchange::why_broken() const {
+  return fmt::format(
+      "the solid is no longer hyperbolic, which too large a strain does, or too large a step, or noise; "
+      "try a smaller time.cfl, such as 0.3, or solids.{}.scheme.relaxation: {{scaled: 0.5}}",
+      pair_.solid);
 }
 
 /// The body has the degrees of freedom of its first message for ever.
@@ -181,11 +189,7 @@ void InterfaceExchange::project_deformable(const Moment& moment, const wire::Pre
         .v = vector_at(solid.v, k), .w = vector_at(solid.w, k), .Z = Mat2::Zero(), .z_p = solid.z_p};
     point.Z << solid.Z[k], solid.Z[n + k], solid.Z[n + k], solid.Z[2 * n + k];
     if (!(point.Z(0, 0) > 0 && point.Z.determinant() > 0)) {
-      throw_broken(
-          moment, solid, k,
-          fmt::format("the impedance matrix is not positive: the solid is no longer hyperbolic, which "
-                      "too large a strain does, or noise; try solids.{}.scheme.relaxation: {{scaled: 0.5}}",
-                      pair_.solid));
+      throw_broken(moment, solid, k, "the impedance matrix is not positive: " + why_broken());
     }
     const bool fixed = !solid.fixed.empty() && solid.fixed[k] == wire::Freedom::fixed;
     NormalState state;

@@ -301,6 +301,13 @@ TEST(Coupler, NumbersThatAreNotFiniteAreNamed) {
   solid.w[n + 3] = std::numeric_limits<double>::infinity();
   message = failure<Diverged>(gas_state(n, 0), solid);
   EXPECT_NE(message.find("point 3 at (0, 1): the traction is inf"), std::string::npos) << message;
+  EXPECT_NE(message.find("try a smaller time.cfl"), std::string::npos) << message;
+  solid = solid_state(n, 0);
+  solid.Z[1] = std::nan("");
+  message = failure<Diverged>(gas_state(n, 0), solid);
+  for (const char* part :
+       {"the impedance matrix is nan: the solid is no longer hyperbolic", "try a smaller time.cfl"})
+    EXPECT_NE(message.find(part), std::string::npos) << part << " in: " << message;
   solid = solid_state(n, 0);
   solid.Z[1] = -1;
   EXPECT_NE(failure<Diverged>(gas_state(n, 0), solid).find("hyperbolic"), std::string::npos);
