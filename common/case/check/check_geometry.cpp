@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <numbers>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -14,8 +15,10 @@
 #include "common/case/document/fluid_sections.hpp"
 #include "common/case/grids/block.hpp"
 #include "common/case/grids/no_grids_fit.hpp"
+#include "common/case/grids/own_crossing.hpp"
 #include "common/case/schema/laws.hpp"
 #include "common/grid/geometry/outline.hpp"
+#include "common/grid/shapes/blunted.hpp"
 
 namespace fsi {
 
@@ -33,7 +36,6 @@ struct CheckedOutline {
   Side side;              ///< of the grid fitted to it; bottom: the domain is to the left of the curve
   std::string grid = {};  ///< of the gas
 
-  grid::Curve ends() const { return curve.closed() ? grid::Curve::closed : grid::Curve::open; }
   Vec2 point(std::size_t k) const { return {curve.x[k], curve.x[curve.x.size() / 2 + k]}; }
   /// Is a position on the other side of the curve than the domain? Known of closed curves.
   bool behind(const Vec2& x) const {
@@ -78,39 +80,6 @@ std::vector<CheckedOutline> outlines_in_gas(const Case& problem, const FluidSpec
 Vec2 rounded(const Vec2& x) {
   constexpr double unit = 1e-9;
   return (unit * (x / unit).array().round() + 0.0).matrix();  // + 0: no -0
-}
-
-/// The pair of lines between the listed points of a shape that cross; "" where none do.
-std::string crossing_in_list(const CheckedOutline& outline) {
-  const Node* list = outline.node.find("corners");
-  if (list == nullptr) list = outline.node.find("through");
-  if (list == nullptr) return "";
-  const bool closed = outline.curve.closed();
-  const std::size_t count = list->items.size(), n = count + (closed ? 1 : 0);
-  std::vector<double> x(2 * n);
-  for (std::size_t k = 0; k < n; ++k) {
-    const Node& pair = list->items[k % count];
-    x[k] = *pair.items[0].number;
-    x[n + k] = *pair.items[1].number;
-  }
-  const auto crossing = grid::self_crossing(x, outline.ends());
-  if (!crossing) return "";
-  const auto line = [&](std::size_t k) {
-    const std::size_t next = (k + 1) % count;
-    return fmt::format("from its point {} ({:.4g}, {:.4g}) to {} ({:.4g}, {:.4g})", k + 1, x[k], x[n + k],
-                       next + 1, x[next], x[n + next]);
-  };
-  return fmt::format(", where the line {} meets that {}", line(crossing->a), line(crossing->b));
-}
-
-void check_crossing_itself(const CheckedOutline& outline) {
-  const auto crossing = grid::self_crossing(outline.curve.x, outline.ends());
-  if (!crossing) return;
-  const Vec2 x = rounded(crossing->x);
-  fail(outline.node.place, outline.path,
-       fmt::format("the outline crosses itself near ({:.4g}, {:.4g}){}; list the points in their order along "
-                   "the outline, once around",
-                   x[0], x[1], crossing_in_list(outline)));
 }
 
 /// How far a curve goes beyond one side of a rectangle.
@@ -271,10 +240,26 @@ void check_apart(const CheckedOutline& outline, const CheckedOutline& other) {
                    outline.name, other.name, overlap.distance, overlap.x[0], overlap.x[1]));
 }
 
+/// ", as two of the 4 listed ones are cut off ..": a corner that is cut off is two.
+std::string corners_cut_off(const CheckedOutline& outline) {
+  const Node* listed = outline.node.find("corners");
+  if (listed == nullptr || !outline.curve.closed()) return "";
+  const std::size_t cut =
+      outline.curve.corners.size() - std::min(outline.curve.corners.size(), listed->items.size());
+  if (cut == 0) return "";
+  constexpr double degree = std::numbers::pi / 180;
+  return fmt::format(
+      ", {} more than are listed: where an outline turns by more than {:.0f} degrees the corner is cut off, "
+      "a face as "
+      "wide as `blunt`, and counts twice",
+      cut, grid::largest_fan / degree);
+}
+
 /// What keeps a body from having one grid from corner to corner.
-std::string why_no_block(const CurveSpec& curve) {
-  const BlockCorners corners = block_corners(curve);
-  return corners.at ? "" : fmt::format(" but in one with four straight sides: {}", corners.why_not);
+std::string why_no_block(const CheckedOutline& outline) {
+  const BlockCorners corners = block_corners(outline.curve);
+  if (corners.at) return "";
+  return fmt::format(" but in one with four straight sides: {}{}", corners.why_not, corners_cut_off(outline));
 }
 
 /// Grids fan around corners on the outside; on the inside their lines would meet.
@@ -287,7 +272,7 @@ void check_corners_inside(const CheckedOutline& outline) {
       .cause =
           fmt::format("the outline has a sharp corner at ({:.4g}, {:.4g}), around which no grid inside an "
                       "elastic body can be laid{}",
-                      x[0], x[1], why_no_block(outline.curve)),
+                      x[0], x[1], why_no_block(outline)),
       .otherwise = "round the outline there",
       .owner = owner_of(outline)};
   if (outline.node.find("corners") == nullptr)
@@ -372,7 +357,9 @@ void check_volume_changes_at_corners(const SolidSpec& solid, const Node& root) {
 void check_geometry(const Case& problem, const Node& root) {
   for (const SolidSpec& solid : problem.solids) {
     if (solid.body_fitted.empty()) continue;
-    check_crossing_itself(outline_of(solid, root));
+    refuse_own_crossing(solid.body_fitted.front().curve,
+                        *root.find("solids")->find(solid.name)->find("shape"),
+                        fmt::format("solids.{}.shape", solid.name));
     const bool has_core = is_continuum(solid.law) && !is_block(solid);
     check_foot(solid, problem, root);
     check_volume_changes_at_corners(solid, root);
@@ -384,7 +371,7 @@ void check_geometry(const Case& problem, const Node& root) {
     check_same_points(problem, fluid, root);
     const std::vector<CheckedOutline> outlines = outlines_in_gas(problem, fluid, root);
     for (const CheckedOutline& outline : outlines) {
-      check_crossing_itself(outline);
+      refuse_own_crossing(outline.curve, outline.node, outline.path);
       if (!is_upright(fluid.grid)) continue;
       check_within_gas(outline, fluid);
       check_ends(outline, fluid);

@@ -13,6 +13,7 @@
 #include "common/case/grids/fit_grids.hpp"
 #include "common/case/grids/no_grids_fit.hpp"
 #include "common/case/grids/node_tools.hpp"
+#include "common/case/grids/own_crossing.hpp"
 #include "common/case/grids/wall_strips.hpp"
 #include "common/case/read/build.hpp"
 #include "common/case/read/build_shape.hpp"
@@ -118,6 +119,7 @@ void choose_for_solids(Node& root, const Reader& reader, std::vector<std::string
     const std::string& law = solid.find("law")->text;
     const bool outline_only = !is_continuum(law);
     const double h = reader.scope().constants.at("h");
+    refuse_own_crossing(outline.closely, shape, path);
     try {
       if (!outline_only && leaves_block_open(solid)) {
         if (const BlockCorners corners = block_corners(outline.closely); corners.at) {
@@ -196,7 +198,10 @@ void choose_for_gas(Node& root, std::size_t index, const Scope& scope, std::vect
   if (add_wall_strips(*list, draft.fluids[index], open_rings(*list))) draft = build_case(root, scope);
   const std::vector<std::size_t> open = open_rings(*list);
   const FluidSpec& spec = draft.fluids[index];
-  for (const BodyFittedSpec& ring : spec.body_fitted) {
+  for (std::size_t k = 0; k < spec.body_fitted.size(); ++k) {
+    const BodyFittedSpec& ring = spec.body_fitted[k];
+    if (const Node* shape = list->items[k].find("shape"))
+      refuse_own_crossing(ring.curve, *shape, fmt::format("{}.body_fitted[{}].shape", fluid.path, k));
     constexpr int most = 20'000;  // their distances from each other are looked at in pairs
     if (ring.curve.points() > most)
       config::fail(

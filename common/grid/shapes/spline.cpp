@@ -198,9 +198,10 @@ void find_open_tangents(Knots& knots, const std::vector<std::size_t>& corners) {
 }
 
 void check_count(std::size_t points, Curve ends, bool corners) {
-  const std::size_t fewest = corners ? 3 : 4;
-  if (points >= fewest + static_cast<std::size_t>(ends == Curve::closed)) return;
-  throw UserMistake(fmt::format("a spline through {} points; write at least {}", points, fewest));
+  const std::size_t fewest = corners ? 3 : 4,
+                    listed = points - static_cast<std::size_t>(ends == Curve::closed);
+  if (listed >= fewest) return;
+  throw UserMistake(fmt::format("a spline through {} points; write at least {}", listed, fewest));
 }
 
 }  // namespace

@@ -311,6 +311,12 @@ TEST(Shapes, MistakesAreTheUsers) {
   EXPECT_THROW(smoothed_polygon({.corners = {{0, 0}, {0, 0}, {1, 1}}, .ends = Curve::open}), UserMistake);
   EXPECT_THROW(spline({{0, 0}, {1, 0}, {1, 1}}, Curve::open), UserMistake);
   EXPECT_THROW(spline({{0, 0}, {1, 0}, {1, 0}, {1, 1}}, Curve::open), UserMistake);
+  try {
+    spline({{0, 0}, {1, 0}}, Curve::closed);
+    FAIL() << "a closed spline through two points went unnoticed";
+  } catch (const UserMistake& few) {
+    EXPECT_STREQ(few.what(), "a spline through 2 points; write at least 4");
+  }
   const PointWeight away[] = {{-2, 10, 0.5}};
   EXPECT_THROW(distribute(circle({0, 0}, 1), 40, away), UserMistake);
 }

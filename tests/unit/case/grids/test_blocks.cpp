@@ -209,6 +209,14 @@ TEST(Blocks, WhatHasNotFourStraightSidesIsRefusedWithARadiusThatHolds) {
     EXPECT_NE(message.find(said), std::string::npos) << message << "\nexpected: " << said;
 }
 
+TEST(Blocks, ACornerThatIsCutOffIsSaidToCountTwice) {
+  const std::string rhomb = "corners: [[-0.8, 0], [0, -0.2], [0.8, 0], [0, 0.2]]";
+  const std::string message = mistake_in(block_case(rhomb));
+  for (const char* said :
+       {"it has 6 corners, 2 more than are listed: ", "by more than 110 degrees", "counts twice"})
+    EXPECT_NE(message.find(said), std::string::npos) << message << "\nexpected: " << said;
+}
+
 TEST(Blocks, TwoBodiesWithOneFaultAreMendedAtOnce) {
   const auto half_moon = [](const std::string& name, double x) {
     return fmt::format(

@@ -110,6 +110,19 @@ TEST(CaseGeometry, OutlineThatCrossesItselfSaysWhichListedPointsAreOutOfOrder) {
                  "meets that from its point 3 (-0.6, -0.4) to 4 (-1.4, 0.4)");
 }
 
+TEST(CaseGeometry, AnOutlineThatCrossesItselfIsSaidBeforeGridsAreChosenForIt) {
+  const TwoBodies bodies{.left =
+                             "{kind: polygon, radius: 0.05, corners: [[-1.4, -0.4], [-0.6, 0.4], [-0.6, "
+                             "-0.4], [-1.4, 0.4]]}"};
+  std::string text = text_of(bodies);
+  for (const std::string& given :
+       {"    grid: " + bodies.box + "\n", "    body_fitted: " + bodies.fitted + "\n"})
+    text.erase(text.find(given), given.size());
+  const std::string message = mistake_in(text);
+  EXPECT_NE(message.find("solids.a.shape: the outline crosses itself near (-1, 0)"), std::string::npos)
+      << message;
+}
+
 TEST(CaseGeometry, TooCoarseACoreIsToldTheSpacingThatConnects) {
   TwoBodies bodies{.box = "{x: [-1.5, -0.5], y: [-0.5, 0.5], spacing: h}",
                    .fitted = "{lines: 6, spacing: 0.25 * h}"};
