@@ -93,11 +93,18 @@ std::vector<OtherChoice> left_out_of_gas(const Node& root, const std::string& ow
   return {lines, all};
 }
 
-/// Arcs at the corners of polygons that are listed under these keys, of half a spacing to two.
+/// The corners of polygons that are listed under these keys as they are without `radius` and `sharpness`, then with
+/// arcs of two spacings to half a one: the rounder they are, the fewer points grids inside take.
 std::vector<OtherChoice> rounded_polygons(const Node& root, const std::vector<std::string>& shapes,
                                           double h) {
   std::vector<OtherChoice> choices;
-  for (const double radius : {0.5 * h, h, 2 * h}) {
+  for (const char* given : {"radius", "sharpness"}) {
+    OtherChoice usual{.words =
+                          fmt::format("leave out `{}` of `shape`, whose corners are then rounded", given)};
+    for (const std::string& key : shapes) usual.left_out.push_back(fmt::format("{}.{}", key, given));
+    choices.push_back(std::move(usual));
+  }
+  for (const double radius : {2 * h, h, 0.5 * h}) {
     OtherChoice choice{.words = fmt::format("round the corners of `shape` with `radius: {:.3g}`", radius)};
     for (const std::string& key : shapes) {
       const Node* shape = value_under(root, words_in_key(key));
@@ -110,24 +117,73 @@ std::vector<OtherChoice> rounded_polygons(const Node& root, const std::vector<st
   return choices;
 }
 
-/// Sharp corners for polygons of bodies without an inside of grids, around which the gas's grid fans.
-std::vector<OtherChoice> sharp_polygons(const Node& root) {
-  OtherChoice choice;
-  const Node* solids = root.find("solids");
-  if (solids == nullptr || !solids->is_map()) return {};
-  std::vector<std::string> names;
-  for (const config::Entry& solid : solids->entries) {
-    const Node *law = solid.value.find("law"), *shape = solid.value.find("shape");
-    if (law == nullptr || is_continuum(law->text) || shape == nullptr || shape->find("corners") == nullptr)
-      continue;
-    if (const Node* radius = shape->find("radius"); radius != nullptr && radius->text == "0") continue;
-    const std::string key = fmt::format("solids.{}.shape", solid.key);
-    names.push_back(key);
+/// Has a body, as the file describes it, grids inside?
+bool has_inside(const Node& solid) {
+  const Node* law = solid.find("law");
+  return law == nullptr || is_continuum(law->text);
+}
+
+/// Writes sharp corners for a shape into a choice; false where it has them already or can have none.
+bool sharpen(const Node* shape, const std::string& key, OtherChoice& choice) {
+  if (shape == nullptr) return false;
+  if (shape->find("corners") != nullptr) {
+    if (const Node* radius = shape->find("radius"); radius != nullptr && radius->text == "0") return false;
     choice.written.emplace_back(key + ".radius", "0");
     choice.left_out.push_back(key + ".sharpness");
+    return true;
+  }
+  if (shape->find("through") == nullptr || shape->find("corner_angle") != nullptr) return false;
+  choice.written.emplace_back(key + ".corner_angle", "60");
+  return true;
+}
+
+/// Sharp corners for the shapes under these keys, those of polygons by `radius: 0` and those of splines by
+/// `corner_angle`: the gas's grid fans around them.
+std::vector<OtherChoice> sharp_shapes(const Node& root, const std::vector<std::string>& keys) {
+  std::vector<OtherChoice> choices;
+  for (const auto& [list, words] : {std::pair{"corners", "radius: 0"}, {"through", "corner_angle: 60"}}) {
+    OtherChoice choice;
+    std::vector<std::string> names;
+    for (const std::string& key : keys) {
+      const Node* shape = value_under(root, words_in_key(key));
+      if (shape != nullptr && shape->find(list) != nullptr && sharpen(shape, key, choice))
+        names.push_back(key);
+    }
+    choice.words = fmt::format("write `{}` in {}, for sharp corners", words, fmt::join(names, " and "));
+    if (!names.empty()) choices.push_back(std::move(choice));
+  }
+  return choices;
+}
+
+/// Shapes of bodies with or without an inside of grids.
+std::vector<std::string> shapes_of_solids(const Node& root, bool inside) {
+  std::vector<std::string> keys;
+  const Node* solids = root.find("solids");
+  if (solids == nullptr || !solids->is_map()) return keys;
+  for (const config::Entry& solid : solids->entries)
+    if (solid.value.find("shape") != nullptr && has_inside(solid.value) == inside)
+      keys.push_back(fmt::format("solids.{}.shape", solid.key));
+  return keys;
+}
+
+/// Rigid bodies with sharp corners that are held, in the place of elastic ones.
+std::vector<OtherChoice> rigid_solids(const Node& root) {
+  OtherChoice choice;
+  std::vector<std::string> names;
+  for (const std::string& key : shapes_of_solids(root, true)) {
+    const std::string owner = key.substr(0, key.rfind('.'));
+    names.push_back(owner);
+    choice.written.emplace_back(owner + ".law", "rigid");
+    choice.written.emplace_back(owner + ".motion", "fixed");
+    sharpen(value_under(root, words_in_key(key)), key, choice);
   }
   if (names.empty()) return {};
-  choice.words = fmt::format("write `radius: 0` in {}, for sharp corners", fmt::join(names, " and "));
+  std::string sharp;
+  for (const auto& [key, value] : choice.written)
+    if (key.ends_with(".radius") || key.ends_with(".corner_angle"))
+      sharp = fmt::format(", with `{}: {}` in its shape", key.substr(key.rfind('.') + 1), value);
+  choice.words =
+      fmt::format("write `law: rigid` and `motion: fixed` for {}{}", fmt::join(names, " and "), sharp);
   return {choice};
 }
 
@@ -140,22 +196,43 @@ std::vector<OtherChoice> choices_for_solid(const Node& root, const std::string& 
   return choices;
 }
 
-std::vector<OtherChoice> choices_for_gas(const Node& root, const std::string& owner, double factor,
-                                         double h) {
-  std::vector<OtherChoice> choices = left_out_of_gas(root, owner);
-  std::ranges::copy(sharp_polygons(root), std::back_inserter(choices));
-  for (const double times : {2.0, 4.0}) {
-    const std::string finer = fmt::format("{:g}", times * factor);
-    choices.push_back({.words = fmt::format("write `grid: {{factor: {}}}` in place of {:g}", finer, factor),
-                       .written = {{"grid.factor", finer}}});
-  }
+/// Curves of a gas that have a shape of their own.
+std::vector<std::string> shapes_of_gas(const Node& root, const std::string& owner) {
   std::vector<std::string> shapes;
   const Node* list = value_under(root, words_in_key(owner + ".body_fitted"));
   const std::size_t count = list == nullptr || !list->is_list() ? 0 : list->items.size();
   for (std::size_t k = 0; k < count; ++k)
     if (list->items[k].find("shape") != nullptr)
       shapes.push_back(fmt::format("{}.body_fitted.{}.shape", owner, k));
+  return shapes;
+}
+
+/// Two choices at once.
+OtherChoice both(OtherChoice one, const OtherChoice& other) {
+  one.words = fmt::format("{}, and {}", one.words, other.words);
+  one.written.insert(one.written.end(), other.written.begin(), other.written.end());
+  one.left_out.insert(one.left_out.end(), other.left_out.begin(), other.left_out.end());
+  return one;
+}
+
+std::vector<OtherChoice> choices_for_gas(const Node& root, const std::string& owner, double factor,
+                                         double h) {
+  std::vector<OtherChoice> choices = left_out_of_gas(root, owner), finer;
+  const OtherChoice given = choices.back();
+  std::vector<std::string> outlines = shapes_of_solids(root, false);
+  std::ranges::copy(sharp_shapes(root, outlines), std::back_inserter(choices));
+  for (const double times : {2.0, 4.0}) {
+    const std::string value = fmt::format("{:g}", times * factor);
+    finer.push_back({.words = fmt::format("write `grid: {{factor: {}}}` in place of {:g}", value, factor),
+                     .written = {{"grid.factor", value}}});
+  }
+  std::ranges::copy(finer, std::back_inserter(choices));
+  const std::vector<std::string> shapes = shapes_of_gas(root, owner);
   std::ranges::copy(rounded_polygons(root, shapes, h), std::back_inserter(choices));
+  std::ranges::copy(sharp_shapes(root, shapes), std::back_inserter(choices));
+  if (changed(root, given))
+    for (const OtherChoice& one : finer) choices.push_back(both(given, one));
+  std::ranges::copy(rigid_solids(root), std::back_inserter(choices));
   return choices;
 }
 
@@ -223,10 +300,11 @@ UserMistake with_remedy(const NoGridsFit& mistake, const Node& root, double fact
   };
   std::vector<std::string> in_vain;
   std::vector<HalfMended> half_mended;
-  std::string last;  // the case that was tried last
+  std::vector<std::string> seen;  // cases that were tried
   for (const OtherChoice& choice : choices_for(parts, root, factor)) {
     std::optional<Node> other = changed(root, choice);
-    if (!other || std::exchange(last, config::emit(*other)) == config::emit(*other)) continue;
+    if (!other || std::ranges::find(seen, config::emit(*other)) != seen.end()) continue;
+    seen.push_back(config::emit(*other));
     TriedCase found = tried(*other);
     if (found.valid) return works(choice.words);
     in_vain.push_back(choice.words);
@@ -237,8 +315,7 @@ UserMistake with_remedy(const NoGridsFit& mistake, const Node& root, double fact
     if (!bodies.empty())
       return works(fmt::format("{}, and the same for {}", half.choice.words, fmt::join(bodies, ", ")));
   }
-  return told(
-      fmt::format("{} (tried in vain, one at a time: {})", parts.otherwise, fmt::join(in_vain, "; ")));
+  return told(fmt::format("{} (tried in vain: {})", parts.otherwise, fmt::join(in_vain, "; ")));
 }
 
 }  // namespace fsi

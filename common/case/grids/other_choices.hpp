@@ -16,9 +16,10 @@ struct TriedCase {
 };
 
 /// Tries one change of the case after the other: those that the mistake brings, numbers of grids left out (they
-/// are then chosen), for a gas sharp corners of polygons without an inside and grid.factor twice and four times what it
-/// is, rounder corners, for a body a rigid one that is held. Where a change mends one body and grids of another do not fit then, it is tried at both
-/// in the end, and so on.
+/// are then chosen), for a gas sharp corners of outlines without an inside and grid.factor twice and four times what
+/// it is, rounder corners (as they are where the file says nothing, then from large radii to small ones), for a gas
+/// numbers left out and a finer grid at once, a rigid body that is held. Where a change mends one body and grids of
+/// another do not fit then, it is tried at both in the end, and so on.
 /// @param root   the case as it was written, with what the command line says
 /// @param factor grid.factor of the case [-]
 /// @param tried  what becomes of a case with such a tree

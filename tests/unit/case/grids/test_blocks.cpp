@@ -204,8 +204,8 @@ TEST(Blocks, AnotherLawTakesTheOutline) {
 TEST(Blocks, WhatHasNotFourStraightSidesIsRefusedWithARadiusThatHolds) {
   const std::string house = "corners: [[-0.5, -0.5], [0.5, -0.5], [0.5, 0.4], [0, 0.7], [-0.5, 0.4]]";
   const std::string message = mistake_in(block_case(house));
-  for (const char* said :
-       {"sharp corner at (0.5, -0.5)", "it has 5 corners", "with `radius: ", "(tried: valid)"})
+  for (const char* said : {"sharp corner at (0.5, -0.5)", "it has 5 corners; ",
+                           "leave out `radius` of `shape`", "(tried: valid)"})
     EXPECT_NE(message.find(said), std::string::npos) << message << "\nexpected: " << said;
 }
 

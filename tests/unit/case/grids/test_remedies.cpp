@@ -1,0 +1,64 @@
+// Changes of a case that are tried before they are told.
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "tests/unit/case/cases.hpp"
+
+namespace fsi {
+namespace {
+
+using tests::mistake_in;
+
+/// A rigid body that is held, in a gas at rest.
+std::string rigid_case(const std::string& shape, const std::string& spacing = "") {
+  return "time: {end: 1}\ngrid: {factor: 2}\n"
+         "fluid:\n"
+         "  grid: {x: [-2, 2], y: [-2, 2]" +
+         spacing +
+         "}\n"
+         "  boundary: {left: outflow, right: outflow, bottom: slip_wall, top: outflow}\n"
+         "  initial: {rho: 1, v: [0, 0], p: 1}\n"
+         "solids:\n"
+         "  a: {law: rigid, rho: 1, motion: fixed, shape: " +
+         shape + "}\n";
+}
+
+TEST(RemediesForOutlines, ASplineWithASharpTailIsToldACornerThere) {
+  const auto foil = [](const std::string& corners) {
+    return rigid_case("{kind: spline, " + corners +
+                      "through: [[1, 0], [0.5, 0.03], [0.2, 0.08], [0, 0.05], [-0.06, 0], [0, -0.05], [0.2, "
+                      "-0.06], [0.5, -0.03]]}");
+  };
+  const std::string message = mistake_in(foil(""));
+  EXPECT_NE(message.find("write `corner_angle: 60` in solids.a.shape, for sharp corners (tried: valid)"),
+            std::string::npos)
+      << message;
+  EXPECT_EQ(mistake_in(foil("corner_angle: 60, ")), "");
+}
+
+TEST(RemediesForOutlines, GridsThatAreLeftOutAndAFinerOneAreTriedTogether) {
+  // Ten teeth with hollows too narrow for a spacing of 0.1, and for a factor of 2 without it.
+  const std::string gear =
+      "{kind: polygon, radius: 0.02, corners: [[0.4919, -0.0895], [0.4996, 0.02], [0.3582, 0.0359], [0.3479, "
+      "0.0925], "
+      "[0.4506, 0.2167], [0.3924, 0.3098], [0.2687, 0.2396], [0.2271, 0.2794], [0.2371, 0.4402], [0.1354, "
+      "0.4813], "
+      "[0.0765, 0.3518], [0.0195, 0.3595], [-0.0669, 0.4955], [-0.1734, 0.469], [-0.1449, 0.3296], [-0.1955, "
+      "0.3023], "
+      "[-0.3454, 0.3616], [-0.4159, 0.2775], [-0.3109, 0.1815], [-0.3359, 0.1296], [-0.4919, 0.0895], "
+      "[-0.4996, -0.02], "
+      "[-0.3582, -0.0359], [-0.3479, -0.0925], [-0.4506, -0.2167], [-0.3924, -0.3098], [-0.2687, -0.2396], "
+      "[-0.2271, -0.2794], [-0.2371, -0.4402], [-0.1354, -0.4813], [-0.0765, -0.3518], [-0.0195, -0.3595], "
+      "[0.0669, -0.4955], [0.1734, -0.469], [0.1449, -0.3296], [0.1955, -0.3023], [0.3454, -0.3616], "
+      "[0.4159, -0.2775], [0.3109, -0.1815], [0.3359, -0.1296]]}";
+  const std::string message = mistake_in(rigid_case(gear, ", spacing: 0.1"));
+  EXPECT_NE(message.find("which are then chosen, and write `grid: {factor: 4}` in place of 2 (tried: valid)"),
+            std::string::npos)
+      << message;
+  EXPECT_EQ(mistake_in(rigid_case(gear), {"grid.factor=4"}), "");
+}
+
+}  // namespace
+}  // namespace fsi
