@@ -102,6 +102,18 @@ std::string text_of(const std::string& solid, const BodyGrids& grids) {
       core.y_a, core.y_b);
 }
 
+/// The core of an elastic body has its sides along the axes: its outline cannot end on a wall that slopes.
+void refuse_slope(const CurveSpec& outline) {
+  constexpr double level = 1e-6;
+  if (outline.on.empty() || std::abs(outline.along[0][0] * outline.along[0][1]) <= level) return;
+  throw NoGridsFit(
+      {.cause = fmt::format(
+           "an elastic body needs a wall that is level or upright to stand on, or an outline with four "
+           "straight sides (`radius: 0`), and the wall of grid `{}` slopes",
+           outline.on),
+       .otherwise = "write `law: beam` for a thin one, `law: rigid`, or let it stand elsewhere"});
+}
+
 void choose_for_solids(Node& root, const Reader& reader, std::vector<std::string>& chosen) {
   Node* solids = root.find("solids");
   if (solids == nullptr) return;
@@ -127,6 +139,7 @@ void choose_for_solids(Node& root, const Reader& reader, std::vector<std::string
           continue;
         }
       }
+      if (!outline_only) refuse_slope(outline.closely);
       const BodyGrids grids = fit_body(outline, h, wish_of(solid), outline_only);
       write_body(solid, grids);
       chosen.push_back(text_of(entry.key, grids));

@@ -67,7 +67,7 @@ Vec2 point_of(const CurveSpec& curve, int k) {
 struct Foot {
   int segment = 0;
   double distance = 0;
-  Vec2 along = Vec2::Zero();
+  Vec2 along = Vec2::Zero(), x = Vec2::Zero();  ///< direction of the wall; the nearest point on it
 };
 
 Foot foot_on(const CurveSpec& wall, const Vec2& x) {
@@ -75,10 +75,30 @@ Foot foot_on(const CurveSpec& wall, const Vec2& x) {
   for (int k = 0; k + 1 < wall.points(); ++k) {
     const Vec2 a = point_of(wall, k), along = point_of(wall, k + 1) - a;
     const double part = std::clamp((x - a).dot(along) / along.squaredNorm(), 0.0, 1.0);
-    const double distance = (a + part * along - x).norm();
-    if (distance < foot.distance) foot = {.segment = k, .distance = distance, .along = along.normalized()};
+    const Vec2 on_wall = a + part * along;
+    const double distance = (on_wall - x).norm();
+    if (distance < foot.distance)
+      foot = {.segment = k, .distance = distance, .along = along.normalized(), .x = on_wall};
   }
   return foot;
+}
+
+/// Ends of an outline that are near the wall, as six digits leave them, are put on it, in the direction that the
+/// outline has there. The way is a small part of a spacing, of the case's and of the outline's points.
+/// @returns whether it is near enough
+bool put_on_wall(CurveSpec& curve, int end, const Foot& foot, double h) {
+  constexpr double near = 1e-2, of_own = 0.2;
+  if (!(foot.distance <= std::min(near * h, of_own * curve.spacing))) return false;
+  const int beside = end == 0 ? 1 : end - 1;
+  const Vec2 x = point_of(curve, end), along = (x - point_of(curve, beside)).normalized();
+  const Vec2 across(-foot.along[1], foot.along[0]);
+  constexpr double flattest = 0.2;  // where it comes down at a smaller slope the nearest point is taken
+  const double slope = across.dot(along);
+  const Vec2 on_wall = std::abs(slope) < flattest ? foot.x : Vec2(x - across.dot(x - foot.x) / slope * along);
+  const auto at = static_cast<std::size_t>(end), n = static_cast<std::size_t>(curve.points());
+  curve.x[at] = on_wall[0];
+  curve.x[n + at] = on_wall[1];
+  return true;
 }
 
 /// The side whose direction into the gas is nearest to a direction.
@@ -147,13 +167,14 @@ void stand_on_wall(const Reader& reader, const Node& shape, const std::string& p
   const std::array ends{point_of(curve, 0), point_of(curve, curve.points() - 1)};
   for (const std::size_t end : {0U, 1U}) {
     feet[end] = foot_on(wall, ends[end]);
-    constexpr double close = 1e-6;
-    if (feet[end].distance > close * curve.spacing) {
-      fail(
-          walls.place, where,
-          fmt::format(
-              "an end of the outline, ({:.6g}, {:.6g}), is {:.3g} from the wall of grid {}; let it end there",
-              ends[end][0], ends[end][1], feet[end].distance, in_ticks(curve.on)));
+    const int at = end == 0 ? 0 : curve.points() - 1;
+    if (!put_on_wall(curve, at, feet[end], reader.scope().constants.at("h"))) {
+      fail(walls.place, where,
+           fmt::format(
+               "an end of the outline, ({:.6g}, {:.6g}), is {:.3g} from the wall of grid {}; let it end "
+               "there, the nearest point is ({:.9g}, {:.9g})",
+               ends[end][0], ends[end][1], feet[end].distance, in_ticks(curve.on), feet[end].x[0],
+               feet[end].x[1]));
     }
   }
   if (const auto bend = bend_between(wall, feet)) {

@@ -80,6 +80,28 @@ TEST(Walls, ABodyStandsOnASlope) {
   EXPECT_EQ((*curve.walls)[0], Side::bottom);  // the side it faces most
 }
 
+TEST(Walls, EndsWithSixDigitsArePutOnTheWall) {
+  // The slope is y = -2 (x - 1) / 3: six decimals miss it by a few 1e-7.
+  const Case problem = load_text(floor_case(
+      "[[1.313131, -0.208754], [1.479801, 0.041251], [1.646471, -0.069862], [1.479801, -0.319867]]"));
+  const CurveSpec& curve = problem.solids.front().body_fitted.front().curve;
+  const auto n = static_cast<std::size_t>(curve.points());
+  for (const std::size_t k : {std::size_t{0}, n - 1})
+    EXPECT_NEAR(curve.x[n + k] + 2.0 / 3 * (curve.x[k] - 1), 0, 1e-12) << k;
+}
+
+TEST(Walls, AnElasticBodyOnASlopeIsToldThatItNeedsALevelWall) {
+  std::string text =
+      floor_case("[[1.3, -0.2], [1.46641, 0.04962], [1.63282, -0.06132], [1.46641, -0.31094]]");
+  text.replace(text.find("law: rigid, rho: 1, motion: fixed"), 33,
+               "law: neo_hookean, rho: 1, lambda: 1, mu: 1");
+  text.replace(text.rfind("radius: 0"), 9, "radius: 0.02");
+  const std::string message = mistake_in(text);
+  EXPECT_NE(message.find("an elastic body needs a wall that is level or upright"), std::string::npos)
+      << message;
+  EXPECT_EQ(message.find("round it more"), std::string::npos) << message;
+}
+
 TEST(Walls, MistakesNameThePlaceAndWhatToWrite) {
   struct Mistake {
     std::string text, says;
@@ -91,7 +113,7 @@ TEST(Walls, MistakesNameThePlaceAndWhatToWrite) {
             "no grid with a `shape` in fluid.body_fitted `flor`; did you mean"},
            {floor_case(panel, "[floor, bottom]"), "both on the wall of one grid: write its name twice"},
            {floor_case("[[-0.5, 0.1], [-0.5, 0.6], [-0.3, 0.6], [-0.3, 0.1]]"),
-            "0.1), is 0.1 from the wall of grid `floor`"},
+            "0.1), is 0.1 from the wall of grid `floor`; let it end there, the nearest point is (-0.3, 0)"},
            {floor_case("[[0.9, 0], [0.9, 0.6], [1.3, 0.6], [1.3, -0.2]]"),
             "the wall of grid `floor` bends at (1, 0), between the ends"},
            {rounded, "along the wall of grid \"floor\", which bends"},
