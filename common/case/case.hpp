@@ -197,6 +197,7 @@ struct ProbeSpec {
 
 struct OutputSpec {
   std::vector<double> times;
+  std::vector<double> left_out = {};  ///< times after the end that the file asks for
   std::vector<ProbeSpec> probes;
   int checkpoint_every = 0;         ///< steps; 0: never
   double checkpoint_seconds = 600;  ///< of wall time [s]

@@ -37,6 +37,12 @@ void check_expectations(const Case& problem, const Node& root) {
     if (dot == std::string::npos) continue;
     const std::string rest = entry.quantity.substr(dot + 1);
     if (first == "errors") require(entry, rest, errors);
+    if (first == "errors" && problem.reference.kind == ReferenceKind::none)
+      fail(root.find("expect")->find(entry.quantity)->place, "expect",
+           fmt::format(
+               "{} is measured against a reference solution, and the case has none; write a `reference`, "
+               "or leave it out (`fsi converge` compares grids without one)",
+               in_ticks(entry.quantity)));
     if (first == "participants" || first == "conservation")
       require(entry, rest.substr(0, rest.find('.')), programs);
   }

@@ -218,7 +218,10 @@ OutputSpec output_of(const Node* node, double end) {
   const Node* times = node->find("times");
   const Node* every = node->find("every");
   if (times != nullptr) {
-    for (const Node& item : times->items) result.times.push_back(*item.number);
+    for (const Node& item : times->items) {
+      result.times.push_back(*item.number);
+      if (*item.number > end) result.left_out.push_back(*item.number);
+    }
   }
   if (every != nullptr) add_multiples(*every, end, result.times);
   result.times = distinct_times(std::move(result.times), end);

@@ -86,8 +86,24 @@ std::string grids_of(const Owner& owner) {
 std::string added_points(const FluidSpec& fluid) {
   const auto [n1, n2] = fluid.refine.asked;
   if (n1 == fluid.grid.n1 && n2 == fluid.grid.n2) return "";
-  return fmt::format("\n  {}: {} x {} points in place of {} x {}, so that {} levels fit",
-                     fluid.path + ".grid", fluid.grid.n1, fluid.grid.n2, n1, n2, fluid.refine.levels);
+  const auto spacing = [&](int points) { return (fluid.grid.x_b - fluid.grid.x_a) / (points - 1); };
+  std::string text =
+      fmt::format("\n  {}: {} x {} points in place of {} x {}, so that {} levels fit", fluid.path + ".grid",
+                  fluid.grid.n1, fluid.grid.n2, n1, n2, fluid.refine.levels);
+  constexpr double few = 2;
+  if (fluid.grid.n1 - 1 > few * (n1 - 1) || fluid.grid.n2 - 1 > few * (n2 - 1))
+    text += fmt::format(
+        "; the finest spacing is {:.3g} in place of {:.3g}: write fewer `levels`, or a rectangle "
+        "that many coarse cells fit into",
+        spacing(fluid.grid.n1), spacing(n1));
+  return text;
+}
+
+/// Times that the file asks for and the run does not reach: `--set time.end` may be what makes it so.
+std::string times_left_out(const OutputSpec& output, double end) {
+  if (output.left_out.empty()) return "";
+  return fmt::format("\n  output.times: no output at {}, after time.end = {:g}",
+                     fmt::join(output.left_out, ", "), end);
 }
 
 }  // namespace
@@ -163,6 +179,7 @@ std::string summary_line(const Case& problem) {
       fmt::format("{}: valid; {}, t = 0 to {}; memory {}about {}", problem.path, fmt::join(parts, ", "),
                   problem.time.end, levels ? "at most " : "", bytes_text(total_memory(problem)));
   for (const FluidSpec& fluid : problem.fluids) line += added_points(fluid);
+  line += times_left_out(problem.output, problem.time.end);
   return line;
 }
 

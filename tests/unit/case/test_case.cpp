@@ -152,6 +152,11 @@ TEST(OutputTimes, AfterTheEndAreLeftOut) {
   const std::string path = FSI_ROOT "/configs/sod_tube.yaml";
   const Case shorter = load_case(path, {"time.end=0.1", "output={times: [0.05, 0.15]}"});
   EXPECT_EQ(shorter.output.times, std::vector<double>{0.05});
+  EXPECT_NE(summary_line(shorter).find("output.times: no output at 0.15, after time.end = 0.1"),
+            std::string::npos)
+      << summary_line(shorter);
+  EXPECT_EQ(summary_line(load_case(path, {"output={times: [0.05, 0.15]}"})).find("no output"),
+            std::string::npos);
   const Case none_left = load_case(path, {"time.end=0.1", "output={times: [0.15]}"});
   EXPECT_EQ(none_left.output.times, std::vector<double>{0.1});
 }

@@ -197,6 +197,9 @@ const Mistake values[] = {
      "case.yaml:29:20: expect: summary.json has no `eror.rho` (status, reason, t, steps, dt, wall_s, "
      "participants, errors, interface, counters, "
      "conservation); did you mean `errors`?"},
+    {"ErrorsWithoutAReference", "status: completed", "errors.rho: {max: 1}",
+     "case.yaml:29:22: expect: `errors.rho` is measured against a reference solution, and the case has none; "
+     "write a `reference`, or leave it out (`fsi converge` compares grids without one)"},
     {"TimeoutWithoutEnd", "cfl: 0.9", "peer_timeout: 1e12",
      "case.yaml:5:30: time.peer_timeout: must be > 0 and <= 1800 [s], is 1000000000000"},
     {"EmptyExpectation", "status: completed", "errors.rho: {}",

@@ -45,6 +45,11 @@ TEST(BackgroundLevels, AreNamedByAReportWithThePointsThatWereAdded) {
   EXPECT_NE(summary_line(levels).find("fluid.grid: 82 x 46 points in place of 81 x 41, so that 3 levels fit"),
             std::string::npos)
       << summary_line(levels);
+  EXPECT_EQ(summary_line(levels).find("the finest spacing is"), std::string::npos);
+  const std::string deep = summary_line(load_text(stream, {"fluid.grid.levels=6"}));  // 80 cells become 972
+  EXPECT_NE(deep.find("973 x 973 points in place of 81 x 41"), std::string::npos) << deep;
+  EXPECT_NE(deep.find("; the finest spacing is "), std::string::npos) << deep;
+  EXPECT_NE(deep.find("write fewer `levels`"), std::string::npos) << deep;
   EXPECT_NE(summary_line(levels).find("memory at most about"), std::string::npos) << summary_line(levels);
   EXPECT_EQ(cost_text(cost_of(even)).find("levels"), std::string::npos);
   EXPECT_NE(cost_text(cost_of(levels)).find("less by what the levels save"), std::string::npos);
