@@ -16,6 +16,8 @@ struct StepCost {
   bool is_gas = false;
   int levels = 1;            ///< of the background; with more, `points` are those of the finest everywhere
   double points = 0;         ///< of all its grids, without those that outlines leave unused [-]
+  double moving = 0;         ///< points of its grids that move with a body [-]
+  double grids = 0;          ///< to march these anew and to connect them, each step, about [s]
   double dt = 0;             ///< infinite for a program that takes any step [time]
   std::string grid = {};     ///< whose cell sets it
   Vec2 x = Vec2::Zero();     ///< where
@@ -41,7 +43,7 @@ struct RunCost {
 RunCost cost_of(const Case& problem);
 
 /// For people, a line for each program and one for the run;
-/// and one more where a few small cells set the step.
+/// and one more where a few small cells set the step, or where the run takes more than an hour.
 std::string cost_text(const RunCost& cost);
 
 }  // namespace fsi

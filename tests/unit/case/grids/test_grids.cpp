@@ -370,6 +370,20 @@ TEST(CostOfARun, CountsTheSubstepsOfAStiffSolid) {
   EXPECT_NE(cost_text(own).find("substeps"), std::string::npos);
 }
 
+TEST(CostOfARun, GridsThatMoveCostMoreThanThoseThatStay) {
+  const std::string thin = bodies_case({"{kind: ellipse, semi_axes: [0.5, 0.06]}"});
+  const RunCost moves = cost_of(load_text(thin, {}, {"body_0=rigid"})),
+                stays = cost_of(load_text(thin, {"solids.body_0.motion=fixed"}, {"body_0=rigid"}));
+  EXPECT_EQ(stays.programs[0].grids, 0);
+  EXPECT_EQ(moves.programs[0].points, stays.programs[0].points);
+  EXPECT_GT(moves.programs[0].grids, 0.1e-6 * moves.programs[0].moving);
+  EXPECT_GT(moves.seconds, stays.seconds);
+  EXPECT_EQ(cost_text(moves).find("more than an hour"), std::string::npos);
+  EXPECT_NE(
+      cost_text(cost_of(load_text(thin, {"time.end=1000000"}, {"body_0=rigid"}))).find("more than an hour: "),
+      std::string::npos);
+}
+
 TEST(CostOfARun, SaysWhereAFewSmallCellsSetTheStep) {
   // Points clustered at one place of the outline.
   const std::string drawn =
