@@ -175,8 +175,10 @@ std::optional<Advice> too_sharp(const OverlapCheck& check, const Node& place, co
     if (depth_of(spec) <= depth_by_radius * bend.radius) continue;
     return Advice{.node = place,
                   .path = path,
-                  .text = fmt::format("make it at most {} of that deep, {:.2g}, or round the curve more",
-                                      depth_by_radius, depth_by_radius * bend.radius),
+                  .text = fmt::format(
+                      "give it `lines` and a `spacing` with which it is at most {} of that radius deep, "
+                      "(lines - 1) * spacing = {:.2g}, or round the curve more",
+                      depth_by_radius, depth_by_radius * bend.radius),
                   .fact = fmt::format("grid `{}` is {:.3g} deep, and its curve bends with a radius of {:.3g} "
                                       "at ({:.4g}, {:.4g})",
                                       spec.name, depth_of(spec), bend.radius, bend.x[0], bend.x[1])};

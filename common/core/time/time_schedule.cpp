@@ -87,7 +87,12 @@ PlannedStep TimeSchedule::plan(double t, double proposal, const std::string& rea
           "time.end = {:g} is {:.2g} steps of {:.3g} ({}) away, more than any run can take (1e11): write "
           "a smaller time.end, or find out what makes the steps so small",
           options_.end, options_.end / proposal, proposal, reason));
-    throw Diverged(fmt::format("the time step has collapsed to {:.3g} ({})", proposal, reason), {.t = t});
+    throw Diverged(
+        fmt::format("the time step has collapsed to {:.3g} ({}): a cell there has become small, or a wave "
+                    "fast; let the run end before (time.end), or give that grid more `lines`, and look "
+                    "at last_state/ where it is the wave",
+                    proposal, reason),
+        {.t = t});
   }
   double dt = proposal;
   const auto lower = [&](double most, StepLimit by) {

@@ -95,12 +95,12 @@ void HyperbolicMarch::march(std::span<const double> curve, FieldView x, double t
   try {
     check_cells(x, grid_.name, t);
   } catch (const Diverged& folded) {
-    throw Diverged(folded.what() + flat_on_wall(x, t));
+    throw Diverged(folded.cause() + flat_on_wall(x, t), folded.place());
   }
 }
 
 /// Where the curve has come down to a wall on which it ends, or is as flat in the beginning, so that lines between
-/// them have no room; "" where it has not.
+/// them have no room; where it has not, what to do once it has moved.
 std::string HyperbolicMarch::flat_on_wall(ConstFieldView x, double t) const {
   for (std::size_t end = 0; end < 2; ++end) {
     if (closed() || !grid_.walls[end]) continue;
@@ -124,7 +124,7 @@ std::string HyperbolicMarch::flat_on_wall(ConstFieldView x, double t) const {
         "the run end before",
         there[0], there[1]);
   }
-  return "";
+  return t > 0 ? ": its curve bends too sharply there; a larger grid.factor holds sharper bends" : "";
 }
 
 /// Steps in which the line after this one is reached, a distance d away; the first march decides. Where lines are farther

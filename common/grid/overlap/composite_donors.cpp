@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -19,6 +20,25 @@ namespace {
 
 std::string name_of_body(const BodyFittedGrid& body) {
   return body.of.empty() ? fmt::format("the curve of grid \"{}\"", body.name) : body.of;
+}
+
+/// What to do where grids no longer overlap that did; where they never did the case's check has its own words.
+std::string while_moving(double t) {
+  return t > 0 ? "; write a larger grid.factor, whose grids are thinner, or let the run end before" : "";
+}
+
+/// Ends one of the ends of a curve on the side of a rectangle that is nearest to a position?
+bool stands_on_rim(const std::vector<double>& curve, const CartesianGrid& rim, const Vec2& x) {
+  const std::size_t n = curve.size() / 2;
+  const std::array distances{x[0] - rim.x_a, rim.x_b - x[0], x[1] - rim.y_a, rim.y_b - x[1]};
+  const auto side = std::ranges::min_element(distances) - distances.begin();
+  constexpr double close = 1e-6;
+  const double tolerance = close * std::max(rim.dx(), rim.dy());
+  return std::ranges::any_of(std::array<std::size_t, 2>{0, n - 1}, [&](std::size_t k) {
+    const std::array of_end{curve[k] - rim.x_a, rim.x_b - curve[k], curve[n + k] - rim.y_a,
+                            rim.y_b - curve[n + k]};
+    return std::abs(of_end[static_cast<std::size_t>(side)]) < tolerance;
+  });
 }
 
 /// Smaller is better.
@@ -244,22 +264,30 @@ std::string CompositeGrid::nearest_curves(const Vec2& x, double t) const {
   if (order.size() < 2 || to_rim < order[1].first) {
     constexpr double fewest_cells = 3;  // between a curve and a side without a grid along it
     if (t > 0 && order[0].first + to_rim < fewest_cells * cell) {
-      return fmt::format(
+      const std::string what = fmt::format(
           "; {} has come within {:.2g} cells of the rim of \"{}\" there, less than the {} that gas between "
-          "them "
-          "takes; let the run end before, or the body not come so near",
+          "them takes; ",
           name_of_body(bodies_[a]), (order[0].first + std::max(to_rim, 0.0)) / cell, background_.name,
           fewest_cells);
+      if (stands_on_rim(curves[a], background_, x))
+        return what +
+               "it stands on that side: let the run end before, or write a larger grid.factor, with which it "
+               "may come nearer";
+      return what +
+             "give that side a grid along it in fluid.body_fitted (docs/troubleshooting.md), let the run end "
+             "before, or the body not come so near";
     }
     return fmt::format(
-        "; the curve of grid \"{}\" is {:.3g} ({:.2g} cells) from there, the rim of \"{}\" {:.3g}",
-        bodies_[a].name, order[0].first, order[0].first / cell, background_.name, std::max(to_rim, 0.0));
+        "; the curve of grid \"{}\" is {:.3g} ({:.2g} cells) from there, the rim of \"{}\" {:.3g}{}",
+        bodies_[a].name, order[0].first, order[0].first / cell, background_.name, std::max(to_rim, 0.0),
+        while_moving(t));
   }
   const std::size_t b = order[1].second;
   const Gap gap = gap_between(curves[a], curves[b]);
   return fmt::format(
-      "; the curves of grids \"{}\" and \"{}\" are {:.3g} ({:.2g} cells) apart at ({:.4g}, {:.4g})",
-      bodies_[a].name, bodies_[b].name, gap.distance, gap.distance / cell, gap.x[0], gap.x[1]);
+      "; the curves of grids \"{}\" and \"{}\" are {:.3g} ({:.2g} cells) apart at ({:.4g}, {:.4g}){}",
+      bodies_[a].name, bodies_[b].name, gap.distance, gap.distance / cell, gap.x[0], gap.x[1],
+      while_moving(t));
 }
 
 void CompositeGrid::report_orphans(double t, const char* what) const {

@@ -29,12 +29,13 @@ double reach_of(const PlaneCurve& curve, double corner, double width, double mos
   const auto apart = [&](double reach) {
     return (curve.position(around(corner - reach)) - curve.position(around(corner + reach))).norm();
   };
-  if (!(apart(most) > width)) {
+  if (const double widest = apart(most); !(widest > width)) {
     const Vec2 x = curve.position(corner);
+    constexpr double most_of = 0.9;
     throw UserMistake(fmt::format(
         "the sides of the sharp corner at ({:.4g}, {:.4g}) are not {:.3g} apart anywhere before the "
-        "next corner, where the corner would be cut off; write a smaller `blunt`",
-        x[0], x[1], width));
+        "next corner, where the corner would be cut off; write `blunt: {:.2g}` or less",
+        x[0], x[1], width, most_of * widest));
   }
   double low = 0, high = most;
   constexpr int halvings = 60;

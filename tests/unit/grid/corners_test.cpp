@@ -115,7 +115,15 @@ TEST(Blunted, CutsSharpEndsOffAsWideAsItIsTold) {
     EXPECT_LT(distance_to(points_on(dart, 4001), point(x, k)), 1e-4);
   }
   EXPECT_NEAR(length_of(cut), length_of(dart) - 2 * std::hypot(0.25, 0.025) + width, 1e-9);
-  EXPECT_THROW(blunted(dart, 0.3), UserMistake);
+  try {
+    blunted(dart, 0.3);
+    FAIL() << "a face wider than the dart went unnoticed";
+  } catch (const UserMistake& wide) {
+    const std::string words = wide.what(), before = "write `blunt: ";
+    const std::size_t at = words.find(before);
+    ASSERT_NE(at, std::string::npos) << words;
+    EXPECT_NO_THROW(blunted(dart, std::stod(words.substr(at + before.size())))) << words;
+  }
 }
 
 TEST(Blunted, LeavesRightAnglesAlone) {

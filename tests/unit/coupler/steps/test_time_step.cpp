@@ -92,6 +92,7 @@ TEST(TimeStepAgreement, ACollapsedStepIsNamed) {
   EXPECT_NE(message(0.1, 1e-7).find("beam"), std::string::npos);
   EXPECT_NE(message(-1, 0.1).find("fluid"), std::string::npos);
   EXPECT_NE(message(1e-14, 0.1).find("collapsed"), std::string::npos);
+  EXPECT_NE(message(1e-14, 0.1).find("let the run end before (time.end)"), std::string::npos);
 }
 
 }  // namespace

@@ -101,6 +101,7 @@ TEST(ThinOverlap, ABodyThatHasComeToTheRimIsNamedWithItsDistance) {
   const std::string later = message(1.04, 1), first = message(1.04, 0);
   EXPECT_NE(later.find("; body `disk` has come within "), std::string::npos) << later;
   EXPECT_NE(later.find("let the run end before"), std::string::npos) << later;
+  EXPECT_NE(later.find("give that side a grid along it in fluid.body_fitted"), std::string::npos) << later;
   EXPECT_NE(first, "");
   EXPECT_EQ(first.find("has come"), std::string::npos) << first;  // in the beginning nothing has come yet
 }
