@@ -14,6 +14,7 @@
 #include "common/grid/marching/hyperbolic.hpp"
 #include "common/grid/overlap/composite_grid.hpp"
 #include "common/grid/shapes/circle.hpp"
+#include "common/grid/shapes/rounded_polygon.hpp"
 
 namespace fsi::grid {
 namespace {
@@ -104,6 +105,41 @@ TEST(ThinOverlap, ABodyThatHasComeToTheRimIsNamedWithItsDistance) {
   EXPECT_NE(later.find("give that side a grid along it in fluid.body_fitted"), std::string::npos) << later;
   EXPECT_NE(first, "");
   EXPECT_EQ(first.find("has come"), std::string::npos) << first;  // in the beginning nothing has come yet
+}
+
+/// A flap that stands on the bottom, y = 0, and hangs over to the right until its tip is near it.
+std::vector<double> hanging_flap(int points, double low) {
+  return points_on(
+      rounded_polygon(
+          {.corners = {{-0.4, 0}, {-0.4, 1.2}, {1, 1.2}, {1, low}, {0.6, low}, {0.6, 0.8}, {0, 0.8}, {0, 0}},
+           .radius = 0.15}),
+      points);
+}
+
+TEST(ThinOverlap, ABodyThatStandsOnTheSideItComesNearIsNotToldAGridThere) {
+  HyperbolicGrid ring{.name = "ring", .points = 181, .lines = 8, .curve = Side::bottom, .spacing = 0.015};
+  ring.ends = Curve::open;
+  ring.walls = {Vec2(1, 0), Vec2(1, 0)};
+  HyperbolicMarch march(ring);
+  Field x(march.layout(), 2);
+  march.march(hanging_flap(ring.points, 0.06), x.view(), 1);
+  CompositeGrid grids({.name = "gas", .n1 = 121, .n2 = 61, .x_a = -2, .x_b = 2, .y_a = 0, .y_b = 2},
+                      {{.name = "ring",
+                        .n1 = ring.points,
+                        .n2 = 8,
+                        .curve = Side::bottom,
+                        .ends = Curve::open,
+                        .of = "body `flap`"}});
+  const ConstFieldView views[] = {x.view()};
+  try {
+    grids.connect(views, 1);
+    FAIL() << "two cells of gas went unnoticed";
+  } catch (const Diverged& broke) {
+    const std::string words = broke.what();
+    EXPECT_NE(words.find("body `flap` has come within "), std::string::npos) << words;
+    EXPECT_NE(words.find("it stands on that side: "), std::string::npos) << words;
+    EXPECT_EQ(words.find("give that side a grid"), std::string::npos) << words;
+  }
 }
 
 }  // namespace
