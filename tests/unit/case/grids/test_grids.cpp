@@ -9,6 +9,8 @@
 #include "common/case/grids/composite_from_case.hpp"
 #include "common/case/report/cost.hpp"
 #include "common/core/failure.hpp"
+#include "common/grid/geometry/quality.hpp"
+#include "common/grid/moving_grid.hpp"
 #include "tests/unit/case/cases.hpp"
 
 namespace fsi {
@@ -240,6 +242,48 @@ TEST(ChosenGrids, ABodyThatLiesOnAWallIsAskedWhetherItStandsThere) {
         << message;
     EXPECT_NE(message.find("write `walls: [bottom, bottom]` into the shape"), std::string::npos) << message;
   }
+}
+
+/// The grids of a gas connect wherever the points of its background are: its bodies will be there.
+void expect_connected_anywhere(const Case& problem, const std::vector<double>& ups) {
+  const FluidSpec& gas = problem.fluids.front();
+  const double dx = (gas.grid.x_b - gas.grid.x_a) / (gas.grid.n1 - 1),
+               dy = (gas.grid.y_b - gas.grid.y_a) / (gas.grid.n2 - 1);
+  for (const double right : {0.0, 0.25, 0.5, 0.75}) {
+    for (const double up : ups) {
+      GridSpec shifted = gas.grid;
+      shifted.x_a += right * dx, shifted.x_b += right * dx;
+      shifted.y_a += up * dy, shifted.y_b += up * dy;
+      EXPECT_NO_THROW(connect_once(shifted, gas.body_fitted)) << right << ", " << up;
+    }
+  }
+}
+
+TEST(ChosenGrids, OfBodiesInHollowCornersHoldWhereverTheBodiesGo) {
+  for (const std::string law : {"neo_hookean", "rigid"}) {
+    expect_connected_anywhere(
+        load_text(
+            bodies_case({"{kind: polygon, corners: [[-0.5, -0.6], [0.5, -0.6], [0.5, -0.2], [-0.1, -0.2], "
+                         "[-0.1, 0.2], [0.5, 0.2], [0.5, 0.6], [-0.5, 0.6]], radius: 0.08}"}),
+            {}, {"body_0=" + law}),
+        {0, 0.25, 0.5, 0.75});
+  }
+}
+
+TEST(ChosenGrids, AtAFootThatLeansHoldWhereverItGoesAlongItsWall) {
+  const std::string leaning =
+      "{kind: polygon, corners: [[-0.6, -2], [0.2, -1.2], [0.6, -1.2], [-0.2, -2]], radius: 0.05, walls: "
+      "[bottom, bottom]}";
+  expect_connected_anywhere(load_text(bodies_case({leaning}, on_wall)), {0});
+}
+
+TEST(ChosenGrids, OfBodiesThatDeformHaveSoundCells) {
+  const Case problem = load_text(
+      bodies_case({"{kind: polygon, corners: [[-0.5, -2], [-0.5, -1], [-0.2, -1], [-0.2, -1.7], [0.5, -1.7], "
+                   "[0.5, -2]], radius: 0.08, walls: [bottom, bottom]}"},
+                  on_wall));
+  const grid::MovingGrid ring(grid_of(problem.fluids.front().body_fitted[0]), 0);
+  EXPECT_GT(grid::cell_quality(ring.x()), 0.25);
 }
 
 /// What a valid case with a circle takes [s], of processor time.
