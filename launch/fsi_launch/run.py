@@ -185,7 +185,7 @@ def _supervise(case, directory, programs, progress, tick):
 
 
 def _watched(case, directory, programs, run, request, say):
-    """The Outcome of all programs, while a person sees how far they are."""
+    """(Outcome of all programs, {t, steps} they last said), while a person sees how far they are."""
     progress = Progress(request.progress and not request.quiet)
     with contextlib.ExitStack() as stack:
         monitor = stack.enter_context(Monitor(run, say)) if request.monitor else None
@@ -198,7 +198,7 @@ def _watched(case, directory, programs, run, request, say):
         if monitor and not outcome.signal:
             monitor.wait()
     progress.close()
-    return outcome
+    return outcome, progress.reached()
 
 
 def _applicable(case, request, say):
@@ -290,11 +290,12 @@ def run(request):
         entered = registry.Entry(identity, directory.resolve(), case.name, protection, case.programs, network)
         with interrupts.held(), entered as entry, interrupts.heard():
             programs = _programs(case, directory, entry, checkpoint, reports, request)
-            outcome = _watched(case, directory, programs, identity, request, say)
+            outcome, told = _watched(case, directory, programs, identity, request, say)
         parts = summary.read_parts(directory, case.programs, _copies(reports))
     found = verdict.judge(outcome, case, directory, parts)
     code, status, reason = found.code, found.status, found.reason
-    result = summary.merge(parts, case, status, reason, time.monotonic() - start)
+    begun_from = {"t": checkpoint.t, "steps": checkpoint.step} if checkpoint else None
+    result = summary.merge(parts, case, status, reason, time.monotonic() - start, summary.last_known(directory, told, begun_from))
     if found.failure:
         result["failure"] = found.failure
     if checkpoint:
