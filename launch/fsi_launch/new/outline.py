@@ -40,7 +40,7 @@ def read(path, straight=False):
     edges between the points. Throws UserMistake with file:line."""
     path = Path(path)
     try:
-        lines = path.read_text(encoding="utf-8").splitlines()
+        lines = path.read_text(encoding="utf-8-sig").splitlines()    # some editors begin a text with a byte-order mark
     except (OSError, UnicodeDecodeError) as error:
         raise UserMistake(f"--outline {path}: cannot be read ({getattr(error, 'strerror', None) or 'it is no UTF-8 text'})") from None
     points = []

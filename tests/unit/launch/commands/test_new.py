@@ -40,6 +40,9 @@ class Outlines(InScratch):
             with self.subTest(content):
                 self.assertEqual(self.read(content).points, expected)
 
+    def test_a_byte_order_mark_is_no_part_of_the_first_point(self):
+        self.assertEqual(self.read("\ufeff0,0\n1,0\n.5,2\n").points[0], (0.0, 0.0))
+
     def test_mistakes_say_where(self):
         for content, said in (("0,0\n1,x\n", "outline.csv:2: '1,x' is no point"), ("0,0\n1,0,3\n", "outline.csv:2"), ("0,0\n1,1\n", "3 points")):
             with self.subTest(content), self.assertRaises(UserMistake) as caught:
