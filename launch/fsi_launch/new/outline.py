@@ -1,5 +1,6 @@
 """The outline of the body in a new case: a circle, or points from a file."""
 
+import math
 import re
 from dataclasses import dataclass
 from pathlib import Path
@@ -50,8 +51,10 @@ def read(path, straight=False):
             continue
         try:
             x, y = _numbers(text)
+            if not (math.isfinite(x) and math.isfinite(y)):
+                raise ValueError
         except ValueError:
-            raise UserMistake(f"{path}:{number}: '{text[:30]}' is no point: write two numbers, x, y") from None
+            raise UserMistake(f"{path}:{number}: '{text[:30]}' is no point: write two finite numbers, x, y") from None
         points.append((x, y))
     if len(points) > 1 and points[0] == points[-1]:
         points.pop()

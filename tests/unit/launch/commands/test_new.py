@@ -44,7 +44,7 @@ class Outlines(InScratch):
         self.assertEqual(self.read("\ufeff0,0\n1,0\n.5,2\n").points[0], (0.0, 0.0))
 
     def test_mistakes_say_where(self):
-        for content, said in (("0,0\n1,x\n", "outline.csv:2: '1,x' is no point"), ("0,0\n1,0,3\n", "outline.csv:2"), ("0,0\n1,1\n", "3 points")):
+        for content, said in (("0,0\n1,nan\n", "outline.csv:2: '1,nan' is no point"), ("0,0\n1,x\n", "outline.csv:2: '1,x' is no point"), ("0,0\n1,0,3\n", "outline.csv:2"), ("0,0\n1,1\n", "3 points")):
             with self.subTest(content), self.assertRaises(UserMistake) as caught:
                 self.read(content)
             self.assertIn(said, str(caught.exception))
@@ -108,6 +108,22 @@ class Sizes(unittest.TestCase):
                       {"fixed": True}, {"straight": True}, {"on_wall": True}, {"end": float("nan")}):
             with self.subTest(given), self.assertRaises(UserMistake):
                 problem(**given)
+
+
+    def test_numbers_that_are_not_finite_are_refused_by_the_name_of_their_option(self):
+        for option in ("size", "mach", "density", "pressure", "gamma", "end"):
+            for value in (float("nan"), float("inf"), -float("inf")):
+                with self.subTest(option, value=value), self.assertRaisesRegex(UserMistake, f"--{option} .*no finite number; write"):
+                    problem(**{option: value})
+        for material in ("inf,1e6,0.3", "1000,inf,0.3"):
+            with self.assertRaisesRegex(UserMistake, "must be finite"):
+                problem(material=material)
+
+    def test_a_size_for_which_no_resolution_can_be_written_is_refused_with_one_that_can(self):
+        for size in (1e-30, 1e300):
+            with self.assertRaisesRegex(UserMistake, "write a --size of 0.0002 to 2e"):
+                problem(size=size)
+        self.assertGreaterEqual(problem(size=0.0002).spacing(), 0.99e-5)
 
 
 class Text(unittest.TestCase):
