@@ -316,10 +316,17 @@ def run(request):
         raise Failure(OUTPUT_FAILED, f"cannot write {directory / 'summary.json'}: {error.strerror}; the run itself {status} at "
                                      f"t = {result['t']:g}{f': {reason}' if reason else ''}") from None
     _report(result, directory, missed, request.quiet, case.digest if code != USER_MISTAKE else None)
-    if code == NUMBERS_BROKE and case.projection == "traditional":
-        print("fsi: the traditional scheme breaks where the solid is light (docs/theory_coupler.md); "
-              "--set interface.projection=simplified does not", file=sys.stderr)
+    if advice := advice_after(code, case.projection):
+        print(f"fsi: {advice}", file=sys.stderr)
     return Result(EXPECTATION_MISSED if code == DONE and missed else code, directory, result)
+
+
+def advice_after(code, projection):
+    """What else to try after a run with this projection that ended with this code; "" for nothing."""
+    if code == NUMBERS_BROKE and projection == "traditional":   # the simplified one has limits of its own: no promise
+        return ("the traditional scheme breaks where the solid is light (docs/theory_coupler.md); --set interface.projection=simplified "
+                "may not")
+    return ""
 
 
 def _report(result, directory, missed, quiet, restarts):

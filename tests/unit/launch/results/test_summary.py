@@ -8,6 +8,8 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from launcher import InScratch  # noqa: E402
+from fsi_launch import run  # noqa: E402
+from fsi_launch.failure import NUMBERS_BROKE  # noqa: E402
 from fsi_launch.results import probes, summary, verdict  # noqa: E402
 from fsi_launch.case import Case  # noqa: E402
 from fsi_launch.living.supervise import Ending, Outcome  # noqa: E402
@@ -16,6 +18,13 @@ from fsi_launch.living.supervise import Ending, Outcome  # noqa: E402
 def piston():
     programs = {"fluid": "fluid_solver", "solid": "solid_solver_linear_elastic", "coupler": "coupler"}
     return Case(name="piston", text="", programs=programs, reference="none", expect=[])
+
+
+class Advice(unittest.TestCase):
+    def test_another_projection_is_advised_and_not_promised_after_the_traditional_one_broke(self):
+        self.assertRegex(run.advice_after(NUMBERS_BROKE, "traditional"), "projection=simplified may not$")
+        for code, projection in ((NUMBERS_BROKE, "simplified"), (0, "traditional")):
+            self.assertEqual(run.advice_after(code, projection), "")
 
 
 class Summary(InScratch):
