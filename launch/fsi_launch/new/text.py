@@ -40,7 +40,7 @@ time: {{end: {end:g}, multirate: true}}    # [s]; multirate: a stiff solid takes
 fluid:
   gamma: gamma
   p_e: p_0                # pressure at which the body is free of stress
-  grid: {{name: background, x: [{x_low:.6g}, {x_high:.6g}], y: [{y_low:.6g}, {y_high:.6g}], spacing: h}}
+  grid: {{name: background, x: [{x_low:.6g}, {x_high:.6g}], y: [{y_low:.6g}, {y_high:.6g}]}}    # points h apart, closer where the body's outline asks for it
 """
 
 SHOCK_SIDES = """  boundary:

@@ -50,6 +50,10 @@ class New(InFolder):
         points = np.loadtxt(self.folder / "own_outline.csv", delimiter=",")
         self.assertAlmostEqual(np.ptp(points, axis=0).max(), 0.1)
 
+    def test_spacing_of_the_gas_is_chosen_where_h_is_too_wide_for_the_outline(self):
+        (self.folder / "step.csv").write_text("0,0\n1,0\n1,0.4\n0.4,0.4\n0.4,0.8\n0,0.8\n")
+        self.fsi("new", "step", "--outline", "step.csv", "--straight", "--size", "0.1", "--material", "rubber", "--defaults")
+
     def test_straight_edges_fixed_in_a_stream(self):
         self.begin("--outline", "corners.csv", "--straight", "--flow", "stream", "--mach", "2", "--law", "rigid", "--fixed")
 
