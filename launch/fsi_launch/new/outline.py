@@ -93,6 +93,23 @@ def from_its_foot(outline):
     raise UserMistake("--on-wall: the outline has no level edge at its lowest point on which it could stand")
 
 
+def _edges(outline):
+    """(dx, dy) from each point to the next."""
+    points = outline.points
+    return [(b[0] - a[0], b[1] - a[1]) for a, b in zip(points, points[1:] + points[:1])]
+
+
+def turns(outline):
+    """Angle by which the lines from point to point turn at each point, 0 to pi."""
+    edges = _edges(outline)
+    return [abs(math.atan2(a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1])) for a, b in zip(edges[-1:] + edges, edges)]
+
+
 def shortest_edge(outline):
-    following = outline.points[1:] + outline.points[:1]
-    return min(((a[0] - b[0]) ** 2 + (a[1] - b[1]) ** 2) ** 0.5 for a, b in zip(outline.points, following))
+    return min(math.hypot(*edge) for edge in _edges(outline))
+
+
+def largest_radius(outline):
+    """Of arcs at the corners that just fit: an arc takes radius * tan(turn / 2) of the edges on both of its sides."""
+    taken = [math.tan(0.5 * turn) for turn in turns(outline)]
+    return min((math.hypot(*edge) / (a + b) for edge, a, b in zip(_edges(outline), taken, taken[1:] + taken[:1]) if a + b > 0), default=0.0)

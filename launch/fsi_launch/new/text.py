@@ -1,5 +1,6 @@
 """The text of a new case: commented, with nothing in it that the programs choose well by themselves."""
 
+from fsi_launch.new.outline import is_block, largest_radius, shortest_edge
 from fsi_launch.new.problem import OUTPUTS
 from fsi_launch.new.questions import LAWS
 
@@ -80,6 +81,21 @@ expect:
 """
 
 
+ROUNDED, OF_AN_EDGE = 2.0, 0.25     # radius of corners, in h and in parts of the shortest edge
+FITS, OF_ACUTE = 0.9, 0.5   # parts of the largest radius for which arcs have room: where that one is larger, this one
+TOO_SMALL = 0.5     # radius that is not worth its grids, in h
+
+
+def _radius(problem):
+    """Of the rounded corners; 0: sharp."""
+    rigid, h, largest = problem.law == "rigid", problem.spacing(), largest_radius(problem.outline)
+    if problem.on_wall and not rigid and is_block(problem.outline):
+        return 0
+    usual = min(ROUNDED * h, OF_AN_EDGE * shortest_edge(problem.outline))
+    radius = usual if usual <= FITS * largest else OF_ACUTE * largest
+    return 0 if rigid and radius < TOO_SMALL * h else radius
+
+
 def _shape(problem, path):
     """The entry of the outline; `path`: of its file from where the case is."""
     outline = problem.outline
@@ -87,10 +103,8 @@ def _shape(problem, path):
         return f" {{kind: circle, radius: {outline.radius:g}}}"
     if not problem.straight:
         return f" {{kind: spline, file: {path}}}    # a smooth curve through the points"
-    from fsi_launch.new.outline import is_block, shortest_edge
     corners = ", ".join(f"[{x:.9g}, {y:.9g}]" for x, y in outline.points)
-    sharp = problem.on_wall and problem.law != "rigid" and is_block(outline)
-    radius = 0 if sharp else min(2 * problem.spacing(), 0.25 * shortest_edge(outline))
+    radius = _radius(problem)
     meaning = "of the rounded corners [m]" if radius else "sharp corners"
     walls = "\n      walls: [bottom, bottom]    # on which its first and its last corner stand" if problem.on_wall else ""
     return f"\n      kind: polygon\n      corners: [{corners}]\n      radius: {radius:.3g}       # {meaning}{walls}"

@@ -54,6 +54,12 @@ class New(InFolder):
         (self.folder / "step.csv").write_text("0,0\n1,0\n1,0.4\n0.4,0.4\n0.4,0.8\n0,0.8\n")
         self.fsi("new", "step", "--outline", "step.csv", "--straight", "--size", "0.1", "--material", "rubber", "--defaults")
 
+    def test_acute_corners_are_rounded_by_arcs_that_fit_or_left_sharp(self):
+        for name, points in (("dart", "0,0\n1,.4\n.35,0\n1,-.4\n"), ("wedge", "0,0\n1,.05\n0,.1\n"), ("needle", "0,0\n1,.04\n0,.08\n")):
+            (self.folder / f"{name}.csv").write_text(points)
+            for law in ("neo_hookean", "rigid"):
+                self.fsi("new", name, "--outline", f"{name}.csv", "--straight", "--size", "0.1", "--law", law, "--defaults", "--overwrite")
+
     def test_straight_edges_fixed_in_a_stream(self):
         self.begin("--outline", "corners.csv", "--straight", "--flow", "stream", "--mach", "2", "--law", "rigid", "--fixed")
 

@@ -140,6 +140,34 @@ class Text(unittest.TestCase):
         self.assertEqual((shape["kind"], [tuple(corner) for corner in shape["corners"]]), ("polygon", list(points)))
 
 
+class Corners(unittest.TestCase):
+    """What is written of outlines with acute corners."""
+
+    SQUARE, WEDGE = ((0, 0), (1, 0), (1, 1), (0, 1)), ((0, 0), (1, 0.01), (0, 0.02))
+    DART = ((0, 0), (1, 0.4), (0.35, 0), (1, -0.4))
+
+    def shape(self, points, **given):
+        one = Problem("case", outline.Outline(Path("o.csv"), points), materials.TABLE["steel"], **given)
+        return one, yaml.safe_load(text.write(one, "case.yaml", "o.csv"))["solids"]["body"]["shape"]
+
+    def test_the_largest_arcs_that_fit_touch_each_other(self):
+        self.assertAlmostEqual(outline.largest_radius(outline.Outline(points=self.SQUARE)), 0.5)
+        self.assertAlmostEqual(outline.largest_radius(outline.Outline(points=((0, 0), (1, 0), (0.5, math.sqrt(0.75))))), 0.5 / math.sqrt(3))   # that of the circle within
+        self.assertEqual(outline.largest_radius(outline.Outline(points=self.SQUARE)), outline.largest_radius(outline.Outline(points=self.SQUARE[::-1])))
+
+    def test_arcs_written_fit_at_acute_corners_too(self):
+        for points in (self.SQUARE, self.WEDGE, self.DART):
+            for law in ("neo_hookean", "rigid"):
+                with self.subTest(points, law=law):
+                    one, shape = self.shape(points, straight=True, law=law)
+                    self.assertLess(shape["radius"], outline.largest_radius(one.outline))
+
+    def test_corners_of_a_rigid_body_stay_sharp_where_no_arc_of_some_size_fits(self):
+        self.assertEqual(self.shape(self.WEDGE, straight=True, law="rigid")[1]["radius"], 0)
+        self.assertGreater(self.shape(self.WEDGE, straight=True)[1]["radius"], 0)
+        self.assertGreater(self.shape(self.SQUARE, straight=True, law="rigid")[1]["radius"], 0)
+
+
 class OnAWall(InScratch):
     def shape_of(self, content, **given):
         (self.folder / "o.csv").write_text(content)
