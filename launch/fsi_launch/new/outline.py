@@ -9,6 +9,7 @@ from fsi_launch.failure import UserMistake
 
 FEWEST = 4              # points of a smooth curve
 FEWEST_CORNERS = 3      # of straight edges
+SHARP = 100             # [degree] turns beyond those of a square are meant as corners
 
 
 @dataclass(frozen=True)
@@ -99,10 +100,23 @@ def _edges(outline):
     return [(b[0] - a[0], b[1] - a[1]) for a, b in zip(points, points[1:] + points[:1])]
 
 
-def turns(outline):
-    """Angle by which the lines from point to point turn at each point, 0 to pi."""
+def _signed_turns(outline):
+    """Angle by which the lines from point to point turn at each point, -pi to pi; counter-clockwise ones are positive."""
     edges = _edges(outline)
-    return [abs(math.atan2(a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1])) for a, b in zip(edges[-1:] + edges, edges)]
+    return [math.atan2(a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1]) for a, b in zip(edges[-1:] + edges, edges)]
+
+
+def turns(outline):
+    """The same without their signs."""
+    return [abs(turn) for turn in _signed_turns(outline)]
+
+
+def sharp_turns(outline):
+    """(are there points at which the lines turn by more than SHARP, is one of these hollow)"""
+    found = _signed_turns(outline)
+    around = math.copysign(1.0, sum(found))
+    sharp = [turn * around for turn in found if abs(turn) > math.radians(SHARP)]
+    return bool(sharp), any(turn < 0 for turn in sharp)
 
 
 def shortest_edge(outline):

@@ -1,6 +1,6 @@
 """The text of a new case: commented, with nothing in it that the programs choose well by themselves."""
 
-from fsi_launch.new.outline import is_block, largest_radius, shortest_edge
+from fsi_launch.new.outline import SHARP, is_block, largest_radius, sharp_turns, shortest_edge
 from fsi_launch.new.problem import OUTPUTS
 from fsi_launch.new.questions import LAWS
 
@@ -96,13 +96,25 @@ def _radius(problem):
     return 0 if rigid and radius < TOO_SMALL * h else radius
 
 
+def _spline(problem, path):
+    """The entry of a curve through points. Around a rigid body grids go on behind sharp corners: such a body gets them. A hollow corner
+    folds them, and an elastic body can have none but those of a block: these stay smooth."""
+    sharp, hollow = sharp_turns(problem.outline)
+    if not sharp:
+        return f" {{kind: spline, file: {path}}}    # a smooth curve through the points"
+    if problem.law == "rigid" and not hollow:
+        return (f"\n      kind: spline\n      file: {path}    # a smooth curve through the points (edges between them: fsi new --straight)"
+                f"\n      corner_angle: {SHARP}    # with corners where it turns by more [degree]; leave it out for an elastic body")
+    return f" {{kind: spline, file: {path}}}    # a smooth curve through the points (edges between them: fsi new --straight)"
+
+
 def _shape(problem, path):
     """The entry of the outline; `path`: of its file from where the case is."""
     outline = problem.outline
     if not outline.points:
         return f" {{kind: circle, radius: {outline.radius:g}}}"
     if not problem.straight:
-        return f" {{kind: spline, file: {path}}}    # a smooth curve through the points"
+        return _spline(problem, path)
     corners = ", ".join(f"[{x:.9g}, {y:.9g}]" for x, y in outline.points)
     radius = _radius(problem)
     meaning = "of the rounded corners [m]" if radius else "sharp corners"

@@ -60,6 +60,12 @@ class New(InFolder):
             for law in ("neo_hookean", "rigid"):
                 self.fsi("new", name, "--outline", f"{name}.csv", "--straight", "--size", "0.1", "--law", law, "--defaults", "--overwrite")
 
+    def test_a_rigid_fin_with_a_sharp_tail(self):
+        points = [(0.5 + 0.5 * np.cos(a), 0.1 * np.sin(a) * (1 - np.cos(a)) / 2) for a in np.arange(24) * np.pi / 12]
+        np.savetxt(self.folder / "fin.csv", points, delimiter=",")
+        said = self.fsi("new", "fin", "--outline", "fin.csv", "--size", "0.1", "--law", "rigid", "--defaults").stdout
+        self.assertIn("--straight", said)
+
     def test_straight_edges_fixed_in_a_stream(self):
         self.begin("--outline", "corners.csv", "--straight", "--flow", "stream", "--mach", "2", "--law", "rigid", "--fixed")
 

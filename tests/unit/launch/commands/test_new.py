@@ -168,6 +168,20 @@ class Corners(unittest.TestCase):
         self.assertGreater(self.shape(self.SQUARE, straight=True, law="rigid")[1]["radius"], 0)
 
 
+    def test_a_smooth_outline_of_a_rigid_body_has_corners_where_it_turns_sharply(self):
+        fin = ((1, 0), (0.8, 0.06), (0.4, 0.1), (0.1, 0.08), (0, 0.03), (0, -0.03), (0.1, -0.08), (0.4, -0.1), (0.8, -0.06))
+        for points in (fin, fin[::-1]):
+            self.assertEqual(self.shape(points, law="rigid")[1]["corner_angle"], outline.SHARP)
+            self.assertNotIn("corner_angle", self.shape(points)[1])
+        self.assertNotIn("corner_angle", self.shape(self.SQUARE, law="rigid")[1])
+        self.assertNotIn("corner_angle", self.shape(self.DART, law="rigid")[1])     # one of its corners is hollow
+
+    def test_points_that_turn_sharply_are_told_how_to_become_corners(self):
+        for points, told in ((self.DART, True), (self.SQUARE, False)):
+            one, _ = self.shape(points)
+            self.assertEqual("--straight" in text.write(one, "case.yaml", "o.csv"), told)
+
+
 class OnAWall(InScratch):
     def shape_of(self, content, **given):
         (self.folder / "o.csv").write_text(content)
