@@ -87,13 +87,13 @@ TOO_SMALL = 0.5     # radius that is not worth its grids, in h
 
 
 def _radius(problem):
-    """Of the rounded corners; 0: sharp."""
-    rigid, h, largest = problem.law == "rigid", problem.spacing(), largest_radius(problem.outline)
+    """Of the rounded corners; 0: sharp, which takes a point of the grid at each of them."""
+    rigid, h, largest, shortest = problem.law == "rigid", problem.spacing(), largest_radius(problem.outline), shortest_edge(problem.outline)
     if problem.on_wall and not rigid and is_block(problem.outline):
         return 0
-    usual = min(ROUNDED * h, OF_AN_EDGE * shortest_edge(problem.outline))
+    usual = min(ROUNDED * h, OF_AN_EDGE * shortest)
     radius = usual if usual <= FITS * largest else OF_ACUTE * largest
-    return 0 if rigid and radius < TOO_SMALL * h else radius
+    return 0 if rigid and radius < TOO_SMALL * h and shortest >= h else radius
 
 
 def _spline(problem, path):
