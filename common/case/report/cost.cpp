@@ -232,9 +232,12 @@ std::string cost_text(const RunCost& cost) {
   }
   const bool levels =
       std::ranges::any_of(cost.programs, [](const StepCost& program) { return program.levels > 1; });
+  constexpr double countable = 1e9;  // no run takes more: the digits of such a number say nothing
+  const std::string steps =
+      cost.steps < countable ? fmt::format("{:.0f}", cost.steps) : fmt::format("{:.2g}", cost.steps);
   return text + warning +
-         fmt::format("  about {:.0f} steps of {:.2g}; about {} with a core for each program{}", cost.steps,
-                     cost.dt, time_text(cost.seconds), levels ? ", less by what the levels save" : "");
+         fmt::format("  about {} steps of {:.2g}; about {} with a core for each program{}", steps, cost.dt,
+                     time_text(cost.seconds), levels ? ", less by what the levels save" : "");
 }
 
 }  // namespace fsi

@@ -425,6 +425,12 @@ TEST(CostOfARun, CountsTheSubstepsOfAStiffSolid) {
   EXPECT_NE(cost_text(own).find("substeps"), std::string::npos);
 }
 
+TEST(CostOfARun, OfAnEndFarAwayIsToldInFewDigits) {
+  const std::string text = cost_text(cost_of(load_text(bodies_case({circle}), {"time.end=1e300"})));
+  EXPECT_EQ(text.find("00000"), std::string::npos) << text;
+  EXPECT_NE(text.find("e+30"), std::string::npos) << text;
+}
+
 TEST(CostOfARun, SaysWhereAFewSmallCellsSetTheStep) {
   // Points clustered at one place of the outline.
   const std::string drawn =

@@ -143,7 +143,7 @@ class Text(unittest.TestCase):
 class Corners(unittest.TestCase):
     """What is written of outlines with acute corners."""
 
-    SQUARE, WEDGE = ((0, 0), (1, 0), (1, 1), (0, 1)), ((0, 0), (1, 0.01), (0, 0.02))
+    SQUARE, WEDGE = ((0, 0), (1, 0), (1, 1), (0, 1)), ((0, 0), (1, 0.03), (0, 0.06))
     DART = ((0, 0), (1, 0.4), (0.35, 0), (1, -0.4))
 
     def shape(self, points, **given):
