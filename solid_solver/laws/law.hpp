@@ -38,8 +38,8 @@ struct OwnNumber {
 struct BrokenBound {
   std::string_view key;  ///< of the number in a case file
   std::string_view what;
-  std::optional<double> bound;  ///< [that of the number]
-  std::string_view why;
+  std::optional<double> bound = {};  ///< [that of the number]
+  std::string_view why = {};
 };
 
 /// A law whose numbers have bounds: checked where a case is read.
