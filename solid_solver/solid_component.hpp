@@ -91,8 +91,11 @@ class SolidComponent {
   SweepResult sweep(double dt, Look look);
   template <class Row, class Gradient>
   SweepResult sweep_with(double dt, Look look);
+  template <class Row, class Gradient, class Sweep>
+  SweepResult run_sweep(const Sweep& sweep, double dt);
   template <class Row, class Gradient>
-  void dissipate(double dt, RowRun run);
+  void dissipate(const DissipationBetas& betas, double dt, RowRun run);
+  void diffuse(double dt, RowRun run);
   void evaluate_force(double t);
   void evaluate_source(double t);
   void add_source(double weight);
@@ -143,7 +146,7 @@ SolidComponent<L>::SolidComponent(SolidPart part, int index, SolidPoints points,
           crossing_time(metrics_, grid_.layout(), law_.lambda + 2.0 * law_.mu, options_.rho)),
       q_(grid_.layout(), plane::count),
       next_(grid_.layout(), plane::count),
-      work_(Layout(grid_.layout().n1, sweep_work_rows), 1) {}
+      work_(sweep_work, 1) {}
 
 template <Law L>
 void SolidComponent<L>::assign(const StateFunction& state, double t) {
@@ -272,10 +275,28 @@ SweepResult SolidComponent<L>::sweep_with(double dt, Look look) {
       .look = look,
       .measures_spread = options_.relaxation.active() || options_.tangential_stress.active(),
       .rows = rows_.all ? grid::RowRange{0, layout().n2} : rows_.own};
-  const auto dissipation = [&](RowRun run) { dissipate<Row, Gradient>(dt, run); };
   if (options_.limiter == Limiter::minmod)
-    return GodunovSweep<L, Row, Limiter::minmod>(data, metrics_, law_).run(dissipation);
-  return GodunovSweep<L, Row, Limiter::none>(data, metrics_, law_).run(dissipation);
+    return run_sweep<Row, Gradient>(GodunovSweep<L, Row, Limiter::minmod>(data, metrics_, law_), dt);
+  return run_sweep<Row, Gradient>(GodunovSweep<L, Row, Limiter::none>(data, metrics_, law_), dt);
+}
+
+/// With dissipation and relaxation: what most solids have of them is one with the sweep, the rest acts on runs of points
+/// whose step was made, while their rows are in cache.
+template <Law L>
+template <class Row, class Gradient, class Sweep>
+SweepResult SolidComponent<L>::run_sweep(const Sweep& sweep, double dt) {
+  const DissipationBetas betas = {.P = options_.tangential_stress.at(dt),
+                                  .u = options_.displacement.at(dt),
+                                  .r = options_.relaxation.at(dt)};
+  if (betas.P == 0 || betas.u == 0 || betas.r == 0) {
+    return sweep.run([](int) { return NoTerms(); },
+                     [&](RowRun run) { dissipate<Row, Gradient>(betas, dt, run); });
+  }
+  const auto all = [&](int j) {
+    return AllDissipation(ConstFieldView(q_.view()), Row(metrics_, j), Gradient(grid_.x(), metrics_, j), law_,
+                          betas, j);
+  };
+  return sweep.run(all, [&](RowRun run) { diffuse(dt, run); });
 }
 
 template <Law L>
@@ -284,23 +305,21 @@ SweepResult SolidComponent<L>::sweep(double dt, Look look) {
                               : sweep_with<MappedRow, MappedGradient4>(dt, look);
 }
 
-/// Points whose step was made, while their rows are in cache.
 template <Law L>
 template <class Row, class Gradient>
-void SolidComponent<L>::dissipate(double dt, RowRun run) {
+void SolidComponent<L>::dissipate(const DissipationBetas& betas, double dt, RowRun run) {
   const ConstFieldView q = q_.view();
   const FieldView next = next_.view();
-  const double beta_P = options_.tangential_stress.at(dt), beta_u = options_.displacement.at(dt),
-               beta_r = options_.relaxation.at(dt), bulk = options_.bulk_diffusion * dt;
-  const Gradient gradient(grid_.x(), metrics_, run.j);
-  if (beta_P != 0 && beta_u != 0 && beta_r != 0) {
-    add_all_dissipation(q, next, Row(metrics_, run.j), gradient, law_, {beta_P, beta_u, beta_r}, run);
-  } else {
-    if (beta_P != 0) add_tangential_stress_dissipation<Row>(q, next, metrics_, beta_P, run);
-    if (beta_u != 0) add_displacement_dissipation(q, next, beta_u, run);
-    if (beta_r != 0) add_relaxation(q, next, gradient, law_, beta_r, run);
-  }
-  if (bulk != 0) add_bulk_diffusion(q, next, bulk, run);
+  if (betas.P != 0) add_tangential_stress_dissipation<Row>(q, next, metrics_, betas.P, run);
+  if (betas.u != 0) add_displacement_dissipation(q, next, betas.u, run);
+  if (betas.r != 0) add_relaxation(q, next, Gradient(grid_.x(), metrics_, run.j), law_, betas.r, run);
+  diffuse(dt, run);
+}
+
+template <Law L>
+void SolidComponent<L>::diffuse(double dt, RowRun run) {
+  const double bulk = options_.bulk_diffusion * dt;
+  if (bulk != 0) add_bulk_diffusion(q_.view(), next_.view(), bulk, run);
 }
 
 template <Law L>

@@ -1,5 +1,6 @@
 #include "solid_solver/solid_points.hpp"
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -21,7 +22,10 @@ void SolidPoints::find_neighbours(const Layout& layout) {
   const auto add = [&](int j, int reach) {
     for (const grid::Interval& run : row(j)) needed.push_back({run.begin - reach, run.end + reach});
   };
+  columns_ = {layout.n1, 0};
   for (int j = -1; j <= layout.n2; ++j) {
+    for (const grid::Interval& run : row(j))
+      columns_ = {std::min(columns_.begin, run.begin), std::max(columns_.end, run.end)};
     needed.clear();
     rest.clear();
     add(j - 1, 0);

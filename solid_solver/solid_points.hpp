@@ -25,6 +25,8 @@ class SolidPoints {
 
   std::span<const grid::Interval> discretised(int j) const { return discretised_.row(j); }
   const grid::RowSets& discretised() const { return discretised_; }
+  /// From the first to the last column that has one.
+  const grid::Interval& columns() const { return columns_; }
   std::span<const grid::Interval> valid(int j) const { return valid_.row(j); }
   const grid::RowSets& valid() const { return valid_; }
   /// Points beside discretised ones, -1 <= j <= n2: predicted, but not advanced.
@@ -40,6 +42,7 @@ class SolidPoints {
 
  private:
   grid::RowSets discretised_, valid_, beside_, predicted_, faces_;
+  grid::Interval columns_;
 
   void find_neighbours(const Layout& layout);
 };

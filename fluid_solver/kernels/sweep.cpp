@@ -278,7 +278,9 @@ double sweep(const SweepTask& task, const Scheme& scheme, const SweepOutput& out
   return std::visit(
       [&]<class Riemann, class Limiter>(const Riemann& solve, const Limiter&) {
         double thin = 0;
-        const int n1 = task.q.layout.n1, blocks = std::max(1, (n1 + block / 2) / block),
+        // Short runs use no more scratch memory anyway, and blocks would cut some of them.
+        const bool short_runs = task.runs.longest() <= block;
+        const int n1 = task.q.layout.n1, blocks = short_runs ? 1 : std::max(1, (n1 + block / 2) / block),
                   width = (n1 / blocks + 8) / 8 * 8;
         for (int first = 0; first < n1; first += width) {
           const Range columns{first, std::min(first + width, n1)};

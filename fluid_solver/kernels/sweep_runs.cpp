@@ -44,6 +44,8 @@ void SweepRuns::assign(std::span<const std::vector<Range>> rows, Range here) {
     add(r, 0);
     advanced_.append_row(row_);
   }
+  longest_ = 0;
+  for (const Range& run : predicted_.runs) longest_ = std::max(longest_, run.last - run.first);
 }
 
 }  // namespace fsi::fluid

@@ -26,6 +26,8 @@ class SweepRuns {
   void assign(std::span<const std::vector<Range>> rows) { assign(rows, {0, static_cast<int>(rows.size())}); }
 
   int rows() const { return static_cast<int>(advanced_.first.size()) - 1; }
+  /// Points of the longest run whose states are predicted, here or elsewhere.
+  int longest() const { return longest_; }
   /// The rows that are advanced here.
   Range here() const { return here_; }
   /// Points to advance here, 0 <= r < n2.
@@ -54,6 +56,7 @@ class SweepRuns {
   };
   Table advanced_, predicted_, between_;
   Range here_{0, 0};
+  int longest_ = 0;
   std::vector<Range> row_;  ///< work memory
 
   /// A row of a table that has `more` rows than are advanced.

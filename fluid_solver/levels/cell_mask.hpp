@@ -48,8 +48,11 @@ class CellMask {
   void add(const CellMask& other);
   void add(const grid::RowSets& rows);
   void remove(const CellMask& other);
+  void intersect(const CellMask& other);
   /// All points within `reach` of the set in both directions.
   void grow(int reach);
+  /// Points of a row with members on both sides, no more than so many between two of them.
+  void fill_gaps(int most);
   /// Both ends of a period agree; on other sides a point next to the side takes the point on it along, so
   /// that no rim lies between them.
   void close_ends();
@@ -76,6 +79,9 @@ grid::RowSets refined(const grid::RowSets& coarse, int n1, int n2);
 
 /// The points of rows of n1 points that are not in a set.
 grid::RowSets gaps_of(const grid::RowSets& set, int n1);
+
+/// The points of a set that are not in another one with as many rows.
+grid::RowSets difference(const grid::RowSets& from, const grid::RowSets& without);
 
 /// Marks the points in whose control volumes the points of fine rows lie.
 void mark_coarse(const grid::RowSets& fine, CellMask& mask);

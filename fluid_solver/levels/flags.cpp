@@ -5,9 +5,25 @@
 
 namespace fsi::fluid {
 
+namespace {
+
+/// Asks early for the values of runs: short ones, one above the other, are far away in memory.
+void fetch(ConstFieldView q, int plane, const grid::RowSets& points, int j) {
+  constexpr int line = 8;  // points
+  if (j >= points.rows()) return;
+  const double* row = q.row(plane, j);
+  for (const grid::Interval& run : points.row(j)) {
+    for (int i = run.begin; i < run.end + line; i += line) __builtin_prefetch(row + i);
+  }
+}
+
+}  // namespace
+
 void widen(ValueRange& range, ConstFieldView q, int plane, const grid::RowSets& points, const RankRows& own) {
   for (int j = 0; j < points.rows(); ++j) {
     if (!own.owns(j)) continue;
+    constexpr int ahead = 8;  // rows
+    fetch(q, plane, points, j + ahead);
     const double* row = q.row(plane, j);
     for (const grid::Interval& run : points.row(j)) {
       double low = range.low, high = range.high;
@@ -25,22 +41,23 @@ void flag_bends(ConstFieldView q, const Bends& wanted, const CellMask& known, co
                 CellMask& flags) {
   const auto [plane, least] = wanted;
   const Layout& shape = q.layout;
-  const auto bends = [least = least](double before, double here, double after) {
-    return std::fabs(before - 2 * here + after) > least;
+  const auto bends = [least = least](double before, double here, double after) -> std::uint8_t {
+    return std::fabs(before - 2 * here + after) > least ? 1 : 0;
   };
+  const grid::RowSets runs = known.rows();
   for (int j = 0; j < shape.n2; ++j) {
     if (!own.owns(j)) continue;
-    const std::uint8_t* here = known.row(j);
-    const bool inner = j > 0 && j + 1 < shape.n2;
-    const std::uint8_t *below = inner ? known.row(j - 1) : here, *above = inner ? known.row(j + 1) : here;
     const double *value = q.row(plane, j), *lower = q.row(plane, j - 1), *upper = q.row(plane, j + 1);
     std::uint8_t* flag = flags.row(j);
-    for (int i = 0; i < shape.n1; ++i) {
-      if (here[i] == 0) continue;
-      const bool along = i > 0 && i + 1 < shape.n1 && here[i - 1] != 0 && here[i + 1] != 0 &&
-                         bends(value[i - 1], value[i], value[i + 1]);
-      const bool across = inner && below[i] != 0 && above[i] != 0 && bends(lower[i], value[i], upper[i]);
-      if (along || across) flag[i] = 1;
+    for (const auto& [begin, end] : runs.row(j)) {
+#pragma omp simd
+      for (int i = begin + 1; i < end - 1; ++i)
+        flag[i] = flag[i] | bends(value[i - 1], value[i], value[i + 1]);
+      if (j == 0 || j + 1 == shape.n2) continue;
+      const std::uint8_t *below = known.row(j - 1), *above = known.row(j + 1);
+#pragma omp simd
+      for (int i = begin; i < end; ++i)
+        flag[i] = flag[i] | (below[i] & above[i] & bends(lower[i], value[i], upper[i]));
     }
   }
 }

@@ -18,6 +18,14 @@ namespace {
 /// it and the coarser one's own stencil read.
 constexpr int nesting = 3;
 
+/// Around what only the finest level can have, in points of the next coarser one: interpolation between the grids reads no
+/// further, and averages are of points that are advanced.
+constexpr int around_bodies = 1;
+
+/// Points of a row between covered ones that are covered as well: two rims and one more run cost more time than the points
+/// of the finer level do.
+constexpr int narrow_gap = 4;
+
 Ends ends_of(const Component& background) {
   Ends ends{};
   for (const Side side : all_sides) ends[static_cast<std::size_t>(side)] = background.facts(side).beyond;
@@ -102,11 +110,9 @@ void GasLevels::install(const LevelScene& scene, std::vector<CellMask> covered) 
     const CellMask& here = covered[static_cast<std::size_t>(l) - 1];
     CellMask advanced = region(l, covered), valid = advanced;
     advanced.remove(here);
-    CellMask restricted = advanced, not_covered(shape(l)), prolonged = here;
+    CellMask restricted = advanced, prolonged = here;
     restricted.grow(1);
-    not_covered.set_all(true);
-    not_covered.remove(here);
-    restricted.remove(not_covered);
+    restricted.intersect(here);
     prolonged.grow(1);
     prolonged.remove(here);
     if (l + 1 < levels()) valid.add(refined(at(l + 1).prolonged, shape(l).n1, shape(l).n2));
@@ -170,29 +176,52 @@ void GasLevels::surround(const LevelScene& scene, const BoundaryTask& task) {
   }
 }
 
+/// Averages of whole states, or of no more than the refined quantity, at points of level l whose control volumes the finer
+/// level knows.
+void GasLevels::average_at(const LevelScene& scene, int l, const grid::RowSets& points, Averaged what) {
+  const std::span<const FieldView> fields = states(scene);
+  if (!scene.share.alone()) {
+    Delivery finer_values = averages_of(scene, l, points);
+    scene.share.bring(finer_values, fields);
+  }
+  const grid::RowSets here = averaged_here(scene, l, points);
+  const FieldView coarse = fields[component(l)], fine = fields[component(l - 1)];
+  if (what == Averaged::quantity && options_.quantity == RefinedQuantity::rho) {
+    restrict_density(here, coarse, fine, ends_);
+  } else {
+    restrict_to(here, coarse, fine, ends_, gamma_);
+  }
+  bring_halos(scene, l, {&points});
+}
+
 /// Averages at all wanted points whose control volumes the finer level knows.
 /// @returns the points of each level that are known then: advanced or averaged
-std::vector<CellMask> GasLevels::average_all(const LevelScene& scene, const std::vector<CellMask>& wanted) {
+std::vector<CellMask> GasLevels::average_all(const LevelScene& scene, const std::vector<CellMask>& wanted,
+                                             Averaged what) {
   std::vector<CellMask> known;
-  const std::span<const FieldView> fields = states(scene);
   grid::RowSets finer = scene.components[0].valid();
   for (int l = 1; l < levels(); ++l) {
     CellMask missing(shape(l)), points = wanted[static_cast<std::size_t>(l) - 1];
     mark_coarse(gaps_of(finer, shape(l - 1).n1), missing);
     points.remove(missing);
-    const grid::RowSets averaged = points.rows();
-    if (!scene.share.alone()) {
-      Delivery finer_values = averages_of(scene, l, averaged);
-      scene.share.bring(finer_values, fields);
-    }
-    restrict_to(averaged_here(scene, l, averaged), fields[component(l)], fields[component(l - 1)], ends_,
-                gamma_);
-    bring_halos(scene, l, {&averaged});
+    average_at(scene, l, points.rows(), what);
     points.add(owned(l));
     finer = points.rows();
     known.push_back(std::move(points));
   }
   return known;
+}
+
+/// Points that are no longer covered get the averages they keep, finer levels first.
+void GasLevels::average_uncovered(const LevelScene& scene, const std::vector<CellMask>& covered,
+                                  const std::vector<CellMask>& known) {
+  for (int l = 1; l < levels(); ++l) {
+    const auto k = static_cast<std::size_t>(l) - 1;
+    CellMask uncovered = at(l).covered;
+    uncovered.remove(covered[k]);
+    uncovered.intersect(known[k]);
+    average_at(scene, l, uncovered.rows(), Averaged::state);
+  }
 }
 
 /// A larger undivided second difference of the refined quantity asks for a finer level.
@@ -224,13 +253,14 @@ std::vector<CellMask> GasLevels::choose(const LevelScene& scene, const std::vect
       for (int k = 1; k < scene.composite->grids(); ++k)
         x.push_back(scene.components[static_cast<std::size_t>(k)].grid().x());
       flag_bodies(*scene.composite, x, near);
-      near.grow(nesting + options_.buffer);
+      near.grow(around_bodies + options_.buffer);
     } else if (l > 1) {
       CellMask finer = covered.back();
       finer.grow(nesting);
       mark_coarse(finer.rows(), near);
     }
     mask.add(near);
+    mask.fill_gaps(narrow_gap);
     mask.close_ends();
     covered.push_back(std::move(mask));
   }
@@ -243,50 +273,71 @@ void GasLevels::start(const LevelScene& scene) {
     all.emplace_back(shape(l)).set_all(true);
     owned_[static_cast<std::size_t>(l)] = CellMask(shape(l)).rows();
   }
-  const std::vector<CellMask> known = average_all(scene, all);
+  const std::vector<CellMask> known = average_all(scene, all, Averaged::state);
   install(scene, choose(scene, known));
   use_points(scene);
   for (int l = 0; l < levels(); ++l) scene.components[component(l)].forget_unused_points();
 }
 
+/// Some points of level l hand their state down.
+void GasLevels::hand_down(const LevelScene& scene, int l, const grid::RowSets& points, Copies copies) {
+  const std::span<const FieldView> fields = states(scene);
+  if (!scene.share.alone()) {
+    Delivery parents = parents_of(scene, l, points);
+    scene.share.bring(parents, fields);
+  }
+  const grid::RowSets here = prolonged_here(scene, l, points);
+  prolong_from(here, fields[component(l)], fields[component(l - 1)], gamma_);
+  if (copies == Copies::both)
+    prolong_from(here, fields[component(l)], scene.components[component(l - 1)].spare_state(), gamma_);
+}
+
 /// Points that become covered hand their state down, level by level.
 void GasLevels::fill_new(const LevelScene& scene, const std::vector<CellMask>& covered,
                          const BoundaryTask& task) {
-  const std::span<const FieldView> fields = states(scene);
   for (int l = levels() - 1; l > 0; --l) {
     CellMask fresh = covered[static_cast<std::size_t>(l) - 1];
     fresh.remove(at(l).covered);
-    const grid::RowSets all = fresh.rows(), here = prolonged_here(scene, l, all);
-    if (!scene.share.alone()) {
-      Delivery parents = parents_of(scene, l, all);
-      scene.share.bring(parents, fields);
-    }
-    Component& fine = scene.components[component(l - 1)];
-    prolong_from(here, fields[component(l)], fine.state(), gamma_);
-    prolong_from(here, fields[component(l)], fine.spare_state(), gamma_);
-    set_ghosts(fine, task);
+    hand_down(scene, l, fresh.rows(), Copies::both);
+    set_ghosts(scene.components[component(l - 1)], task);
   }
+}
+
+/// What a step leaves at rims, where they are new. Elsewhere it is there, but for round-off.
+void GasLevels::complete_rims(const LevelScene& scene, const std::vector<Rim>& before,
+                              const BoundaryTask& task) {
+  const auto old = [&](int l) -> const Rim& { return before[static_cast<std::size_t>(l) - 1]; };
+  for (int l = 1; l < levels(); ++l)
+    average_at(scene, l, difference(at(l).restricted, old(l).restricted), Averaged::state);
+  bring_halos(scene, 0, {&scene.components[0].discretised()});
+  for (int l = 1; l < levels(); ++l) bring_halos(scene, l, {&owned(l), &at(l).restricted});
+  for (int l = levels() - 1; l > 0; --l) {
+    set_ghosts(scene.components[component(l)], task);
+    hand_down(scene, l, difference(at(l).prolonged, old(l).prolonged), Copies::state);
+  }
+  set_ghosts(scene.components[0], task);
 }
 
 bool GasLevels::adapt(const LevelScene& scene, const BoundaryTask& task) {
   if (++since_ < options_.every) return false;
   since_ = 0;
   std::vector<CellMask> before;
-  for (const Level& level : coarse_) before.push_back(level.covered);
-  const std::vector<CellMask> known = average_all(scene, before);
+  std::vector<Rim> rims;
+  for (const Level& level : coarse_) {
+    before.push_back(level.covered);
+    rims.push_back({level.restricted, level.prolonged});
+  }
+  const std::vector<CellMask> known = average_all(scene, before, Averaged::quantity);
   std::vector<CellMask> covered = choose(scene, known);
   if (covered == before) return false;
+  average_uncovered(scene, covered, known);
   fill_new(scene, covered, task);
   install(scene, std::move(covered));
   use_points(scene);
-  average(scene);
-  bring_halos(scene, 0, {&scene.components[0].discretised()});
-  for (int l = 1; l < levels(); ++l) bring_halos(scene, l, {&owned(l), &at(l).restricted});
-  surround(scene, task);
-  set_ghosts(scene.components[0], task);
+  complete_rims(scene, rims, task);
   for (int l = 0; l < levels(); ++l) scene.components[component(l)].measure_rows();
-  constexpr int often_enough = 50;  // that features do not leave memory in use all along their way
-  if (++adaptations_ % often_enough == 0) {
+  constexpr int often_enough = 300;  // steps, that features do not leave memory in use all along their way
+  if (++adaptations_ % std::max(often_enough / options_.every, 1) == 0) {
     for (int l = 0; l < levels(); ++l) scene.components[component(l)].forget_unused_points();
   }
   return true;

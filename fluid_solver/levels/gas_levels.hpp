@@ -122,10 +122,22 @@ class GasLevels {
   int plane() const { return options_.quantity == RefinedQuantity::p ? 3 : 0; }
   bool closes_a_cell(int l, int i, int j) const;
   void install(const LevelScene& scene, std::vector<CellMask> covered);
-  std::vector<CellMask> average_all(const LevelScene& scene, const std::vector<CellMask>& wanted);
+  enum class Averaged { state, quantity };
+  void average_at(const LevelScene& scene, int l, const grid::RowSets& points, Averaged what);
+  std::vector<CellMask> average_all(const LevelScene& scene, const std::vector<CellMask>& wanted,
+                                    Averaged what);
+  void average_uncovered(const LevelScene& scene, const std::vector<CellMask>& covered,
+                         const std::vector<CellMask>& known);
   double least_bend(const LevelScene& scene) const;
   std::vector<CellMask> choose(const LevelScene& scene, const std::vector<CellMask>& known) const;
+  enum class Copies { state, both };
+  void hand_down(const LevelScene& scene, int l, const grid::RowSets& points, Copies copies);
   void fill_new(const LevelScene& scene, const std::vector<CellMask>& covered, const BoundaryTask& task);
+  /// Points with averages and those around the finer level, of a level.
+  struct Rim {
+    grid::RowSets restricted, prolonged;
+  };
+  void complete_rims(const LevelScene& scene, const std::vector<Rim>& before, const BoundaryTask& task);
 
   // Several ranks.
   grid::RowSets averaged_here(const LevelScene& scene, int l, const grid::RowSets& points) const;

@@ -1,6 +1,10 @@
 #include "fluid_solver/levels/level_faces.hpp"
 
 #include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <numeric>
+#include <span>
 
 namespace fsi::fluid {
 
@@ -25,19 +29,28 @@ FineFaces fine_faces(int i, int j, int direction, const LatticeShape& fine, cons
   return faces;
 }
 
-/// Faces, sorted by rows, as a list.
-void assign(FaceList& list, int rows, std::vector<PointIndex>& faces) {
-  std::ranges::sort(faces);
-  const auto doubles = std::ranges::unique(faces);
-  faces.erase(doubles.begin(), doubles.end());
+/// Faces as a list, each once. They come row by row in order, but for those at the ends of a period.
+void assign(FaceList& list, int rows, const std::vector<PointIndex>& faces) {
+  std::vector<std::vector<int>::size_type> end(static_cast<std::size_t>(rows) + 1, 0);  // of each row
+  for (const PointIndex& face : faces) ++end[static_cast<std::size_t>(face.j) + 1];
+  std::partial_sum(end.begin(), end.end(), end.begin());
+  std::vector<int> by_rows(faces.size());
+  for (const PointIndex& face : faces) by_rows[end[static_cast<std::size_t>(face.j)]++] = face.i;
   list.clear(rows);
-  std::vector<int> row;
-  auto next = faces.begin();
+  std::size_t begin = 0;
   for (int j = 0; j < rows; ++j) {
-    row.clear();
-    for (; next != faces.end() && next->j == j; ++next) row.push_back(next->i);
-    list.append_row(j, row);
+    const std::span<int> row(by_rows.data() + begin, end[static_cast<std::size_t>(j)] - begin);
+    begin += row.size();
+    if (!std::ranges::is_sorted(row)) std::ranges::sort(row);
+    const auto doubles = std::ranges::unique(row);
+    list.append_row(j, row.first(row.size() - doubles.size()));
   }
+}
+
+/// The first entry that is one, or the end.
+const std::uint8_t* next_member(const std::uint8_t* begin, const std::uint8_t* end) {
+  const void* found = std::memchr(begin, 1, static_cast<std::size_t>(end - begin));
+  return found == nullptr ? end : static_cast<const std::uint8_t*>(found);
 }
 
 /// Of a point beyond an end of a period, the same one within it.
@@ -58,17 +71,22 @@ std::vector<LevelFaces::CoarseFace> LevelFaces::rim(const CellMask& covered, int
     faces.push_back(
         {.i = i, .j = j, .real_i = along ? wrapped(i, n1) : i, .real_j = along ? j : wrapped(j - 1, n2) + 1});
   };
+  std::vector<std::uint8_t> differs(static_cast<std::size_t>(n1));
   for (int j = 0; j < (along ? n2 : n2 + 1); ++j) {
+    if (!along && (j == 0 || j == n2)) {
+      for (int i = 0; i < n1; ++i) beyond_an_end(i, j);
+      continue;
+    }
     if (along) beyond_an_end(-1, j);
-    const bool inside = along || (j > 0 && j < n2);
-    const std::uint8_t *before = inside ? covered.row(along ? j : j - 1) : nullptr,
-                       *after = along ? before + 1 : covered.row(inside ? j : 0);
-    for (int i = 0; i < (along ? n1 - 1 : n1); ++i) {
-      if (!inside) {
-        beyond_an_end(i, j);
-      } else if (before[i] != after[i]) {
-        faces.push_back({.i = i, .j = j, .real_i = i, .real_j = j});
-      }
+    const std::uint8_t *before = covered.row(along ? j : j - 1), *after = along ? before + 1 : covered.row(j);
+    const int n = along ? n1 - 1 : n1;
+    std::uint8_t* differ = differs.data();
+#pragma omp simd
+    for (int i = 0; i < n; ++i) differ[i] = before[i] ^ after[i];
+    const std::uint8_t* end = differ + n;
+    for (const std::uint8_t* at = next_member(differ, end); at != end; at = next_member(at + 1, end)) {
+      const int i = static_cast<int>(at - differ);
+      faces.push_back({.i = i, .j = j, .real_i = i, .real_j = j});
     }
     if (along) beyond_an_end(n1 - 1, j);
   }
@@ -85,13 +103,12 @@ std::vector<LevelFaces::Source> LevelFaces::link(const std::vector<CoarseFace>& 
   }
   assign(noted, fine.n2 + 1, all);
   std::vector<Source> sources;
+  sources.reserve(faces.size());
   for (const CoarseFace& face : faces) {
     const FineFaces parts = fine_faces(face.real_i, face.real_j, direction, fine, ends);
     Source source{.n = parts.members.n, .weight = parts.members.weight, .mirrored = parts.members.mirrored};
-    for (int k = 0; k < source.n; ++k) {
-      const auto found = std::ranges::lower_bound(all, parts.at[static_cast<std::size_t>(k)]);
-      source.from[static_cast<std::size_t>(k)] = static_cast<std::size_t>(found - all.begin());
-    }
+    for (std::size_t k = 0; k < static_cast<std::size_t>(source.n); ++k)
+      source.from[k] = noted.first_from(parts.at[k].i, parts.at[k].j);
     sources.push_back(source);
   }
   return sources;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "fluid_solver/kernels/limiter.hpp"
 #include "fluid_solver/kernels/rows.hpp"
 
 namespace fsi::fluid {
@@ -49,6 +50,9 @@ void fetch(ConstFieldView q, int j, grid::Interval run) {
   }
 }
 
+/// Rows between what is asked for early and what is worked on: at a rim there is little to do in each.
+constexpr int ahead = 4;
+
 /// For a row of coarse points their states, `around` rows and columns of them, and those of the fine points in their
 /// control volumes.
 template <bool coarse_written>
@@ -73,65 +77,134 @@ void each_point(const grid::RowSets& points, const Before& before, const Action&
   }
 }
 
-/// Nine fine values from 3 x 3 coarse ones, component by component.
-class Parabolas {
- public:
-  Parabolas(ConstFieldView coarse, int i, int j, double gamma) {
-    for (int b = -1; b <= 1; ++b) {
-      for (int a = -1; a <= 1; ++a) values_[place(a, b)] = conserved(load(coarse, {i + a, j + b}), gamma);
-    }
-    for (int k = 0; k < 4; ++k) fit(k);
-  }
-  /// Of the nine points or parts that of a, b = -1, 0, 1.
-  static std::size_t place(int a, int b) { return static_cast<std::size_t>(3 * (b + 1) + a + 1); }
-  /// Primitive state of the fine point a, b of the control volume.
-  StateVector at(int a, int b, double gamma) const {
-    return primitive(values_[place(0, 0)] + deviation_[place(a, b)], gamma);
-  }
-  /// Primitive state of the whole control volume.
-  StateVector mean(double gamma) const { return primitive(values_[place(0, 0)], gamma); }
+/// Of a 3 x 3 block of points, row by row; loops over all twelve are whole vectors. The last three repeat the middle.
+constexpr int parts = refinement_ratio * refinement_ratio, padded_parts = 12, middle_part = parts / 2;
+using Parts = std::array<double, padded_parts>;
+/// Of four variables.
+using PartStates = std::array<Parts, 4>;
 
- private:
-  std::array<StateVector, 9> values_, deviation_;
-
-  /// q0 + s1 x + s2 y + m x y + c1/2 (x^2 - 1/12) + c2/2 (y^2 - 1/12), averaged over the parts.
-  void fit(int k) {
-    const auto q = [&](int a, int b) { return values_[place(a, b)][k]; };
-    const double s1 = (q(1, 0) - q(-1, 0)) / 6, s2 = (q(0, 1) - q(0, -1)) / 6;
-    const double m = (q(1, 1) - q(-1, 1) - q(1, -1) + q(-1, -1)) / 36;
-    const double c1 = (q(1, 0) - 2 * q(0, 0) + q(-1, 0)) / 54, c2 = (q(0, 1) - 2 * q(0, 0) + q(0, -1)) / 54;
-    double low = 0, high = 0, least = q(0, 0), most = q(0, 0);
-    for (int b = -1; b <= 1; ++b) {
-      for (int a = -1; a <= 1; ++a) {
-        const double d = s1 * a + s2 * b + m * a * b + c1 * (3 * a * a - 2) + c2 * (3 * b * b - 2);
-        deviation_[place(a, b)][k] = d;
-        low = std::min(low, d), high = std::max(high, d);
-        least = std::min(least, q(a, b)), most = std::max(most, q(a, b));
-      }
+/// Position of each part from the middle, and what the polynomial's terms are there.
+struct PartTable {
+  Parts a{}, b{}, ab{}, aa{}, bb{};
+  constexpr PartTable() {
+    for (int k = 0; k < parts; ++k) {
+      const auto at = static_cast<std::size_t>(k);
+      a[at] = k % refinement_ratio - 1, b[at] = k / refinement_ratio - 1;
     }
-    const double up = high > most - q(0, 0) ? (most - q(0, 0)) / high : 1.0;
-    const double down = low < least - q(0, 0) ? (least - q(0, 0)) / low : 1.0;
-    for (StateVector& d : deviation_) d[k] *= std::min(up, down);
+    for (std::size_t k = 0; k < padded_parts; ++k)
+      ab[k] = a[k] * b[k], aa[k] = 3 * a[k] * a[k] - 2, bb[k] = 3 * b[k] * b[k] - 2;
   }
 };
+constexpr PartTable table;
+
+PartStates load_around(ConstFieldView q, int i, int j) {
+  PartStates states;
+  for (int plane = 0; plane < 4; ++plane) {
+    double* to = states[static_cast<std::size_t>(plane)].data();
+    for (int b = -1; b <= 1; ++b) {
+      const double* row = q.row(plane, j + b) + i;
+      for (int a = -1; a <= 1; ++a) *to++ = row[a];
+    }
+    std::fill_n(to, padded_parts - parts, q(plane, i, j));
+  }
+  return states;
+}
+
+void make_conserved(PartStates& q, double gamma) {
+  const double per_gamma = 1 / (gamma - 1);
+  for (std::size_t k = 0; k < padded_parts; ++k) {
+    const double v1 = q[1][k], v2 = q[2][k];
+    q[1][k] = q[0][k] * v1, q[2][k] = q[0][k] * v2;
+    q[3][k] = per_gamma * q[3][k] + 0.5 * (q[1][k] * v1 + q[2][k] * v2);
+  }
+}
+
+void make_primitive(PartStates& q, double gamma) {
+  for (std::size_t k = 0; k < padded_parts; ++k) {
+    const double specific = 1 / q[0][k], v1 = specific * q[1][k], v2 = specific * q[2][k];
+    q[3][k] = (gamma - 1) * (q[3][k] - 0.5 * (q[1][k] * v1 + q[2][k] * v2));
+    q[1][k] = v1, q[2][k] = v2;
+  }
+}
+
+/// Smallest and largest value.
+struct Bounds {
+  double low, high;
+};
+/// Four at a time: a loop over all with one result would wait for each before the next.
+Bounds bounds_of(const Parts& values) {
+  constexpr std::size_t four = 4;
+  std::array<double, four> low{}, high{};
+  for (std::size_t k = 0; k < four; ++k) {
+    low[k] = smaller(smaller(values[k], values[k + four]), values[k + 2 * four]);
+    high[k] = larger(larger(values[k], values[k + four]), values[k + 2 * four]);
+  }
+  return {smaller(smaller(low[0], low[1]), smaller(low[2], low[3])),
+          larger(larger(high[0], high[1]), larger(high[2], high[3]))};
+}
+
+/// The nine fine values of the middle one of 3 x 3 coarse ones:
+/// q0 + s1 x + s2 y + m x y + c1/2 (x^2 - 1/12) + c2/2 (y^2 - 1/12), averaged over the parts. Those that repeat the middle
+/// get what it gets.
+void become_parts(Parts& q) {
+  const double q0 = q[middle_part];
+  const double s1 = (q[5] - q[3]) / 6, s2 = (q[7] - q[1]) / 6, m = (q[8] - q[6] - q[2] + q[0]) / 36;
+  const double c1 = (q[5] - 2 * q0 + q[3]) / 54, c2 = (q[7] - 2 * q0 + q[1]) / 54;
+  Parts deviation;
+  for (std::size_t k = 0; k < padded_parts; ++k)
+    deviation[k] = s1 * table.a[k] + s2 * table.b[k] + m * table.ab[k] + c1 * table.aa[k] + c2 * table.bb[k];
+  const auto [low, high] = bounds_of(deviation);
+  const auto [least, most] = bounds_of(q);
+  const double up = high > most - q0 ? (most - q0) / high : 1.0;
+  const double down = low < least - q0 ? (least - q0) / low : 1.0;
+  const double part = std::min(up, down);
+  for (std::size_t k = 0; k < padded_parts; ++k) q[k] = q0 + part * deviation[k];
+}
+
+/// The state of the whole control volume in all parts.
+PartStates middle_of(ConstFieldView q, int i, int j) {
+  PartStates states;
+  for (int plane = 0; plane < 4; ++plane) states[static_cast<std::size_t>(plane)].fill(q(plane, i, j));
+  return states;
+}
+
+/// In the fine points of a control volume that there are.
+void store_parts(const PartStates& states, FieldView fine, int i, int j) {
+  const int middle = refinement_ratio * i;
+  const bool left = middle > 0, right = middle + 1 < fine.layout.n1;
+  for (int plane = 0; plane < 4; ++plane) {
+    const double* from = states[static_cast<std::size_t>(plane)].data();
+    for (int b = -1; b <= 1; ++b, from += refinement_ratio) {
+      const int row = refinement_ratio * j + b;
+      if (row < 0 || row >= fine.layout.n2) continue;
+      double* to = fine.row(plane, row) + middle;
+      if (left) to[-1] = from[0];
+      to[0] = from[1];
+      if (right) to[1] = from[2];
+    }
+  }
+}
 
 /// Coarse points of a run that are averaged together.
 constexpr int chunk = 64;
+constexpr double ninth = 1.0 / parts;
+constexpr int vector = 8;  // points; a row of a field can be read so far beyond its end
 constexpr auto columns_of_chunk = static_cast<std::size_t>(refinement_ratio * chunk);
 
 /// The conserved variables, mass, momentum (2) and energy, of some columns.
 using Columns = std::array<std::array<double, columns_of_chunk>, 4>;
 
-/// Sums over rows j - 1, j, j + 1.
+/// Sums over rows j - 1, j, j + 1; of whole vectors of columns, for those of a short run fill hardly one.
 void sum_rows(ConstFieldView fine, int j, grid::Interval columns, double gamma, Columns& sums) {
   const double per_gamma = 1 / (gamma - 1);
+  const int n = (columns.end - columns.begin + vector - 1) / vector * vector;
   const StateRow<const double> low = StateRow<const double>(fine, j - 1).shifted(columns.begin),
                                middle = StateRow<const double>(fine, j).shifted(columns.begin),
                                high = StateRow<const double>(fine, j + 1).shifted(columns.begin);
   double *mass = sums[0].data(), *momentum1 = sums[1].data(), *momentum2 = sums[2].data(),
          *energy = sums[3].data();
 #pragma omp simd
-  for (int a = 0; a < columns.end - columns.begin; ++a) {
+  for (int a = 0; a < n; ++a) {
     const double low1 = low.rho[a] * low.v1[a], low2 = low.rho[a] * low.v2[a];
     const double middle1 = middle.rho[a] * middle.v1[a], middle2 = middle.rho[a] * middle.v2[a];
     const double high1 = high.rho[a] * high.v1[a], high2 = high.rho[a] * high.v2[a];
@@ -146,7 +219,6 @@ void sum_rows(ConstFieldView fine, int j, grid::Interval columns, double gamma, 
 
 /// Averages of a run of points away from the sides.
 void average_run(ConstFieldView fine, FieldView coarse, int j, grid::Interval run, double gamma) {
-  constexpr double ninth = 1.0 / (refinement_ratio * refinement_ratio);
   Columns sums;
   sum_rows(fine, refinement_ratio * j, {refinement_ratio * run.begin - 1, refinement_ratio * run.end - 1},
            gamma, sums);
@@ -159,59 +231,103 @@ void average_run(ConstFieldView fine, FieldView coarse, int j, grid::Interval ru
   }
 }
 
+/// The same for the density alone.
+void average_density_run(ConstFieldView fine, FieldView coarse, int j, grid::Interval run) {
+  const int first = refinement_ratio * run.begin - 1,
+            n = (refinement_ratio * run.end - 1 - first + vector - 1) / vector * vector;
+  const double *low = fine.row(0, refinement_ratio * j - 1) + first,
+               *middle = fine.row(0, refinement_ratio * j) + first,
+               *high = fine.row(0, refinement_ratio * j + 1) + first;
+  std::array<double, columns_of_chunk> sums;
+#pragma omp simd
+  for (int a = 0; a < n; ++a) sums[static_cast<std::size_t>(a)] = low[a] + middle[a] + high[a];
+  double* mean = coarse.row(0, j) + run.begin;
+  const double* three = sums.data();
+  for (int i = 0; i < run.end - run.begin; ++i, three += refinement_ratio)
+    mean[i] = ninth * (three[0] + three[1] + three[2]);
+}
+
+/// The control volume of a coarse point on a side of the rectangle.
+struct SideVolume {
+  Members m1, m2;
+
+  /// The mean of value(i, j) of its fine points.
+  template <class Value>
+  auto mean(const Value& value) const {
+    using Sum = decltype(value(0, 0));
+    Sum sum = 0.0 * value(m1.at[0], m2.at[0]);
+    for (std::size_t b = 0; b < static_cast<std::size_t>(m2.n); ++b) {
+      Sum row = 0.0 * sum;
+      for (std::size_t a = 0; a < static_cast<std::size_t>(m1.n); ++a)
+        row += m1.weight[a] * value(m1.at[a], m2.at[b]);
+      sum += m2.weight[b] * row;
+    }
+    return sum;
+  }
+};
+
+/// Calls inside(j, run) for runs of points away from the sides, of which so many can be averaged together, and on_side(i, j,
+/// volume) for the others; `before`: to be done before each row.
+template <class Before, class Inside, class OnSide>
+void each_volume(const grid::RowSets& points, const Layout& shape, const Layout& fine, const Ends& ends,
+                 const Before& before, const Inside& inside, const OnSide& on_side) {
+  for (int j = 0; j < shape.n2; ++j) {
+    before(j);
+    const bool side = j == 0 || j + 1 == shape.n2;
+    const auto one = [&](int i) {
+      on_side(
+          i, j,
+          SideVolume{members_of(i, fine.n1, {ends[0], ends[1]}), members_of(j, fine.n2, {ends[2], ends[3]})});
+    };
+    for (const auto& [begin, end] : points.row(j)) {
+      for (int i = begin; side && i < end; ++i) one(i);
+      if (side) continue;
+      if (begin == 0) one(0);
+      const int last = std::min(end, shape.n1 - 1);
+      for (int i = std::max(begin, 1); i < last; i += chunk)
+        inside(j, grid::Interval{i, std::min(i + chunk, last)});
+      if (end == shape.n1) one(shape.n1 - 1);
+    }
+  }
+}
+
 }  // namespace
 
 void restrict_to(const grid::RowSets& points, FieldView coarse, ConstFieldView fine, const Ends& ends,
                  double gamma) {
-  const Layout& shape = coarse.layout;
-  for (int j = 1; j + 1 < shape.n2; ++j) {
-    fetch_row<true>(points, j + 1, 0, coarse, fine);
-    for (const grid::Interval& run : points.row(j)) {
-      const int end = std::min(run.end, shape.n1 - 1);
-      for (int i = std::max(run.begin, 1); i < end; i += chunk)
-        average_run(fine, coarse, j, {i, std::min(i + chunk, end)}, gamma);
-    }
-  }
-  const auto nothing = [](int) {};
-  each_point(points, nothing, [&](int i, int j) {
-    if (i > 0 && i + 1 < shape.n1 && j > 0 && j + 1 < shape.n2) return;
-    const Members m1 = members_of(i, fine.layout.n1, {ends[0], ends[1]});
-    const Members m2 = members_of(j, fine.layout.n2, {ends[2], ends[3]});
-    StateVector sum = StateVector::Zero();
-    for (std::size_t b = 0; b < static_cast<std::size_t>(m2.n); ++b) {
-      StateVector row = StateVector::Zero();
-      for (std::size_t a = 0; a < static_cast<std::size_t>(m1.n); ++a)
-        row += m1.weight[a] * conserved(load(fine, {m1.at[a], m2.at[b]}), gamma);
-      sum += m2.weight[b] * row;
-    }
-    if (m1.mirrored) sum[1] = 0;
-    if (m2.mirrored) sum[2] = 0;
-    store(coarse, {i, j}, primitive(sum, gamma));
-  });
+  each_volume(
+      points, coarse.layout, fine.layout, ends,
+      [&](int j) { fetch_row<true>(points, j + ahead, 0, coarse, fine); },
+      [&](int j, grid::Interval run) { average_run(fine, coarse, j, run, gamma); },
+      [&](int i, int j, const SideVolume& volume) {
+        StateVector mean = volume.mean([&](int a, int b) -> StateVector {
+          return conserved(load(fine, {a, b}), gamma);
+        });
+        if (volume.m1.mirrored) mean[1] = 0;
+        if (volume.m2.mirrored) mean[2] = 0;
+        store(coarse, {i, j}, primitive(mean, gamma));
+      });
+}
+
+void restrict_density(const grid::RowSets& points, FieldView coarse, ConstFieldView fine, const Ends& ends) {
+  each_volume(
+      points, coarse.layout, fine.layout, ends, [](int) {},
+      [&](int j, grid::Interval run) { average_density_run(fine, coarse, j, run); },
+      [&](int i, int j, const SideVolume& volume) {
+        coarse(0, i, j) = volume.mean([&](int a, int b) { return fine(0, a, b); });
+      });
 }
 
 void prolong_from(const grid::RowSets& points, ConstFieldView coarse, FieldView fine, double gamma) {
-  const Layout& shape = fine.layout;
-  std::array<StateVector, 9> states;
-  const auto ask = [&](int j) { fetch_row<false>(points, j + 1, 1, coarse, fine); };
+  const auto ask = [&](int j) { fetch_row<false>(points, j + ahead, 1, coarse, fine); };
   each_point(points, ask, [&](int i, int j) {
-    const Parabolas parts(coarse, i, j, gamma);
-    const auto each = [&](const auto& action) {
-      for (int b = -1; b <= 1; ++b) {
-        for (int a = -1; a <= 1; ++a) action(a, b, states[Parabolas::place(a, b)]);
-      }
-    };
-    bool positive = true;
-    each([&](int a, int b, StateVector& state) {
-      state = parts.at(a, b, gamma);
-      positive = positive && state[0] > 0 && state[3] > 0;
-    });
-    if (!positive) states.fill(parts.mean(gamma));
-    each([&](int a, int b, const StateVector& state) {
-      const int i_fine = refinement_ratio * i + a, j_fine = refinement_ratio * j + b;
-      if (i_fine >= 0 && i_fine < shape.n1 && j_fine >= 0 && j_fine < shape.n2)
-        store(fine, {i_fine, j_fine}, state);
-    });
+    PartStates states = load_around(coarse, i, j);
+    make_conserved(states, gamma);
+    for (Parts& variable : states) become_parts(variable);
+    make_primitive(states, gamma);
+    const bool positive = bounds_of(states[0]).low > 0 && bounds_of(states[3]).low > 0;
+    if (!positive) states = middle_of(coarse, i, j);
+    store_parts(states, fine, i, j);
   });
 }
 

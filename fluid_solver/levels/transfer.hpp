@@ -38,6 +38,9 @@ StateVector primitive(const StateVector& conserved, double gamma);
 void restrict_to(const grid::RowSets& points, FieldView coarse, ConstFieldView fine, const Ends& ends,
                  double gamma);
 
+/// The same for the density alone; what else a point has it keeps.
+void restrict_density(const grid::RowSets& points, FieldView coarse, ConstFieldView fine, const Ends& ends);
+
 /// Gives the fine points in the control volumes of coarse points values of quadratic polynomials with the
 /// averages of the coarse ones and central differences to their neighbours; deviations from the average are
 /// scaled down to stay within the range of the neighbours, and to nothing where a density or pressure would

@@ -185,7 +185,7 @@ def _supervise(case, directory, programs, progress, tick):
 
 
 def _watched(case, directory, programs, run, request, say):
-    """The Outcome of all programs, while a person sees how far they are."""
+    """(Outcome of all programs, {t, steps} they last said), while a person sees how far they are."""
     progress = Progress(request.progress and not request.quiet)
     with contextlib.ExitStack() as stack:
         monitor = stack.enter_context(Monitor(run, say)) if request.monitor else None
@@ -198,7 +198,7 @@ def _watched(case, directory, programs, run, request, say):
         if monitor and not outcome.signal:
             monitor.wait()
     progress.close()
-    return outcome
+    return outcome, progress.reached()
 
 
 def _applicable(case, request, say):
@@ -290,11 +290,12 @@ def run(request):
         entered = registry.Entry(identity, directory.resolve(), case.name, protection, case.programs, network)
         with interrupts.held(), entered as entry, interrupts.heard():
             programs = _programs(case, directory, entry, checkpoint, reports, request)
-            outcome = _watched(case, directory, programs, identity, request, say)
+            outcome, told = _watched(case, directory, programs, identity, request, say)
         parts = summary.read_parts(directory, case.programs, _copies(reports))
     found = verdict.judge(outcome, case, directory, parts)
     code, status, reason = found.code, found.status, found.reason
-    result = summary.merge(parts, case, status, reason, time.monotonic() - start)
+    begun_from = {"t": checkpoint.t, "steps": checkpoint.step} if checkpoint else None
+    result = summary.merge(parts, case, status, reason, time.monotonic() - start, summary.last_known(directory, told, begun_from))
     if found.failure:
         result["failure"] = found.failure
     if checkpoint:
@@ -315,10 +316,17 @@ def run(request):
         raise Failure(OUTPUT_FAILED, f"cannot write {directory / 'summary.json'}: {error.strerror}; the run itself {status} at "
                                      f"t = {result['t']:g}{f': {reason}' if reason else ''}") from None
     _report(result, directory, missed, request.quiet, case.digest if code != USER_MISTAKE else None)
-    if code == NUMBERS_BROKE and case.projection == "traditional":
-        print("fsi: the traditional scheme breaks where the solid is light (docs/theory_coupler.md); "
-              "--set interface.projection=simplified does not", file=sys.stderr)
+    if advice := advice_after(code, case.projection):
+        print(f"fsi: {advice}", file=sys.stderr)
     return Result(EXPECTATION_MISSED if code == DONE and missed else code, directory, result)
+
+
+def advice_after(code, projection):
+    """What else to try after a run with this projection that ended with this code; "" for nothing."""
+    if code == NUMBERS_BROKE and projection == "traditional":   # the simplified one has limits of its own: no promise
+        return ("the traditional scheme breaks where the solid is light (docs/theory_coupler.md); --set interface.projection=simplified "
+                "may not")
+    return ""
 
 
 def _report(result, directory, missed, quiet, restarts):

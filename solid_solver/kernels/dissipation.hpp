@@ -4,7 +4,7 @@
 /// points from the old state to the new one; a term whose coefficient is zero is not run at all. They are not
 /// inlined, so that the compiler has room to inline what their loops call and to vectorise them.
 
-#include "solid_solver/kernels/sweep_rows.hpp"
+#include "solid_solver/kernels/update_rows.hpp"
 #include "solid_solver/solid_points.hpp"
 
 namespace fsi::solid {
@@ -116,6 +116,16 @@ template <class Row>
           .a22 = t1.y * along1_2 + t2.y * along2_2};
 }
 
+/// The same on a Cartesian grid, whose lines have the axes as tangents. With the zero a product is rounded by
+/// itself, as sums of products are, wherever it goes.
+[[gnu::always_inline]] inline Tensor2 tangential_part(const CartesianRow& /*row*/, const WideStress& P, int i,
+                                                      double factor) {
+  return {.a11 = factor * P.P11.fourth(i).y + 0.0,
+          .a12 = factor * P.P12.fourth(i).y + 0.0,
+          .a21 = factor * P.P21.fourth(i).x + 0.0,
+          .a22 = factor * P.P22.fourth(i).x + 0.0};
+}
+
 /// Paper eq. (41) at a point: what P has beyond P(F), F from fourth-order differences, times beta^r.
 template <Law L>
 [[gnu::always_inline]] inline Tensor2 surplus(const L& law, const Tensor2& du, const Tensor2& P_now,
@@ -178,30 +188,55 @@ struct DissipationBetas {
   double P = 0, u = 0, r = 0;
 };
 
-/// A run of points of all three in one pass, which reads the stress and the displacement once.
+/// All three in one row of points, added to their step while the sweep makes it: stress and displacement are read once.
 template <class Row, class Gradient, Law L>
-[[gnu::noinline]] void add_all_dissipation(ConstFieldView q, FieldView next, const Row& row,
-                                           const Gradient& gradient, const L& law_at, DissipationBetas betas,
-                                           RowRun run) {
-  const L law = law_at;
-  const WideRow u1(q, plane::u1, run.j), u2(q, plane::u2, run.j);
-  const WideStress P(q, run.j);
-  const StressRow to(next, run.j);
-  double *next_u1 = next.row(plane::u1, run.j), *next_u2 = next.row(plane::u2, run.j);
-  const double factor_P = 0.5 * betas.P, factor_u = 0.5 * betas.u, beta_r = betas.r;
-#pragma omp simd
-  for (int i = run.begin; i < run.end; ++i) {
-    const Pair d1 = u1.fourth(i), d2 = u2.fourth(i);
-    next_u1[i] -= factor_u * (d1.x + d1.y);
-    next_u2[i] -= factor_u * (d2.x + d2.y);
-    const Tensor2 one = tangential_part(row, P, i, factor_P);
-    const Tensor2 two = surplus(law, gradient(i, u1.first(i), u2.first(i)), P.here(i), beta_r);
-    to.P11[i] = (to.P11[i] - one.a11) - two.a11;
-    to.P12[i] = (to.P12[i] - one.a12) - two.a12;
-    to.P21[i] = (to.P21[i] - one.a21) - two.a21;
-    to.P22[i] = (to.P22[i] - one.a22) - two.a22;
+class AllDissipation {
+ public:
+  AllDissipation(ConstFieldView q, const Row& row, const Gradient& gradient, const L& law,
+                 DissipationBetas betas, int j)
+      : row_(row),
+        gradient_(gradient),
+        law_(law),
+        u1_(q, plane::u1, j),
+        u2_(q, plane::u2, j),
+        P_(q, j),
+        factor_P_(0.5 * betas.P),
+        factor_u_(0.5 * betas.u),
+        beta_r_(betas.r) {}
+
+  /// At a point.
+  struct Parts {
+    double u1, u2;
+    Tensor2 tangential, surplus;
+
+    [[gnu::always_inline]] PointState to(PointState s) const {
+      return {.u1 = s.u1 - u1,
+              .u2 = s.u2 - u2,
+              .v1 = s.v1,
+              .v2 = s.v2,
+              .P11 = (s.P11 - tangential.a11) - surplus.a11,
+              .P12 = (s.P12 - tangential.a12) - surplus.a12,
+              .P21 = (s.P21 - tangential.a21) - surplus.a21,
+              .P22 = (s.P22 - tangential.a22) - surplus.a22};
+    }
+  };
+  /// The law comes first: it takes longest.
+  [[gnu::always_inline]] Parts at(int i) const {
+    const Tensor2 two = surplus(law_, gradient_(i, u1_.first(i), u2_.first(i)), P_.here(i), beta_r_);
+    const Tensor2 one = tangential_part(row_, P_, i, factor_P_);
+    const Pair d1 = u1_.fourth(i), d2 = u2_.fourth(i);
+    return {
+        .u1 = factor_u_ * (d1.x + d1.y), .u2 = factor_u_ * (d2.x + d2.y), .tangential = one, .surplus = two};
   }
-}
+
+ private:
+  Row row_;
+  Gradient gradient_;
+  L law_;
+  WideRow u1_, u2_;
+  WideStress P_;
+  double factor_P_, factor_u_, beta_r_;
+};
 
 /// A run of points of the bulk diffusion of v and P: factor
 /// times the sum of the undivided second differences.

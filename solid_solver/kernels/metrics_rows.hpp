@@ -48,9 +48,6 @@ class CartesianRow {
   }
   [[gnu::always_inline]] double inverse_area(int /*i*/) const { return i1_ * i2_; }
   [[gnu::always_inline]] double inverse_jacobian(int /*i*/) const { return i1_ * i2_; }
-  /// Unit tangents of the coordinate lines r1 = const and r2 = const.
-  [[gnu::always_inline]] Pair tangent1(int /*i*/) const { return {0.0, 1.0}; }
-  [[gnu::always_inline]] Pair tangent2(int /*i*/) const { return {1.0, 0.0}; }
 
  private:
   double h1_, h2_, i1_, i2_;
@@ -102,6 +99,7 @@ class MappedRow {
   }
   [[gnu::always_inline]] double inverse_area(int i) const { return inverse_area_[i]; }
   [[gnu::always_inline]] double inverse_jacobian(int i) const { return 1.0 / jacobian_[i]; }
+  /// Unit tangents of the coordinate lines r1 = const and r2 = const.
   [[gnu::always_inline]] Pair tangent1(int i) const { return unit(-r1y_[i], r1x_[i]); }
   [[gnu::always_inline]] Pair tangent2(int i) const { return unit(-r2y_[i], r2x_[i]); }
 

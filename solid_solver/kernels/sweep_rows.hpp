@@ -20,9 +20,9 @@ template <Limiter limiter>
   if constexpr (limiter == Limiter::none) {
     return 0.25 * (upper - lower);
   } else {
+    // The median of both differences and zero: the smaller one where they agree in sign, else zero.
     const double a = middle - lower, b = upper - middle;
-    const double size = 0.5 * std::min(std::abs(a), std::abs(b));
-    return a * b > 0.0 ? std::copysign(size, a) : 0.0;
+    return 0.5 * std::max(std::min(a, b), std::min(std::max(a, b), 0.0));
   }
 }
 

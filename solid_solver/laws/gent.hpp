@@ -4,6 +4,8 @@
 
 #include <array>
 #include <limits>
+#include <optional>
+#include <string_view>
 
 #include "solid_solver/laws/law.hpp"
 #include "solid_solver/laws/logarithm.hpp"
@@ -31,6 +33,16 @@ struct Gent {
 
   static constexpr std::array<OwnNumber<Gent>, 1> own_numbers{
       {{.key = "J_m", .meaning = "largest I1 - 3", .unit = "-", .member = &Gent::J_m, .typical = 8}}};
+
+  constexpr std::optional<BrokenBound> broken_bound() const {
+    if (J_m * lambda >= 2 * mu * (1 - round_off)) return {};
+    if (lambda == 0)
+      return {{.key = "J_m", .what = "needs a solid that resists a change of area: lambda (or nu) above 0"}};
+    return {{.key = "J_m",
+             .what = "must be at least 2 mu / lambda = ",
+             .bound = 2 * mu / lambda,
+             .why = ", or the energy has no lower bound"}};
+  }
 
   /// Energy per unit reference volume.
   double psi(const Tensor2& F) const {
@@ -79,6 +91,8 @@ struct Gent {
   }
 
  private:
+  static constexpr double round_off = 1e-12;
+
   /// What (ln J)^2 / 2 is multiplied with.
   [[gnu::always_inline]] double area_modulus() const { return lambda - 2.0 * (mu / J_m); }
 

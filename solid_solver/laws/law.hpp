@@ -4,6 +4,7 @@
 
 #include <concepts>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -30,6 +31,21 @@ struct OwnNumber {
   std::string_view unit;     ///< pressure, ..; "-" of a pure number
   double L::*member;
   double typical;  ///< for the tests that run over all laws [that of `unit`]
+};
+
+/// What a law says of numbers with which its energy has no lower bound, of the first one that is at fault: `what` and the
+/// bound on it, if there is one, and `why`.
+struct BrokenBound {
+  std::string_view key;  ///< of the number in a case file
+  std::string_view what;
+  std::optional<double> bound = {};  ///< [that of the number]
+  std::string_view why = {};
+};
+
+/// A law whose numbers have bounds: checked where a case is read.
+template <class L>
+concept HasBounds = requires(const L law) {
+  { law.broken_bound() } -> std::same_as<std::optional<BrokenBound>>;
 };
 
 /// A constitutive law: strain energy psi per unit reference volume, nominal stress P_ij = dpsi/dF_ji,

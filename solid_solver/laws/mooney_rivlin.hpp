@@ -3,6 +3,8 @@
 /// second invariant. Objective; the energy grows without bound as J goes to zero.
 
 #include <array>
+#include <optional>
+#include <string_view>
 
 #include "solid_solver/laws/law.hpp"
 #include "solid_solver/laws/logarithm.hpp"
@@ -35,6 +37,20 @@ struct MooneyRivlin {
                                                                         .member = &MooneyRivlin::c01,
                                                                         .typical = 0.3}}};
 
+  constexpr std::optional<BrokenBound> broken_bound() const {
+    if (c01 > 0.5 * mu * (1 + round_off))
+      return {{.key = "c01",
+               .what = "must be at most mu / 2 = ",
+               .bound = 0.5 * mu,
+               .why = ": mu / 2 is c10 + c01"}};
+    if (4 * c01 > lambda * (1 + round_off))
+      return {{.key = "c01",
+               .what = "must be at most lambda / 4 = ",
+               .bound = 0.25 * lambda,
+               .why = ", or the energy has no lower bound; lambda is bulk - 4/3 (c10 + c01)"}};
+    return {};
+  }
+
   /// Energy per unit reference volume.
   double psi(const Tensor2& F) const {
     const double J = determinant_of(F);
@@ -55,6 +71,8 @@ struct MooneyRivlin {
   }
 
  private:
+  static constexpr double round_off = 1e-12;
+
   /// J dU/dJ of U(J) = c01 (J^2 - 1 - 2 ln J) + (lambda - 4 c01) / 2 (ln J)^2 - mu ln J.
   [[gnu::always_inline]] double area_stress(double J) const {
     return 2.0 * c01 * (J * J - 1.0) + (lambda - 4.0 * c01) * logarithm(J) - mu;

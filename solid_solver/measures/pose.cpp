@@ -4,16 +4,6 @@
 
 namespace fsi::solid {
 
-void PoseSums::add(double dA, const Vec2& at, const Vec2& its_u, const Vec2& its_v) {
-  area += dA;
-  x += dA * at;
-  u += dA * its_u;
-  v += dA * its_v;
-  x_cross_u += dA * (at[0] * its_u[1] - at[1] * its_u[0]);
-  x_dot_u += dA * at.dot(its_u);
-  x_dot_x += dA * at.squaredNorm();
-}
-
 void PoseSums::add(const PoseSums& row) {
   area += row.area;
   x += row.x;

@@ -35,8 +35,9 @@ def let_pass(seconds):
     time.sleep(seconds)
 
 
-# A launcher that waits for programs to end by themselves instead of ending them after a while.
-PATIENT = "from fsi_launch.living import supervise\nsupervise.GRACE = supervise.AFTER_STOP = supervise.STOP_GRACE = 1e6\n"
+# A launcher that waits for programs to end by themselves instead of ending them after a while, or when it is asked again.
+PATIENT = ("from fsi_launch.living import supervise\n"
+           "supervise.GRACE = supervise.AFTER_STOP = supervise.STOP_GRACE = supervise.ASKED_AGAIN = 1e6\n")
 
 
 class Launched:

@@ -29,6 +29,10 @@ struct Spongy {
       {{.key = "soft", .meaning = "softness", .unit = "-", .member = &Spongy::soft, .typical = 0.1},
        {.key = "wide", .meaning = "width", .unit = "length", .member = &Spongy::wide, .typical = 0.2},
        {.key = "late", .meaning = "delay", .unit = "time", .member = &Spongy::late, .typical = 0.3}}};
+  constexpr std::optional<BrokenBound> broken_bound() const {
+    if (soft <= mu) return {};
+    return {{.key = "soft", .what = "must be at most mu = ", .bound = mu, .why = ": it would flow"}};
+  }
   double psi(const Tensor2& F) const {
     const double log_J = logarithm(determinant_of(F));
     return 0.5 * lambda * log_J * log_J - mu * log_J + 0.5 * mu * stretch_of(F);

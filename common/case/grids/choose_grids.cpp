@@ -197,6 +197,18 @@ std::vector<std::size_t> open_rings(const Node& list) {
   return open;
 }
 
+/// Of the curve of each grid of a gas.
+std::vector<RingMotion> motions_of(const Case& draft, const FluidSpec& gas) {
+  std::vector<RingMotion> motions;
+  for (const BodyFittedSpec& ring : gas.body_fitted) {
+    const auto solid = std::ranges::find(draft.solids, ring.solid, &SolidSpec::name);
+    motions.push_back(ring.solid.empty() || solid == draft.solids.end() || solid->fixed ? RingMotion::still
+                      : solid->law == rigid_law                                         ? RingMotion::carried
+                                                : RingMotion::deforming);
+  }
+  return motions;
+}
+
 /// @param index of the gas among those of the case
 void choose_for_gas(Node& root, std::size_t index, const Scope& scope, std::vector<std::string>& said) {
   const FluidSection<Node> fluid = fluid_sections(root)[index];
@@ -223,7 +235,7 @@ void choose_for_gas(Node& root, std::size_t index, const Scope& scope, std::vect
                       "grid's spacing is meant for? take grid.factor smaller",
                       ring.curve.points(), most));
   }
-  const GasGrids chosen = fit_rings(spec.grid, spec.body_fitted, open, finer);
+  const GasGrids chosen = fit_rings(spec.grid, spec.body_fitted, open, motions_of(draft, spec), finer);
   if (finer) {
     put(background, "spacing", number_node(chosen.background, background.place));
     said.push_back(fmt::format("{}.grid: spacing {:.3g}", fluid.path, chosen.background));

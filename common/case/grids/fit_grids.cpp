@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "common/case/grids/composite_from_case.hpp"
 #include "common/case/grids/no_grids_fit.hpp"
 #include "common/core/failure.hpp"
 #include "common/grid/geometry/outline.hpp"
+#include "common/grid/geometry/quality.hpp"
 
 namespace fsi {
 
@@ -262,36 +264,116 @@ BodyGrids fit_body(const Outline& curves, double h, const BodyWish& wish, bool o
   return grids;  // check says what is wrong with them
 }
 
-GasGrids fit_rings(const GridSpec& background, const std::vector<BodyFittedSpec>& given,
-                   const std::vector<std::size_t>& open, bool finer) {
-  std::vector<BodyFittedSpec> rings = given;
-  const std::vector<Room> rooms = rooms_of(background, rings);
-  const double spacing = (background.x_b - background.x_a) / (background.n1 - 1);
-  if (reaches_beyond(background, rings))
-    return {spacing, with_lines(rings, open, rooms, {usual_lines, 1, spacing, false})};
-  for (const double refined : {1.0, 0.85, 0.7, 0.6, 0.5, 0.4, 0.3}) {
-    const double h = refined == 1 ? spacing : as_written(refined * spacing);
-    const GridSpec grid = refined == 1 ? background : with_spacing(background, h);
+namespace {
+
+/// The last two lines of a ring interpolate themselves. Those before them must hold donors for points of the background
+/// as far as two by two of its spacing h from a hole, which they are somewhere on the way of a body that moves.
+int last_donor_line(const BodyFittedSpec& ring) {
+  return ring.lines - 3;
+}
+double depth_of_donors(double h) {
+  constexpr double two_by_two = 2.83;  // points
+  return two_by_two * h;
+}
+
+/// Of the last donors along the walls that an open curve stands on, from the curve.
+double depth_at_feet(const BodyFittedSpec& ring, ConstFieldView x) {
+  double depth = std::numeric_limits<double>::infinity();
+  const int line = last_donor_line(ring), j = ring.side == Side::top ? x.layout.n2 - 1 - line : line;
+  for (const int i : {0, x.layout.n1 - 1}) {
+    if (ring.curve.closed()) break;
+    depth = std::min(depth, grid::distance_to(ring.curve.x, Vec2(x(0, i, j), x(1, i, j))));
+  }
+  return depth;
+}
+
+/// What the rings of a gas are chosen for.
+struct RingSearch {
+  const GridSpec& background;
+  std::vector<BodyFittedSpec> rings;
+  const std::vector<std::size_t>& open;
+  const std::vector<RingMotion>& motions;
+  std::vector<Room> rooms;
+  double spacing;        ///< of the background
+  bool lasting = false;  ///< the grids are to hold while the bodies move too
+
+  GridSpec grid(double part, double h) const { return part == 1 ? background : with_spacing(background, h); }
+  double spacing_of(double part) const { return part == 1 ? spacing : as_written(part * spacing); }
+
+  /// With the rings as they are now.
+  bool holds(const GridSpec& grid, double h) const {
+    const auto ends_early = [&](std::size_t k) {
+      const BodyFittedSpec& ring = rings[k];
+      return motions[k] != RingMotion::still &&
+             ring.spacing * depth_of(last_donor_line(ring) + 1, ring.growth) < depth_of_donors(h);
+    };
+    if (lasting && std::ranges::any_of(open, ends_early)) return false;
+    return connects(grid, rings) && (!lasting || lasts(h));
+  }
+
+  /// At a foot that leans, lines along the wall are less deep than they are long; cells that are slanted or narrow at
+  /// t = 0 fold when their curve deforms.
+  bool lasts(double h) const {
+    constexpr double sound = 0.25;  // grid::cell_quality
+    const std::vector<grid::MovingGrid> grids = grids_at_start(rings);
+    return std::ranges::all_of(open, [&](std::size_t k) {
+      if (motions[k] == RingMotion::still) return true;
+      const ConstFieldView x = grids[k].x();
+      return depth_at_feet(rings[k], x) >= depth_of_donors(h) &&
+             (motions[k] == RingMotion::carried || grid::cell_quality(x) >= sound);
+    });
+  }
+
+  /// The first lines that hold on a background with a part of the given spacing.
+  std::optional<GasGrids> lines_for(double part) {
+    const double h = spacing_of(part);
     std::vector<std::vector<RingGrid>> tried;
     for (const bool apart : {false, true}) {
-      for (const double part : {1.0, 0.85, 0.7, 0.55}) {
+      for (const double share : {1.0, 0.85, 0.7, 0.55}) {
         for (const int lines : {usual_lines, 6}) {
-          const std::vector<RingGrid> chosen = with_lines(rings, open, rooms, {lines, part, h, apart});
+          const std::vector<RingGrid> chosen = with_lines(rings, open, rooms, {lines, share, h, apart});
           if (std::ranges::find(tried, chosen) != tried.end()) continue;
           tried.push_back(chosen);
-          if (connects(grid, rings)) return {h, chosen};
+          if (holds(grid(part, h), h)) return GasGrids{h, chosen};
         }
       }
     }
-    if (!finer) break;
+    return {};
   }
-  const std::vector<RingGrid> usual = with_lines(rings, open, rooms, {usual_lines, 1, spacing, false});
-  // The background alone becomes finer, before grids as deep as they are on the coarse one.
-  for (const double refined : {0.85, 0.7, 0.6, 0.5, 0.4, 0.3}) {
-    const double h = as_written(refined * spacing);
-    if (finer && connects(with_spacing(background, h), rings)) return {h, usual};
+
+  std::vector<RingGrid> usual() { return with_lines(rings, open, rooms, {usual_lines, 1, spacing, false}); }
+
+  std::optional<GasGrids> first(bool finer) {
+    for (const double part : {1.0, 0.85, 0.7, 0.6, 0.5, 0.4, 0.3}) {
+      if (part < 1 && !finer) return {};
+      if (std::optional<GasGrids> found = lines_for(part)) return found;
+    }
+    // The background alone becomes finer, before grids as deep as they are on the coarse one.
+    const std::vector<RingGrid> chosen = usual();
+    for (const double part : {0.85, 0.7, 0.6, 0.5, 0.4, 0.3}) {
+      const double h = spacing_of(part);
+      if (holds(grid(part, h), h)) return GasGrids{h, chosen};
+    }
+    return {};
   }
-  return {spacing, usual};
+};
+
+}  // namespace
+
+GasGrids fit_rings(const GridSpec& background, const std::vector<BodyFittedSpec>& given,
+                   const std::vector<std::size_t>& open, const std::vector<RingMotion>& motions, bool finer) {
+  RingSearch search{.background = background,
+                    .rings = given,
+                    .open = open,
+                    .motions = motions,
+                    .rooms = rooms_of(background, given),
+                    .spacing = (background.x_b - background.x_a) / (background.n1 - 1)};
+  if (reaches_beyond(background, given)) return {search.spacing, search.usual()};
+  for (const bool lasting : {true, false}) {
+    search.lasting = lasting;
+    if (std::optional<GasGrids> found = search.first(finer)) return *found;
+  }
+  return {search.spacing, search.usual()};
 }
 
 }  // namespace fsi

@@ -55,12 +55,16 @@ struct GasGrids {
   std::vector<RingGrid> rings;  ///< those that were open
 };
 
+/// How the curve of a grid of the gas moves during a run.
+enum class RingMotion { still, carried, deforming };
+
 /// Lines for the grids `open` of the list, which share the background with the others: eight, as far apart as
 /// the background's points, where there is room for them between bodies, to the rim and in bays; closer and
 /// then fewer ones where not; where none connect and `finer` allows it, on a background of closer points. The
-/// first ones that connect; those of the room there is where
-/// none do (check says then who is too near to whom).
+/// first ones that connect and are deep enough where they move, with sound cells where they deform (`motions`, of each
+/// ring); the first ones that connect at t = 0 where there are none such; those of the room there is where none do
+/// (check says then who is too near to whom).
 GasGrids fit_rings(const GridSpec& background, const std::vector<BodyFittedSpec>& rings,
-                   const std::vector<std::size_t>& open, bool finer);
+                   const std::vector<std::size_t>& open, const std::vector<RingMotion>& motions, bool finer);
 
 }  // namespace fsi

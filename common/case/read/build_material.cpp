@@ -102,31 +102,19 @@ void read_own_numbers(const Node& solid, const std::string& path, SolidSpec& spe
   });
 }
 
-/// Beyond these bounds the energy has no lower one.
-void check_mooney_rivlin(const Node& solid, const std::string& path, const SolidSpec& spec, double c01) {
-  const Node& node = *solid.find("c01");
-  if (c01 > 0.5 * spec.mu * (1 + 1e-12)) {
-    fail(node.place, path + ".c01",
-         fmt::format("must be at most mu / 2 = {:.6g}: mu / 2 is c10 + c01", 0.5 * spec.mu));
-  }
-  if (4 * c01 > spec.lambda * (1 + 1e-12)) {
-    fail(
-        node.place, path + ".c01",
-        fmt::format("must be at most lambda / 4 = {:.6g}, or the energy has no lower bound; lambda is bulk - "
-                    "4/3 (c10 + c01)",
-                    0.25 * spec.lambda));
-  }
-}
-
-void check_gent(const Node& solid, const std::string& path, const SolidSpec& spec, double J_m) {
-  if (J_m * spec.lambda >= 2 * spec.mu * (1 - 1e-12)) return;
-  const Node& node = *solid.find("J_m");
-  if (spec.lambda == 0) {
-    fail(node.place, path + ".J_m", "needs a solid that resists a change of area: lambda (or nu) above 0");
-  }
-  fail(node.place, path + ".J_m",
-       fmt::format("must be at least 2 mu / lambda = {:.6g}, or the energy has no lower bound",
-                   2 * spec.mu / spec.lambda));
+/// Are the numbers of a law within the bounds it has for them?
+void check_bounds(const Node& solid, const std::string& path, const SolidSpec& spec) {
+  schema::for_every_law([&]<class L>() {
+    if constexpr (solid::HasBounds<L>) {
+      if (spec.law != L::name) return;
+      const auto broken = solid::law_with<L>(spec.lambda, spec.mu, spec.data).broken_bound();
+      if (!broken) return;
+      const std::string key(broken->key);
+      fail(solid.find(key)->place, path + "." + key,
+           fmt::format("{}{}{}", broken->what, broken->bound ? fmt::format("{:.6g}", *broken->bound) : "",
+                       broken->why));
+    }
+  });
 }
 
 }  // namespace
@@ -137,8 +125,7 @@ void build_material(const Node& solid, const std::string& path, SolidSpec& spec)
   if (spec.law == rigid_law || spec.law == external_law) return;
   if (form == nullptr) fail(solid.place, path, fmt::format("the moduli are missing; write {}", advice));
   read_own_numbers(solid, path, spec);
-  if (spec.law == "mooney_rivlin") check_mooney_rivlin(solid, path, spec, spec.data["c01"]);
-  if (spec.law == "gent") check_gent(solid, path, spec, spec.data["J_m"]);
+  check_bounds(solid, path, spec);
 }
 
 }  // namespace fsi

@@ -244,7 +244,7 @@ RunCost cost_of(const Case& problem) {
 namespace {
 
 /// What makes a run long, where it is; "" where it is not.
-std::string why_long(const RunCost& cost) {
+std::string why_long(const RunCost& cost, const std::string& steps) {
   constexpr double hour = 3600, most = 0.5;
   if (cost.seconds <= hour) return "";
   const auto slowest = std::ranges::max_element(
@@ -256,10 +256,10 @@ std::string why_long(const RunCost& cost) {
                 slowest->moving)
           : "";
   return fmt::format(
-      "\n  more than an hour: {:.0f} steps with {:.0f} points in {}{}; with half the grid.factor an "
+      "\n  more than an hour: {} steps with {:.0f} points in {}{}; with half the grid.factor an "
       "eighth of it, where bends and thin places do not set the grids; write them rounder or thicker "
       "where they do",
-      cost.steps, slowest->points, slowest->program, moving);
+      steps, slowest->points, slowest->program, moving);
 }
 
 }  // namespace
@@ -286,10 +286,13 @@ std::string cost_text(const RunCost& cost) {
   }
   const bool levels =
       std::ranges::any_of(cost.programs, [](const StepCost& program) { return program.levels > 1; });
+  constexpr double countable = 1e9;  // no run takes more: the digits of such a number say nothing
+  const std::string steps =
+      cost.steps < countable ? fmt::format("{:.0f}", cost.steps) : fmt::format("{:.2g}", cost.steps);
   return text + warning +
-         fmt::format("  about {:.0f} steps of {:.2g}; about {} with a core for each program{}", cost.steps,
-                     cost.dt, time_text(cost.seconds), levels ? ", less by what the levels save" : "") +
-         why_long(cost);
+         fmt::format("  about {} steps of {:.2g}; about {} with a core for each program{}", steps, cost.dt,
+                     time_text(cost.seconds), levels ? ", less by what the levels save" : "") +
+         why_long(cost, steps);
 }
 
 }  // namespace fsi

@@ -26,6 +26,17 @@ bool next_number(std::string_view line, std::size_t& at, double& number) {
   return true;
 }
 
+/// Spreadsheets mark text as UTF-8 by these three bytes before it.
+std::string_view without_mark(std::string_view text) {
+  constexpr std::string_view mark = "\xEF\xBB\xBF";
+  return text.starts_with(mark) ? text.substr(mark.size()) : text;
+}
+
+/// A word, not a number that is written wrongly.
+bool is_word(std::string_view line, std::size_t first) {
+  return first < line.size() && std::string_view("+-.0123456789").find(line[first]) == std::string_view::npos;
+}
+
 bool is_empty(std::string_view line) {
   const std::size_t first = line.find_first_not_of(separators);
   return first == std::string_view::npos || line[first] == '#';
@@ -33,7 +44,8 @@ bool is_empty(std::string_view line) {
 
 }  // namespace
 
-std::vector<Vec2> points_from_csv(std::string_view text, const std::string& name) {
+std::vector<Vec2> points_from_csv(std::string_view file, const std::string& name) {
+  const std::string_view text = without_mark(file);
   std::vector<Vec2> points;
   bool heading_allowed = true;
   for (std::size_t number = 1, from = 0; from < text.size(); ++number) {
@@ -46,7 +58,8 @@ std::vector<Vec2> points_from_csv(std::string_view text, const std::string& name
     const bool read = next_number(line, at, x) && next_number(line, at, y);
     if (read && line.find_first_not_of(separators, at) == std::string_view::npos) {
       points.emplace_back(x, y);
-    } else if (!(heading_allowed && !read && at == line.find_first_not_of(separators))) {
+    } else if (const std::size_t first = line.find_first_not_of(separators);
+               !(heading_allowed && !read && at == first && is_word(line, first))) {
       at = std::min(line.find_first_not_of(separators, at), line.size());
       throw UserMistake(
           fmt::format("{}:{}:{}: write two numbers, x and y, separated by a comma", name, number, at + 1));

@@ -64,6 +64,10 @@ class Progress:
             while now - self._history[0][0] > WINDOW and len(self._history) > 2:
                 self._history.popleft()
 
+    def reached(self):
+        """{t, steps} of the newest state, or None before the first."""
+        return self._state and {"t": self._state["t"], "steps": self._state["step"]}
+
     def tick(self):
         """Draws when it is time to."""
         now = time.monotonic()

@@ -23,6 +23,7 @@ NOT_BEGUN = 0.5     # [s] the same before everybody has joined
 KILL_AFTER = 1.0    # [s] from that SIGTERM to SIGKILL
 STOP_GRACE = 60.0   # [s] from Ctrl-C or SIGTERM to SIGKILL: a checkpoint is written, which takes two steps; so
 STOP_STEPS = 4      # many times more than the longest time between two lines of progress
+ASKED_AGAIN = 1.0   # [s] from the first Ctrl-C or SIGTERM: what comes sooner is the same request (`timeout` sends two), later a second one
 AFTER_STOP = 5.0    # [s] from the first end after that to SIGTERM for the others
 LAST_GRACE = 60.0   # [s] from the first program's good end to SIGTERM for the others: results may be written
 PIPE_SIZE = 1 << 20
@@ -107,6 +108,7 @@ class Supervisor:
         self._reports = {}
         self._terminate_at = self._kill_at = float("inf")
         self._outcome = Outcome()
+        self._asked_at = None       # to end
         self._begun = True          # everybody has joined, as far as one knows
         self._drain = lambda: None  # takes in what the program that listens has said
         self._last_line, self._longest_pause = None, 0.0    # between two lines of progress
@@ -308,14 +310,16 @@ class Supervisor:
             os.close(write_end)
 
     def _asked_to_end(self, numbers):
-        """First request: ask the programs to end. Second request: kill them."""
+        """First request: ask the programs to end. Second request: kill them. Signals that come together are one request: who ends a
+        group of processes may reach the launcher twice."""
+        now = time.monotonic()
         for number in numbers:
             if number not in SIGNALS:
                 continue
-            now = time.monotonic()
             if self._outcome.signal:
-                self._end_by(now, now)
+                if now - self._asked_at >= ASKED_AGAIN:
+                    self._end_by(now, now)
             else:
-                self._outcome.signal = number
+                self._outcome.signal, self._asked_at = number, now
                 pause = 0.0 if self._last_line is None else max(self._longest_pause, now - self._last_line)
                 self._end_by(now, now + STOP_GRACE + STOP_STEPS * pause)

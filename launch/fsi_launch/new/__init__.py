@@ -1,5 +1,6 @@
 """`fsi new`: a commented case out of options and, on a terminal, a few questions."""
 
+import math
 import os
 import re
 import sys
@@ -12,6 +13,7 @@ from fsi_launch.new.problem import Problem
 from fsi_launch.new.questions import ask_for_missing
 
 SIZE = 0.1      # of a circle [m]
+EXAMPLES = {"size": "0.08", "mach": "1.3", "density": "1.225", "pressure": "101325", "gamma": "1.4", "end": "1e-3"}  # of options that are numbers
 
 
 def _paths(options):
@@ -38,8 +40,11 @@ def _outline(options):
 
 def problem_of(options):
     """The Problem the options describe. Throws UserMistake."""
+    for option, example in EXAMPLES.items():
+        if (value := getattr(options, option)) is not None and not math.isfinite(value):
+            raise UserMistake(f"--{option} {value:g}: is no finite number; write one like {example}")
     if options.size is not None and options.size <= 0:
-        raise UserMistake(f"--size {options.size:g}: must be above 0")
+        raise UserMistake(f"--size {options.size:g}: must be above 0; write one like {EXAMPLES['size']}")
     chosen = {key: getattr(options, key) for key in ("flow", "mach", "law", "end", "cells", "gamma") if getattr(options, key) is not None}
     if options.density is not None:
         chosen["rho"] = options.density
@@ -73,6 +78,8 @@ def main(options):
         _write(points, f"# points x, y [m] of the outline in {Path(options.outline).name}, its longer side {options.size:g} m\n{lines}")
     file = points.name if own_points else problem.outline.path and os.path.relpath(problem.outline.path, path.parent)
     _write(path, text.write(problem, str(path), file))
+    if problem.outline.points and not problem.straight and outline.sharp_turns(problem.outline)[0]:
+        print(f"the points of {options.outline} turn by more than {outline.SHARP} degrees: if these are corners, add --straight for edges between the points")
     print(cases.check(str(path), [], []))
     print(f"next: ./launch/fsi check {path} --plot, ./launch/fsi run {path}")
     return DONE

@@ -1,6 +1,7 @@
 """Materials by name, in SI units. The numbers are typical ones: density and Young's modulus lie within the ranges that M. F. Ashby,
 Materials Selection in Mechanical Design (Butterworth-Heinemann), tabulates for the class; Poisson's ratio is that in common use."""
 
+import math
 from dataclasses import dataclass
 
 from fsi_launch.failure import UserMistake
@@ -41,6 +42,6 @@ def material_of(text):
     except ValueError:
         raise UserMistake(f"no material '{text}': write one of {', '.join(TABLE)}, or three numbers RHO,E,NU "
                           "like 7850,205e9,0.29") from None
-    if not (rho > 0 and modulus > 0 and 0 <= nu < 0.5):
-        raise UserMistake(f"material {text}: the density and Young's modulus must be above 0, and Poisson's ratio from 0 to below 0.5")
+    if not (0 < rho < math.inf and 0 < modulus < math.inf and 0 <= nu < 0.5):
+        raise UserMistake(f"material {text}: the density and Young's modulus must be finite and above 0, and Poisson's ratio from 0 to below 0.5")
     return Material("a material of one's own", rho, modulus, nu)

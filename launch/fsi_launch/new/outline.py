@@ -1,5 +1,6 @@
 """The outline of the body in a new case: a circle, or points from a file."""
 
+import math
 import re
 from dataclasses import dataclass
 from pathlib import Path
@@ -8,6 +9,7 @@ from fsi_launch.failure import UserMistake
 
 FEWEST = 4              # points of a smooth curve
 FEWEST_CORNERS = 3      # of straight edges
+SHARP = 100             # [degree] turns beyond those of a square are meant as corners
 
 
 @dataclass(frozen=True)
@@ -40,7 +42,7 @@ def read(path, straight=False):
     edges between the points. Throws UserMistake with file:line."""
     path = Path(path)
     try:
-        lines = path.read_text(encoding="utf-8").splitlines()
+        lines = path.read_text(encoding="utf-8-sig").splitlines()    # some editors begin a text with a byte-order mark
     except (OSError, UnicodeDecodeError) as error:
         raise UserMistake(f"--outline {path}: cannot be read ({getattr(error, 'strerror', None) or 'it is no UTF-8 text'})") from None
     points = []
@@ -50,8 +52,10 @@ def read(path, straight=False):
             continue
         try:
             x, y = _numbers(text)
+            if not (math.isfinite(x) and math.isfinite(y)):
+                raise ValueError
         except ValueError:
-            raise UserMistake(f"{path}:{number}: '{text[:30]}' is no point: write two numbers, x, y") from None
+            raise UserMistake(f"{path}:{number}: '{text[:30]}' is no point: write two finite numbers, x, y") from None
         points.append((x, y))
     if len(points) > 1 and points[0] == points[-1]:
         points.pop()
@@ -90,6 +94,36 @@ def from_its_foot(outline):
     raise UserMistake("--on-wall: the outline has no level edge at its lowest point on which it could stand")
 
 
+def _edges(outline):
+    """(dx, dy) from each point to the next."""
+    points = outline.points
+    return [(b[0] - a[0], b[1] - a[1]) for a, b in zip(points, points[1:] + points[:1])]
+
+
+def _signed_turns(outline):
+    """Angle by which the lines from point to point turn at each point, -pi to pi; counter-clockwise ones are positive."""
+    edges = _edges(outline)
+    return [math.atan2(a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1]) for a, b in zip(edges[-1:] + edges, edges)]
+
+
+def turns(outline):
+    """The same without their signs."""
+    return [abs(turn) for turn in _signed_turns(outline)]
+
+
+def sharp_turns(outline):
+    """(are there points at which the lines turn by more than SHARP, is one of these hollow)"""
+    found = _signed_turns(outline)
+    around = math.copysign(1.0, sum(found))
+    sharp = [turn * around for turn in found if abs(turn) > math.radians(SHARP)]
+    return bool(sharp), any(turn < 0 for turn in sharp)
+
+
 def shortest_edge(outline):
-    following = outline.points[1:] + outline.points[:1]
-    return min(((a[0] - b[0]) ** 2 + (a[1] - b[1]) ** 2) ** 0.5 for a, b in zip(outline.points, following))
+    return min(math.hypot(*edge) for edge in _edges(outline))
+
+
+def largest_radius(outline):
+    """Of arcs at the corners that just fit: an arc takes radius * tan(turn / 2) of the edges on both of its sides."""
+    taken = [math.tan(0.5 * turn) for turn in turns(outline)]
+    return min((math.hypot(*edge) / (a + b) for edge, a, b in zip(_edges(outline), taken, taken[1:] + taken[:1]) if a + b > 0), default=0.0)

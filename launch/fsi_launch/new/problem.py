@@ -11,6 +11,7 @@ BEFORE, BEHIND, BESIDE = 1.5, 2.5, 1.5      # gas around the body, in lengths of
 SHOCK_AT = 0.5      # before the body, in lengths of it
 SHOCK_PASSES, STREAM_PASSES = 2.5, 2.0      # lengths of the body until the end
 OUTPUTS = 10
+LEAST_SPACING, LARGEST_SPACING = 1e-5, 1e6      # [m]; grid.factor = 0.1 / h is at most 10000
 
 
 @dataclass(frozen=True)
@@ -36,13 +37,16 @@ class Problem:
         """Throws UserMistake."""
         if self.flow == "shock" and self.mach <= 1:
             raise UserMistake(f"--mach {self.mach:g}: a shock is faster than sound, above 1; --flow stream takes any")
-        for option, value in (("mach", self.mach), ("density", self.rho), ("pressure", self.p), ("end", self.end or 1.0)):
-            if not (value > 0 and math.isfinite(value)):
+        for option, value in (("mach", self.mach), ("density", self.rho), ("pressure", self.p), ("end", 1.0 if self.end is None else self.end)):
+            if not value > 0:
                 raise UserMistake(f"--{option} {value:g}: must be above 0")
         if not 1 < self.gamma <= 10:
             raise UserMistake(f"--gamma {self.gamma:g}: must be above 1 and at most 10")
         if not 5 <= self.cells <= 1000:
             raise UserMistake(f"--cells {self.cells}: must be 5 to 1000")
+        if not LEAST_SPACING <= (spacing := self.outline.size() / self.cells) <= LARGEST_SPACING:
+            raise UserMistake(f"the body is {self.outline.size():g} m long, its {self.cells} cells (--cells) are {spacing:g} m; write a --size of "
+                              f"{LEAST_SPACING * self.cells:g} to {LARGEST_SPACING * self.cells:g}")
         if self.fixed and self.law != "rigid":
             raise UserMistake("--fixed holds a rigid body; add --law rigid")
 

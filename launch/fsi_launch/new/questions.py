@@ -1,5 +1,6 @@
 """The questions of `fsi new` on a terminal: one for each option of weight that was not given."""
 
+import math
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Callable
@@ -23,8 +24,8 @@ class Question:
 
 def _number(text):
     value = float(text)
-    if not value > 0:
-        raise UserMistake("a number above 0, please")
+    if not (value > 0 and math.isfinite(value)):
+        raise UserMistake("a finite number above 0, please")
     return value
 
 

@@ -1,5 +1,6 @@
 """The text of a new case: commented, with nothing in it that the programs choose well by themselves."""
 
+from fsi_launch.new.outline import SHARP, is_block, largest_radius, sharp_turns, shortest_edge
 from fsi_launch.new.problem import OUTPUTS
 from fsi_launch.new.questions import LAWS
 
@@ -40,7 +41,7 @@ time: {{end: {end:g}, multirate: true}}    # [s]; multirate: a stiff solid takes
 fluid:
   gamma: gamma
   p_e: p_0                # pressure at which the body is free of stress
-  grid: {{name: background, x: [{x_low:.6g}, {x_high:.6g}], y: [{y_low:.6g}, {y_high:.6g}], spacing: h}}
+  grid: {{name: background, x: [{x_low:.6g}, {x_high:.6g}], y: [{y_low:.6g}, {y_high:.6g}]}}    # points h apart, closer where the body's outline asks for it
 """
 
 SHOCK_SIDES = """  boundary:
@@ -80,17 +81,42 @@ expect:
 """
 
 
+ROUNDED, OF_AN_EDGE = 2.0, 0.25     # radius of corners, in h and in parts of the shortest edge
+FITS, OF_ACUTE = 0.9, 0.5   # parts of the largest radius for which arcs have room: where that one is larger, this one
+TOO_SMALL = 0.5     # radius that is not worth its grids, in h
+
+
+def _radius(problem):
+    """Of the rounded corners; 0: sharp, which takes a point of the grid at each of them."""
+    rigid, h, largest, shortest = problem.law == "rigid", problem.spacing(), largest_radius(problem.outline), shortest_edge(problem.outline)
+    if problem.on_wall and not rigid and is_block(problem.outline):
+        return 0
+    usual = min(ROUNDED * h, OF_AN_EDGE * shortest)
+    radius = usual if usual <= FITS * largest else OF_ACUTE * largest
+    return 0 if rigid and radius < TOO_SMALL * h and shortest >= h else radius
+
+
+def _spline(problem, path):
+    """The entry of a curve through points. Around a rigid body grids go on behind sharp corners: such a body gets them. A hollow corner
+    folds them, and an elastic body can have none but those of a block: these stay smooth."""
+    sharp, hollow = sharp_turns(problem.outline)
+    if not sharp:
+        return f" {{kind: spline, file: {path}}}    # a smooth curve through the points"
+    if problem.law == "rigid" and not hollow:
+        return (f"\n      kind: spline\n      file: {path}    # a smooth curve through the points (edges between them: fsi new --straight)"
+                f"\n      corner_angle: {SHARP}    # with corners where it turns by more [degree]; leave it out for an elastic body")
+    return f" {{kind: spline, file: {path}}}    # a smooth curve through the points (edges between them: fsi new --straight)"
+
+
 def _shape(problem, path):
     """The entry of the outline; `path`: of its file from where the case is."""
     outline = problem.outline
     if not outline.points:
         return f" {{kind: circle, radius: {outline.radius:g}}}"
     if not problem.straight:
-        return f" {{kind: spline, file: {path}}}    # a smooth curve through the points"
-    from fsi_launch.new.outline import is_block, shortest_edge
+        return _spline(problem, path)
     corners = ", ".join(f"[{x:.9g}, {y:.9g}]" for x, y in outline.points)
-    sharp = problem.on_wall and problem.law != "rigid" and is_block(outline)
-    radius = 0 if sharp else min(2 * problem.spacing(), 0.25 * shortest_edge(outline))
+    radius = _radius(problem)
     meaning = "of the rounded corners [m]" if radius else "sharp corners"
     walls = "\n      walls: [bottom, bottom]    # on which its first and its last corner stand" if problem.on_wall else ""
     return f"\n      kind: polygon\n      corners: [{corners}]\n      radius: {radius:.3g}       # {meaning}{walls}"

@@ -1,6 +1,7 @@
 """summary.json: the parts every program leaves in DIR/parts, merged, and what the case expects of it."""
 
 import contextlib
+import csv
 import json
 import math
 import os
@@ -52,10 +53,28 @@ def _noise(parts):
     return max(found, key=lambda noise: noise["value"] or 0, default=None)
 
 
-def merge(parts, case, status, reason, wall_s):
-    """The summary of a run, whatever became of it, from what its programs left. `case` is the launcher's Case."""
+def _last_line(directory):
+    """{t, steps} of the last line of interface.csv, or None."""
+    try:
+        with open(Path(directory) / "interface.csv", encoding="utf-8", newline="") as file:
+            rows = list(csv.DictReader(file))
+        return {"t": float(rows[-1]["t [time]"]), "steps": int(rows[-1]["step"])}
+    except (OSError, ValueError, LookupError, TypeError, csv.Error):
+        return None
+
+
+def last_known(directory, told, begun_from=None):
+    """{t, steps} a run has come to as far as is known without reports of its programs, or None. `told`: the same as they last said;
+    `begun_from`: of the checkpoint of a restart, whose table may go on beyond it before the first step."""
+    found = [told, begun_from, _last_line(directory) if told or not begun_from else None]
+    return max((one for one in found if one), key=lambda one: one["steps"], default=None)
+
+
+def merge(parts, case, status, reason, wall_s, known=None):
+    """The summary of a run, whatever became of it, from what its programs left. `case` is the launcher's Case; `known`: the
+    {t, steps} that count where the speaker left no report."""
     participants = case.programs
-    speaker = parts.get(case.speaker()) or max(parts.values(), key=lambda part: part.get("t", 0), default={})
+    speaker = parts.get(case.speaker()) or max([*parts.values(), *([known] if known else [])], key=lambda part: part.get("t", 0), default={})
     summary = {
         "status": status, "reason": reason, "case": case.name,
         "t": speaker.get("t", 0.0), "steps": speaker.get("steps", 0),

@@ -145,11 +145,20 @@ def _judge(rates, least):
     return EXPECTATION_MISSED if low else DONE
 
 
+def _expect_enough(options, case):
+    """Levels to compare. Throws UserMistake."""
+    if len(options.levels) < 2:
+        words = ("two grids or more for a rate of convergence" if case.reference != "none" else
+                 "two grids or more to compare, without a reference solution, and three for orders")
+        raise UserMistake(f"--levels {','.join(map(str, options.levels))}: it takes {words}; write --levels J,J,J")
+    if case.reference == "none" and options.min_rate is not None and len(options.levels) < 3:
+        raise UserMistake("--min-rate: without a reference solution a rate takes three grids, --levels J,J,J")
+
+
 def main(options):
     """Prints the table and writes converge.{txt,md,json}."""
     case = cases.resolve(options.case, options.overrides, options.laws)
-    if case.reference == "none" and options.min_rate is not None and len(options.levels) < 3:
-        raise UserMistake("--min-rate: without a reference solution a rate takes three grids, --levels J,J,J")
+    _expect_enough(options, case)
     name = case.name
     directory = Path(options.out or f"runs/converge-{name}-{time.strftime('%Y%m%d-%H%M%S')}")
     if directory.exists() and (not directory.is_dir() or any(directory.iterdir())):

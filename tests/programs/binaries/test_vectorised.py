@@ -17,9 +17,10 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from running import BIN  # noqa: E402
 
-SOLID = (*(f"solid::GodunovSweep<.*::{loop}\\(" for loop in ("predict", "waves", "solve_faces1", "solve_faces2", "update")),
+SOLID = (*(f"solid::GodunovSweep<.*::{loop}\\(" for loop in ("find_stiffness", "predict", "waves", "solve_faces1", "solve_faces2")),
+         "solid::GodunovSweep<.*::update<.*NoTerms", "solid::GodunovSweep<.*::update<.*AllDissipation",
          *(f"solid::{loop}<" for loop in ("find_misses", "find_stresses", "find_impedances", "show_interface")),
-         "solid::take_newton_steps\\(", "solid::add_all_dissipation<", "solid::add_relaxation<",
+         "solid::take_newton_steps\\(", "solid::add_relaxation<",
          "solid::add_tangential_stress_dissipation<", "solid::add_displacement_dissipation\\(", "solid::add_bulk_diffusion\\(")
 GAS = (*(f"fluid::{loop}<" for loop in ("predict_row", "flux_row", "update_row", "viscosity_row")), "::cartesian_rates<",
        "::mapped_rates<", "fluid::conserved_row\\(", "fluid::add_viscous_flux_row\\(",

@@ -254,6 +254,15 @@ class Levels(unittest.TestCase):
         self.assertEqual([(grid.name, grid.level) for grid in self.grids()], [("air_1", 1), ("air", 0), ("ring", 0)])
         self.assertEqual(data.Output(0.0, self.grids()).background().name, "air")
 
+    def test_a_level_that_finer_ones_cover_altogether_is_in_no_picture_and_no_scale(self):
+        def series(grids):
+            return [data.Series("fluid", [data.Output(0.0, data._read_grids(grids))])]
+        speed = {key: np.full((5, 5), 2.0) for key in ("v1", "v2", "p")}
+        fine = {"air": self.level(5, lambda x, y: np.full_like(x, data.DISCRETISED)) | speed}
+        covered = {"air_1": self.level(5, lambda x, y: np.full_like(x, data.UNUSED)) | speed}
+        self.assertEqual([grid.name for grid in series(fine | covered)[0].outputs[0].grids], ["air"])
+        self.assertEqual(scales.of_run(series(fine | covered)), scales.of_run(series(fine)))
+
     def test_lines_are_where_cells_of_another_level_begin(self):
         lines = mesh.level_outline(self.grids()[0])
         self.assertEqual(len(lines), 4)

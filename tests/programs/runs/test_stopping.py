@@ -13,6 +13,12 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from running import BIN, EndToEnd, LONG, PATIENT, ROOT, WATCHDOG, let_pass, processes, until  # noqa: E402
 
 
+def ask_twice(launcher):
+    """It finds both requests at the same time; two of one kind would become one while it is stopped."""
+    for number in (signal.SIGSTOP, signal.SIGTERM, signal.SIGINT, signal.SIGCONT):
+        os.kill(launcher, number)
+
+
 class Beginning(EndToEnd):
     """While the shell script and the interpreter begin, nobody is ready for signals yet."""
 
@@ -102,6 +108,18 @@ class Stopping(EndToEnd):
     def test_terminate(self):
         self.ask(signal.SIGTERM, 143)
 
+    def test_asked_again_programs_are_killed_and_the_summary_says_how_far_they_were(self):
+        run = self.launch(*LONG, script=PATIENT + "supervise.ASKED_AGAIN = 0\n")
+        run.until_stepping()
+        ask_twice(run.process.pid)
+        self.assertIn(run.wait(), (130, 143), run.stderr)
+        self.assertEqual(run.summary()["participants"]["coupler"]["status"], "lost")
+        steps, t = run.table()[-1].split(",")[:2]
+        self.assertGreaterEqual(run.summary()["steps"], int(steps))
+        self.assertGreaterEqual(run.summary()["t"], float(t))
+        self.assertGreater(run.summary()["steps"], 0)
+        self.assert_nothing_left(run)
+
     def test_killed_launcher_leaves_no_program(self):
         run = self.launch(*LONG)
         programs = run.until_stepping()
@@ -138,6 +156,14 @@ class Checkpointing(EndToEnd):
 
     def test_between_checkpoints(self):
         self.assert_terminated()
+
+    def test_asked_twice_at_once(self):
+        """As `timeout` does, which signals the launcher and then the group of processes it belongs to."""
+        run = self.launch(*LONG, script=PATIENT)
+        run.until_stepping()
+        ask_twice(run.process.pid)
+        self.assertIn(run.wait(), (130, 143), run.stderr)
+        self.assertEqual(run.checkpoints()[-1:], [run.summary()["steps"] + 1], run.stderr)
 
     def test_in_the_first_step(self):
         self.assert_terminated("--pause-at", "0", begin=lambda run: run.until_paused())

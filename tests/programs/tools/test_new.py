@@ -50,6 +50,22 @@ class New(InFolder):
         points = np.loadtxt(self.folder / "own_outline.csv", delimiter=",")
         self.assertAlmostEqual(np.ptp(points, axis=0).max(), 0.1)
 
+    def test_spacing_of_the_gas_is_chosen_where_h_is_too_wide_for_the_outline(self):
+        (self.folder / "step.csv").write_text("0,0\n1,0\n1,0.4\n0.4,0.4\n0.4,0.8\n0,0.8\n")
+        self.fsi("new", "step", "--outline", "step.csv", "--straight", "--size", "0.1", "--material", "rubber", "--defaults")
+
+    def test_acute_corners_are_rounded_by_arcs_that_fit_or_left_sharp(self):
+        for name, points in (("dart", "0,0\n1,.4\n.35,0\n1,-.4\n"), ("wedge", "0,0\n1,.05\n0,.1\n"), ("needle", "0,0\n1,.04\n0,.08\n")):
+            (self.folder / f"{name}.csv").write_text(points)
+            for law in ("neo_hookean", "rigid"):
+                self.fsi("new", name, "--outline", f"{name}.csv", "--straight", "--size", "0.1", "--law", law, "--defaults", "--overwrite")
+
+    def test_a_rigid_fin_with_a_sharp_tail(self):
+        points = [(0.5 + 0.5 * np.cos(a), 0.1 * np.sin(a) * (1 - np.cos(a)) / 2) for a in np.arange(24) * np.pi / 12]
+        np.savetxt(self.folder / "fin.csv", points, delimiter=",")
+        said = self.fsi("new", "fin", "--outline", "fin.csv", "--size", "0.1", "--law", "rigid", "--defaults").stdout
+        self.assertIn("--straight", said)
+
     def test_straight_edges_fixed_in_a_stream(self):
         self.begin("--outline", "corners.csv", "--straight", "--flow", "stream", "--mach", "2", "--law", "rigid", "--fixed")
 

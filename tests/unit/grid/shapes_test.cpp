@@ -287,6 +287,14 @@ TEST(Shapes, SplinesConvergeWithFourthOrder) {
   }
 }
 
+TEST(Shapes, CsvTextOfASpreadsheetKeepsItsFirstPoint) {
+  for (const std::string heading : {"", "x,y\n"}) {
+    const auto points = points_from_csv("\xEF\xBB\xBF" + heading + "1,2\n3,4\n", "outline.csv");
+    ASSERT_EQ(points.size(), 2U);
+    EXPECT_EQ(points[0], Vec2(1, 2));
+  }
+}
+
 TEST(Shapes, CsvTextGivesPointsAndNamesThePlaceOfAMistake) {
   const auto points = points_from_csv("x, y\n# comment\n1, 2\n\n3;4.5\n-1e-3 +6\r\n", "outline.csv");
   ASSERT_EQ(points.size(), 3U);
@@ -303,6 +311,7 @@ TEST(Shapes, CsvTextGivesPointsAndNamesThePlaceOfAMistake) {
   EXPECT_EQ(complaint("1,2\n3,x\n").substr(0, 16), "outline.csv:2:3:");
   EXPECT_EQ(complaint("1,2\n3\n").substr(0, 14), "outline.csv:2:");
   EXPECT_EQ(complaint("1,2,3\n").substr(0, 16), "outline.csv:1:5:");
+  EXPECT_EQ(complaint("1..0,2\n3,4\n").substr(0, 16), "outline.csv:1:1:");  // no heading
   EXPECT_NE(complaint("").find("no points"), std::string::npos);
 }
 

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "solid_solver/boundary/ghost_lines.hpp"
+#include "solid_solver/kernels/dissipation.hpp"
 #include "solid_solver/kernels/godunov_sweep.hpp"
 #include "solid_solver/laws/neo_hookean.hpp"
 #include "tests/convergence/solid/skewed_grid.hpp"
@@ -27,14 +28,23 @@ class Block {
  public:
   explicit Block(grid::MovingGrid grid)
       : grid_(std::move(grid)), metrics_(grid_.x()), points_(grid_.layout()) {}
+  /// Points of these columns alone are advanced.
+  Block(grid::MovingGrid grid, grid::Interval columns)
+      : grid_(std::move(grid)), metrics_(grid_.x()), points_(points_in(grid_.layout(), columns)) {}
 
   /// The state after a step from `state(x)`, given at ghosts too.
   template <Limiter limiter>
   Field step(const std::function<SolidState(const Vec2&)>& state, double dt, const Vec2& force = Vec2::Zero(),
              Look look = Look::all) {
+    return step_with<limiter>(state, dt, force, look,
+                              [](const auto& sweep, ConstFieldView, FieldView) { return sweep.run(); });
+  }
+  /// The same, as `run` runs the sweep from one field to the next.
+  template <Limiter limiter, class Run>
+  Field step_with(const std::function<SolidState(const Vec2&)>& state, double dt, const Vec2& force,
+                  Look look, const Run& run) {
     const Layout& layout = grid_.layout();
-    Field q(layout, plane::count), next(layout, plane::count), b(layout, 2),
-        work(Layout(layout.n1, sweep_work_rows), 1);
+    Field q(layout, plane::count), next(layout, plane::count), b(layout, 2), work(sweep_work, 1);
     for (int j = -2; j < layout.n2 + 2; ++j) {
       for (int i = -2; i < layout.n1 + 2; ++i) {
         store(q.view(), layout.at(i, j), state(position(i, j)));
@@ -50,16 +60,29 @@ class Block {
                          .rho = rho,
                          .dt = dt,
                          .look = look};
-    result = metrics_.cartesian() ? GodunovSweep<NeoHookean, CartesianRow, limiter>(data, metrics_, law).run()
-                                  : GodunovSweep<NeoHookean, MappedRow, limiter>(data, metrics_, law).run();
+    result =
+        metrics_.cartesian()
+            ? run(GodunovSweep<NeoHookean, CartesianRow, limiter>(data, metrics_, law), q.view(), next.view())
+            : run(GodunovSweep<NeoHookean, MappedRow, limiter>(data, metrics_, law), q.view(), next.view());
     return next;
   }
   Vec2 position(int i, int j) const { return {grid_.x()(0, i, j), grid_.x()(1, i, j)}; }
   const Layout& layout() const { return grid_.layout(); }
+  const grid::MovingGrid& grid() const { return grid_; }
+  const ReferenceMetrics& metrics() const { return metrics_; }
 
   SweepResult result;
 
  private:
+  static SolidPoints points_in(const Layout& layout, grid::Interval columns) {
+    grid::RowSets some;
+    for (int j = 0; j < layout.n2; ++j) {
+      some.append(columns);
+      some.end_row();
+    }
+    return {layout, some, grid::all_points(layout.n1, layout.n2)};
+  }
+
   grid::MovingGrid grid_;
   ReferenceMetrics metrics_;
   SolidPoints points_;
@@ -240,6 +263,93 @@ TEST(Sweep, MakesTheSameStepWhetherItLooksAtTheWavesOrNot) {
     EXPECT_GT(with_waves.rate_squared, 0);
     EXPECT_EQ(block.result.rate_squared, 0);
   }
+}
+
+/// Points enough for several strips of a sweep, bent or along the axes.
+grid::MovingGrid long_grid(bool bent) {
+  constexpr double length = 40;
+  return {{.name = "long",
+           .n1 = 1013,
+           .n2 = 5,
+           .mapping = [bent](double r, double s, double) -> Vec2 {
+             return {length * r + (bent ? 0.01 * s : 0.0), 0.2 * s + (bent ? 0.03 * std::sin(8 * r) : 0.0)};
+           }},
+          0};
+}
+
+SolidState wavy(const Vec2& x) {
+  return {.u = 0.02 * Vec2(std::sin(3 * x.y()), std::cos(2 * x.x())),
+          .v = {std::cos(x.x()), x.x() * x.y()},
+          .P = {0.1 * std::sin(x.x()), 0.2, -0.1 * x.y(), 0.3 * std::cos(3 * x.x())}};
+}
+
+TEST(Sweep, MakesTheSameStepOfAPointWhateverElseIsAdvanced) {
+  // Runs begin and end at all places of a block and beside the ends of strips; points beside them keep what they have.
+  for (const bool bent : {false, true}) {
+    Block whole(long_grid(bent));
+    const Field all = whole.step<Limiter::minmod>(wavy, 0.004);
+    for (int k = 0; k < 24; ++k) {
+      const grid::Interval columns = {331 + k, 333 + 2 * k + k * k};
+      Block some(long_grid(bent), columns);
+      const Field next = some.step<Limiter::minmod>(wavy, 0.004);
+      int wrong = 0;
+      for (int p = 0; p < plane::count; ++p) {
+        for (int j = 0; j < 5; ++j) {
+          for (int i = -2; i < 1015; ++i) {
+            const bool advanced = i >= columns.begin && i < columns.end;
+            if (next(p, i, j) != (advanced ? all(p, i, j) : 0.0)) ++wrong;
+          }
+        }
+      }
+      EXPECT_EQ(wrong, 0) << columns.begin << " to " << columns.end << (bent ? ", bent" : "");
+    }
+  }
+}
+
+TEST(Sweep, CountsAGhostPointThatSettlesOnceWhereStripsMeet) {
+  // Beyond the bottom, and there alone, the displacement turns the material inside out.
+  const auto folded = [](const Vec2& x) {
+    return SolidState{.u = {0, x.y() < -1e-9 ? -1.5 * x.y() : 0.0}, .v = Vec2::Zero(), .P = {}};
+  };
+  Block block(long_grid(false));
+  block.step<Limiter::minmod>(folded, 0.004);
+  EXPECT_EQ(block.result.settled, 1013);
+  EXPECT_EQ(block.result.broken, 0);
+}
+
+TEST(Eq39Eq40Eq41Sweep, TermsAddedWhileAStepIsMadeAreThoseAddedAfterwards) {
+  constexpr DissipationBetas betas{.P = 0.3, .u = 0.4, .r = 0.6};
+  const auto compare = [&]<class Row, class Gradient>(Block& block) {
+    const auto terms = [&](int j, ConstFieldView q) {
+      return AllDissipation(q, Row(block.metrics(), j), Gradient(block.grid().x(), block.metrics(), j), law,
+                            betas, j);
+    };
+    const Field at_once = block.step_with<Limiter::minmod>(
+        wavy, 0.01, Vec2::Zero(), Look::all, [&](const auto& sweep, ConstFieldView q, FieldView) {
+          return sweep.run([&](int j) { return terms(j, q); }, [](RowRun) {});
+        });
+    const Field one_by_one = block.step_with<Limiter::minmod>(
+        wavy, 0.01, Vec2::Zero(), Look::all, [&](const auto& sweep, ConstFieldView q, FieldView next) {
+          return sweep.run([](int) { return NoTerms(); },
+                           [&](RowRun run) {
+                             add_tangential_stress_dissipation<Row>(q, next, block.metrics(), betas.P, run);
+                             add_displacement_dissipation(q, next, betas.u, run);
+                             add_relaxation(q, next, Gradient(block.grid().x(), block.metrics(), run.j), law,
+                                            betas.r, run);
+                           });
+        });
+    const Field none = block.step<Limiter::minmod>(wavy, 0.01);
+    double difference = 0, size = 0;
+    for (std::size_t k = 0; k < none.values().size(); ++k) {
+      difference = std::max(difference, std::abs(at_once.values()[k] - one_by_one.values()[k]));
+      size = std::max(size, std::abs(at_once.values()[k] - none.values()[k]));
+    }
+    EXPECT_LT(difference, 1e-14);
+    EXPECT_GT(size, 1e-3);
+  };
+  Block square(test::unit_square(cells)), skewed(test::skewed_grid(cells));
+  compare.operator()<CartesianRow, CartesianGradient4>(square);
+  compare.operator()<MappedRow, MappedGradient4>(skewed);
 }
 
 TEST(Sweep, NoticesWhatIsInsideOutWithoutLookingAtTheWaves) {

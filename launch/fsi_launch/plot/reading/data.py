@@ -110,8 +110,9 @@ def _read_grid(name, group):
 
 
 def _read_grids(group):
-    """Background grids first, of several levels the coarsest: pictures lay the finer and the body-fitted ones over them."""
-    grids = [_read_grid(name, group[name]) for name in group]
+    """Background grids first, of several levels the coarsest: pictures lay the finer and the body-fitted ones over them. Only grids
+    with used points: a coarse level has none while finer ones cover all of the gas."""
+    grids = [grid for grid in (_read_grid(name, group[name]) for name in group) if grid.used().any()]
     backgrounds = sorted((grid for grid in grids if grid.is_cartesian()), key=Grid.spacing)
     for level, grid in enumerate(backgrounds):
         grid.level = level

@@ -9,6 +9,9 @@
 #include "common/case/grids/composite_from_case.hpp"
 #include "common/case/report/cost.hpp"
 #include "common/core/failure.hpp"
+#include "common/grid/geometry/outline.hpp"
+#include "common/grid/geometry/quality.hpp"
+#include "common/grid/moving_grid.hpp"
 #include "tests/unit/case/cases.hpp"
 
 namespace fsi {
@@ -242,6 +245,58 @@ TEST(ChosenGrids, ABodyThatLiesOnAWallIsAskedWhetherItStandsThere) {
   }
 }
 
+/// The grids of a gas connect wherever the points of its background are: its bodies will be there.
+void expect_connected_anywhere(const Case& problem, const std::vector<double>& ups) {
+  const FluidSpec& gas = problem.fluids.front();
+  const double dx = (gas.grid.x_b - gas.grid.x_a) / (gas.grid.n1 - 1),
+               dy = (gas.grid.y_b - gas.grid.y_a) / (gas.grid.n2 - 1);
+  for (const double right : {0.0, 0.25, 0.5, 0.75}) {
+    for (const double up : ups) {
+      GridSpec shifted = gas.grid;
+      shifted.x_a += right * dx, shifted.x_b += right * dx;
+      shifted.y_a += up * dy, shifted.y_b += up * dy;
+      EXPECT_NO_THROW(connect_once(shifted, gas.body_fitted)) << right << ", " << up;
+    }
+  }
+}
+
+TEST(ChosenGrids, OfBodiesWithHollowCornersHoldWhereverTheyGo) {
+  const std::string c =
+      "{kind: polygon, corners: [[-.5, -.6], [.5, -.6], [.5, -.3], [-.2, -.3], [-.2, .3], [.5, .3], [.5, "
+      ".6], [-.5, "
+      ".6]], radius: 0.08}";
+  for (const std::string law : {"neo_hookean", "rigid"})
+    expect_connected_anywhere(load_text(bodies_case({c}), {"grid.factor=4"}, {"body_0=" + law}),
+                              {0, 0.25, 0.5, 0.75});
+}
+
+TEST(ChosenGrids, AtAFootThatLeansHoldWhereverItGoesAlongItsWall) {
+  const std::string chevron =
+      "{kind: polygon, corners: [[0, -2], [.5, -1.5], [0, -1], [.4, -1], [.9, -1.5], [.4, -2]], radius: 0.1, "
+      "walls: "
+      "[bottom, bottom]}";
+  const Case problem = load_text(bodies_case({chevron}, on_wall));
+  expect_connected_anywhere(problem, {0});
+  // Two rows up its side is two points nearer: a point of the wall beside the foot has a donor two by two from there.
+  const FluidSpec& gas = problem.fluids.front();
+  const BodyFittedSpec& ring = gas.body_fitted[0];
+  const grid::MovingGrid grid(grid_of(ring), 0);
+  const double h = (gas.grid.x_b - gas.grid.x_a) / (gas.grid.n1 - 1);
+  const int line = ring.side == Side::top ? 2 : ring.lines - 3;
+  for (const int end : {0, grid.layout().n1 - 1})
+    EXPECT_GE(grid::distance_to(ring.curve.x, Vec2(grid.x()(0, end, line), grid.x()(1, end, line))),
+              std::sqrt(8.0) * h);
+}
+
+TEST(ChosenGrids, OfBodiesThatDeformHaveSoundCells) {
+  const Case problem = load_text(
+      bodies_case({"{kind: polygon, corners: [[1, -2], [1, -1.6], [.4, -1.6], [.4, -1], [0, -1], [0, -2]], "
+                   "radius: 0.1, walls: [bottom, bottom]}"},
+                  on_wall));
+  const grid::MovingGrid ring(grid_of(problem.fluids.front().body_fitted[0]), 0);
+  EXPECT_GT(grid::cell_quality(ring.x()), 0.25);
+}
+
 /// What a valid case with a circle takes [s], of processor time.
 double time_of_a_circle() {
   const double before = tests::processor_time();
@@ -382,6 +437,12 @@ TEST(CostOfARun, GridsThatMoveCostMoreThanThoseThatStay) {
   EXPECT_NE(
       cost_text(cost_of(load_text(thin, {"time.end=1000000"}, {"body_0=rigid"}))).find("more than an hour: "),
       std::string::npos);
+}
+
+TEST(CostOfARun, OfAnEndFarAwayIsToldInFewDigits) {
+  const std::string text = cost_text(cost_of(load_text(bodies_case({circle}), {"time.end=1e300"})));
+  EXPECT_EQ(text.find("00000"), std::string::npos) << text;
+  EXPECT_NE(text.find("e+30"), std::string::npos) << text;
 }
 
 TEST(CostOfARun, SaysWhereAFewSmallCellsSetTheStep) {

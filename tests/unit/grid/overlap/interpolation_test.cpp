@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
@@ -95,6 +96,34 @@ TEST(ImplicitInterpolation, ListsLoseEntriesAndKeepTheOthers) {
   EXPECT_EQ(list.donor, (std::vector<std::int32_t>{20, 22}));
   EXPECT_EQ(list.x[1][0], 2);
   for (const std::size_t m : {0U, 1U, 2U, 3U}) EXPECT_EQ(list.weight[4 + m], wanted.weight[8 + m]);
+}
+
+TEST(Interpolation, GivesEachPlaneTheSameBitsWhateverPlanesGoWithIt) {
+  constexpr int planes = 7;
+  const Layout layout(6, 5);
+  for (const int width : {2, 3}) {
+    InterpolationList list{
+        .target_grid = 0, .donor_grid = 1, .width = width, .target = {}, .donor = {}, .weight = {}};
+    for (int k = 0; k < 4; ++k) {
+      const Stencil stencil{.grid = 1, .i = k, .j = 1, .width = width, .r = 0.3 + 0.1 * k, .s = 0.8};
+      list.append(layout.at(k, 2), layout.at(k, 1), stencil);
+    }
+    Field target(layout, planes), donor(layout, planes);
+    for (std::size_t k = 0; k < donor.values().size(); ++k)
+      donor.values()[k] = std::sin(1.7 * static_cast<double>(k));
+    const std::array<FieldView, 2> together{target.view(), donor.view()};
+    grid::apply(list, together);
+    for (int p = 0; p < planes; ++p) {
+      Field alone(layout, 1), its_donor(layout, 1);
+      std::copy_n(donor.view().plane(p), layout.plane_size(), its_donor.view().data);
+      const std::array<FieldView, 2> one{alone.view(), its_donor.view()};
+      grid::apply(list, one);
+      for (int k = 0; k < 4; ++k) {
+        EXPECT_EQ(target(p, k, 2), alone(0, k, 2)) << width << ", plane " << p;
+        EXPECT_NE(target(p, k, 2), 0);
+      }
+    }
+  }
 }
 
 }  // namespace

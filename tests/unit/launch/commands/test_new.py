@@ -40,8 +40,11 @@ class Outlines(InScratch):
             with self.subTest(content):
                 self.assertEqual(self.read(content).points, expected)
 
+    def test_a_byte_order_mark_is_no_part_of_the_first_point(self):
+        self.assertEqual(self.read("\ufeff0,0\n1,0\n.5,2\n").points[0], (0.0, 0.0))
+
     def test_mistakes_say_where(self):
-        for content, said in (("0,0\n1,x\n", "outline.csv:2: '1,x' is no point"), ("0,0\n1,0,3\n", "outline.csv:2"), ("0,0\n1,1\n", "3 points")):
+        for content, said in (("0,0\n1,nan\n", "outline.csv:2: '1,nan' is no point"), ("0,0\n1,x\n", "outline.csv:2: '1,x' is no point"), ("0,0\n1,0,3\n", "outline.csv:2"), ("0,0\n1,1\n", "3 points")):
             with self.subTest(content), self.assertRaises(UserMistake) as caught:
                 self.read(content)
             self.assertIn(said, str(caught.exception))
@@ -107,6 +110,22 @@ class Sizes(unittest.TestCase):
                 problem(**given)
 
 
+    def test_numbers_that_are_not_finite_are_refused_by_the_name_of_their_option(self):
+        for option in ("size", "mach", "density", "pressure", "gamma", "end"):
+            for value in (float("nan"), float("inf"), -float("inf")):
+                with self.subTest(option, value=value), self.assertRaisesRegex(UserMistake, f"--{option} .*no finite number; write"):
+                    problem(**{option: value})
+        for material in ("inf,1e6,0.3", "1000,inf,0.3"):
+            with self.assertRaisesRegex(UserMistake, "must be finite"):
+                problem(material=material)
+
+    def test_a_size_for_which_no_resolution_can_be_written_is_refused_with_one_that_can(self):
+        for size in (1e-30, 1e300):
+            with self.assertRaisesRegex(UserMistake, "write a --size of 0.0002 to 2e"):
+                problem(size=size)
+        self.assertGreaterEqual(problem(size=0.0002).spacing(), 0.99e-5)
+
+
 class Text(unittest.TestCase):
     def test_all_of_it_is_what_was_asked_for(self):
         case = yaml.safe_load(text.write(problem(material="steel", law="rigid", fixed=True, mach=1.7, end=2e-3), "case.yaml", None))
@@ -119,6 +138,52 @@ class Text(unittest.TestCase):
         one = Problem("case", outline.Outline(Path("o.csv"), points), materials.TABLE["steel"], straight=True)
         shape = yaml.safe_load(text.write(one, "case.yaml", "o.csv"))["solids"]["body"]["shape"]
         self.assertEqual((shape["kind"], [tuple(corner) for corner in shape["corners"]]), ("polygon", list(points)))
+
+
+class Corners(unittest.TestCase):
+    """What is written of outlines with acute corners."""
+
+    SQUARE, WEDGE = ((0, 0), (1, 0), (1, 1), (0, 1)), ((0, 0), (1, 0.03), (0, 0.06))
+    DART = ((0, 0), (1, 0.4), (0.35, 0), (1, -0.4))
+
+    def shape(self, points, **given):
+        one = Problem("case", outline.Outline(Path("o.csv"), points), materials.TABLE["steel"], **given)
+        return one, yaml.safe_load(text.write(one, "case.yaml", "o.csv"))["solids"]["body"]["shape"]
+
+    def test_the_largest_arcs_that_fit_touch_each_other(self):
+        self.assertAlmostEqual(outline.largest_radius(outline.Outline(points=self.SQUARE)), 0.5)
+        self.assertAlmostEqual(outline.largest_radius(outline.Outline(points=((0, 0), (1, 0), (0.5, math.sqrt(0.75))))), 0.5 / math.sqrt(3))   # that of the circle within
+        self.assertEqual(outline.largest_radius(outline.Outline(points=self.SQUARE)), outline.largest_radius(outline.Outline(points=self.SQUARE[::-1])))
+
+    def test_arcs_written_fit_at_acute_corners_too(self):
+        for points in (self.SQUARE, self.WEDGE, self.DART):
+            for law in ("neo_hookean", "rigid"):
+                with self.subTest(points, law=law):
+                    one, shape = self.shape(points, straight=True, law=law)
+                    self.assertLess(shape["radius"], outline.largest_radius(one.outline))
+
+    def test_corners_of_a_rigid_body_stay_sharp_where_no_arc_of_some_size_fits(self):
+        self.assertEqual(self.shape(self.WEDGE, straight=True, law="rigid")[1]["radius"], 0)
+        self.assertGreater(self.shape(self.WEDGE, straight=True)[1]["radius"], 0)
+        self.assertGreater(self.shape(self.SQUARE, straight=True, law="rigid")[1]["radius"], 0)
+
+
+    def test_corners_closer_than_points_of_the_grid_are_rounded_on_rigid_bodies_too(self):
+        circle = tuple((math.cos(k * math.pi / 60), math.sin(k * math.pi / 60)) for k in range(120))
+        self.assertGreater(self.shape(circle, straight=True, law="rigid")[1]["radius"], 0)
+
+    def test_a_smooth_outline_of_a_rigid_body_has_corners_where_it_turns_sharply(self):
+        fin = ((1, 0), (0.8, 0.06), (0.4, 0.1), (0.1, 0.08), (0, 0.03), (0, -0.03), (0.1, -0.08), (0.4, -0.1), (0.8, -0.06))
+        for points in (fin, fin[::-1]):
+            self.assertEqual(self.shape(points, law="rigid")[1]["corner_angle"], outline.SHARP)
+            self.assertNotIn("corner_angle", self.shape(points)[1])
+        self.assertNotIn("corner_angle", self.shape(self.SQUARE, law="rigid")[1])
+        self.assertNotIn("corner_angle", self.shape(self.DART, law="rigid")[1])     # one of its corners is hollow
+
+    def test_points_that_turn_sharply_are_told_how_to_become_corners(self):
+        for points, told in ((self.DART, True), (self.SQUARE, False)):
+            one, _ = self.shape(points)
+            self.assertEqual("--straight" in text.write(one, "case.yaml", "o.csv"), told)
 
 
 class OnAWall(InScratch):

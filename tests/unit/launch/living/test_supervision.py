@@ -142,11 +142,18 @@ class Supervision(InScratch):
             self.assertEqual(self.supervise(one=exits(0))[1].signal, signal.SIGTERM)
 
     def test_second_interrupt_kills_at_once(self):
-        self.within(STOP_GRACE=FOR_EVER)
+        self.within(STOP_GRACE=FOR_EVER, ASKED_AGAIN=0)
         self.when(["a", "asked"], signal.SIGINT, signal.SIGINT)
         asked = "signal.signal(signal.SIGTERM, lambda *_: here('asked')); here('a'); rest()"
         endings, _ = self.supervise(a=asked)
         self.assertEqual(endings["a"].code, -signal.SIGKILL)
+
+    def test_requests_that_come_together_are_one(self):
+        self.within(STOP_GRACE=FOR_EVER, ASKED_AGAIN=FOR_EVER)
+        self.when(["a", "asked"], signal.SIGTERM, signal.SIGTERM)
+        slow = "signal.signal(signal.SIGTERM, lambda *_: here('asked')); here('a'); wait('asked'); linger(); sys.exit(143)"
+        endings, _ = self.supervise(a=slow)
+        self.assertEqual((endings["a"].code, len(endings)), (143, 1))
 
     def test_a_program_may_take_as_long_to_end_as_its_steps_are_long(self):
         self.within(STOP_GRACE=0.0, STOP_STEPS=FOR_EVER)

@@ -8,6 +8,8 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from launcher import InScratch  # noqa: E402
+from fsi_launch import run  # noqa: E402
+from fsi_launch.failure import NUMBERS_BROKE  # noqa: E402
 from fsi_launch.results import probes, summary, verdict  # noqa: E402
 from fsi_launch.case import Case  # noqa: E402
 from fsi_launch.living.supervise import Ending, Outcome  # noqa: E402
@@ -16,6 +18,13 @@ from fsi_launch.living.supervise import Ending, Outcome  # noqa: E402
 def piston():
     programs = {"fluid": "fluid_solver", "solid": "solid_solver_linear_elastic", "coupler": "coupler"}
     return Case(name="piston", text="", programs=programs, reference="none", expect=[])
+
+
+class Advice(unittest.TestCase):
+    def test_another_projection_is_advised_and_not_promised_after_the_traditional_one_broke(self):
+        self.assertRegex(run.advice_after(NUMBERS_BROKE, "traditional"), "projection=simplified may not$")
+        for code, projection in ((NUMBERS_BROKE, "simplified"), (0, "traditional")):
+            self.assertEqual(run.advice_after(code, projection), "")
 
 
 class Summary(InScratch):
@@ -34,6 +43,19 @@ class Summary(InScratch):
         self.assertEqual((merged["t"], merged["steps"], merged["dt"]), (0.8, 10, {"min": 0.05, "max": 0.1, "limited_by": {"fluid": 8, "time.growth": 2}}))
         self.assertIn("step limited by: fluid 80 %, time.growth 20 %", summary.describe(merged, self.folder))
         self.assertEqual(merged["interface"], {"max_gap": 1e-6})
+
+    def test_programs_that_left_nothing_came_as_far_as_they_last_said_or_as_their_table_goes(self):
+        def merged(told, begun_from=None):
+            found = summary.merge({}, piston(), "failed", "", 1.0, summary.last_known(self.folder, told, begun_from))
+            return found["t"], found["steps"]
+        self.assertEqual(merged(None), (0, 0))
+        said, checkpoint = {"t": 0.25, "steps": 5}, {"t": 0.1, "steps": 2}
+        self.assertEqual(merged(said), (0.25, 5))
+        (self.folder / "interface.csv").write_text("step,t [time],a.gap [length]\n0,0,0\n8,0.4,1e-9\n")
+        self.assertEqual(merged(said), (0.4, 8))
+        self.assertEqual(merged({"t": 0.5, "steps": 10}), (0.5, 10))
+        self.assertEqual(merged(None, checkpoint), (0.1, 2))    # the table is of the former run
+        self.assertEqual(merged(said, checkpoint), (0.4, 8))
 
     def test_who_limited_next_to_no_step_is_not_worth_a_word(self):
         self.assertEqual(summary.limiters({"time.growth": 2, "fluid": 996, "beam": 0, "output.times": 9}), "fluid 99 %, output.times 1 %")

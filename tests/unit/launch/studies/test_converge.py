@@ -4,9 +4,11 @@
 import sys
 import unittest
 from pathlib import Path
+from types import SimpleNamespace
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 import launcher  # noqa: E402,F401  the path of the launcher's modules
+from fsi_launch.failure import UserMistake  # noqa: E402
 from fsi_launch.studies import converge  # noqa: E402
 
 
@@ -36,6 +38,22 @@ class Rates(unittest.TestCase):
         result = converge.table([2, 4], runs, ["rho"])
         self.assertIn("1/40  6.25e-02  2.00", converge.as_text(result))
         self.assertTrue(converge.as_markdown(result).startswith("| h | rho | rate | steps | wall [s] |\n|---|"))
+
+
+class Levels(unittest.TestCase):
+    def refused(self, levels, reference, min_rate=None):
+        with self.assertRaises(UserMistake) as caught:
+            converge._expect_enough(SimpleNamespace(levels=levels, min_rate=min_rate), SimpleNamespace(reference=reference))
+        return str(caught.exception)
+
+    def test_one_grid_is_too_few_and_it_is_said_how_many_it_takes(self):
+        self.assertRegex(self.refused([4], "none"), "--levels 4: .*two grids.* to compare.* three for orders")
+        self.assertRegex(self.refused([4], "piston_1d"), "--levels 4: .*two grids .*rate")
+        self.assertIn("--min-rate", self.refused([2, 4], "none", min_rate=1.0))
+
+    def test_two_are_enough_for_a_rate_with_a_reference_and_to_compare_without(self):
+        for reference, rate in (("none", None), ("piston_1d", 1.9)):
+            converge._expect_enough(SimpleNamespace(levels=[2, 4], min_rate=rate), SimpleNamespace(reference=reference))
 
 
 if __name__ == "__main__":
