@@ -92,17 +92,25 @@ GridSpec core_around(const CurveSpec& curve, double c, const BodyWish& wish) {
   return core;
 }
 
-/// A bend or a waist that takes more points than there can be.
-[[noreturn]] void too_fine(const Measures& outline, double points) {
+constexpr double most_points = 4e6;  ///< of the core of a body
+
+/// What takes more points than there can be: h itself, a bend or a waist.
+[[noreturn]] void too_fine(const Measures& outline, double points, bool as_coarse_as_h) {
   const bool bend =
       depth_by_radius * outline.inwards.radius < depth_by_thickness * outline.thickness.distance;
   const Vec2& x = bend ? outline.inwards.x : outline.thickness.x;
-  throw NoGridsFit({.cause = fmt::format(
-                        "grids inside this outline would take {:.2g} points: {} at ({:.4g}, {:.4g})", points,
-                        bend ? fmt::format("it bends with a radius of {:.3g}", outline.inwards.radius)
-                             : fmt::format("it is only {:.3g} thick", outline.thickness.distance),
-                        x[0], x[1]),
-                    .otherwise = bend ? "round it more" : "make it thicker"});
+  const std::string cause = fmt::format("grids inside this outline would take {:.2g} points", points);
+  if (as_coarse_as_h) {
+    throw NoGridsFit({.cause = fmt::format("{} h apart, more than {:.2g}", cause, most_points),
+                      .otherwise = fmt::format("take grid.factor smaller, {:.2g} times what it is",
+                                               0.9 * std::sqrt(most_points / points))});
+  }
+  throw NoGridsFit(
+      {.cause = fmt::format("{}: {} at ({:.4g}, {:.4g})", cause,
+                            bend ? fmt::format("it bends with a radius of {:.3g}", outline.inwards.radius)
+                                 : fmt::format("it is only {:.3g} thick", outline.thickness.distance),
+                            x[0], x[1]),
+       .otherwise = bend ? "round it more" : "make it thicker"});
 }
 
 /// Grids of a depth, and how close their points are.
@@ -247,13 +255,13 @@ BodyGrids fit_body(const Outline& curves, double h, const BodyWish& wish, bool o
   if (outline_only || given_lines_meet(wish, outline)) return grids_of(curves, trial, wish, outline);
   if (room < usual)
     trial = {.depth = room, .core = std::min(h, room / 4.5), .curve = trial.curve, .lines = 7};
-  constexpr double most_points = 4e6, finer = 0.85;
+  constexpr double finer = 0.85;
   constexpr int most_trials = 24;
   BodyGrids grids;
   for (int k = 0; k < most_trials; ++k) {
     grids = grids_of(curves, trial, wish, outline);
     const double points = static_cast<double>(grids.core.n1) * grids.core.n2;
-    if (points > most_points && k == 0) too_fine(outline, points);
+    if (points > most_points && k == 0) too_fine(outline, points, trial.core >= h);
     if (points > most_points) break;  // it is not for want of points
     if (connects(curves, grids, wish)) return grids;
     // A finer core first; then a grid less deep, whose lines do not run into each other.

@@ -234,6 +234,15 @@ std::string between(const std::string& message, const std::string& before, const
   return to == std::string::npos ? "" : message.substr(from, to - from);
 }
 
+TEST(ChosenGrids, OfABodyThatIsTooLargeForItsSpacingAreNotBlamedOnItsBends) {
+  const std::string message = mistake_in(bodies_case({circle}), {"grid.factor=500"});
+  const std::string times = between(message, "take grid.factor smaller, ", " times what it is");
+  ASSERT_FALSE(times.empty()) << message;
+  const double points_along_diameter = 10 * 500 * std::stod(times);
+  EXPECT_LT(points_along_diameter * points_along_diameter, 4e6);
+  EXPECT_GT(points_along_diameter * points_along_diameter, 2e6);
+}
+
 TEST(ChosenGrids, ABodyThatLiesOnAWallIsAskedWhetherItStandsThere) {
   for (const std::string& lying :
        {circle_above_the_floor(0), circle_above_the_floor(0.01),
