@@ -86,6 +86,18 @@ def _table(tools, runs):
     return f"last row: `{typed}`\n\n" + "\n".join(lines) + "\n"
 
 
+def _profile(tools):
+    """Where the gas spends its time, from samples of the processors' clocks while all programs run."""
+    directory = tools.fresh("levels-profile")
+    samples = directory.with_suffix(".perf")
+    command = ["./launch/fsi", "run", CASE, "--set", "grid.factor=16", "--set", "fluid.grid.levels=3", "--set", "time.end=1", "--set",
+               "output.times=[]", "--set", "expect={}"]
+    subprocess.run(["perf", "record", "-q", "-a", "-F", "499", "-o", str(samples), *command, "--no-progress", "--out", str(directory)],
+                   cwd=tools.ROOT, capture_output=True, check=True)
+    found = tools.shares(samples, "--comm", "fluid_solver", "--percentage", "relative")
+    return f"`perf record -a -F 499 {shlex.join(command)}`, of the gas\n\n```\n" + "\n".join(found) + "\n```\n"
+
+
 def _to_the_finest(tools):
     """From grid to grid up to h = 1/320, to the end of the paper's run, and what the finest run takes."""
     name, levels = "levels-to-the-finest", (4, 8, 16, 32)
@@ -95,4 +107,5 @@ def _to_the_finest(tools):
 
 def studies(tools):
     yield "Shock and ellipse, background of three levels", lambda: _table(tools, RUNS)
+    yield "Shock and ellipse, background of three levels, where the time of each program goes", lambda: _profile(tools)
     yield "Shock and ellipse, three levels: from grid to grid up to h = 1/320", lambda: _to_the_finest(tools)

@@ -226,6 +226,13 @@ def looked_at(pairs):
             f"break as the page does. Processor time of all programs of a run.\n\n{said}")
 
 
+def shares(samples, *options):
+    """Lines of what perf has found to take 2 % of the time or more."""
+    report = subprocess.run(["perf", "report", "-q", "--stdio", "--sort", "symbol", *options, "-i", str(samples)], cwd=ROOT,
+                            capture_output=True, text=True, check=True).stdout
+    return [re.sub(r"[ -]+$", "", line.strip()) for line in report.splitlines() if line.strip() and float(line.split("%")[0]) >= 2]
+
+
 def profile(name):
     """Where the loops of the gas and the solid spend their time, from samples of the processor's clock."""
     directory = fresh(name)
@@ -237,11 +244,7 @@ def profile(name):
         samples = directory / "perf.data"
         words = [f"./build/release/bin/{program}", f"--benchmark_filter={benchmark}", "--benchmark_min_time=3"]
         subprocess.run(["perf", "record", "-q", "-F", "499", "-o", str(samples), *words], cwd=ROOT, capture_output=True, check=True)
-        report = subprocess.run(["perf", "report", "-q", "--stdio", "--sort", "symbol", "-i", str(samples)], cwd=ROOT,
-                                capture_output=True, text=True, check=True).stdout
-        shares = [re.sub(r"[ -]+$", "", line.strip()) for line in report.splitlines()
-                  if line.strip() and float(line.split("%")[0]) >= 2]
-        text += f"`perf record -F 499 {shlex.join(words)}`\n\n```\n" + "\n".join(shares) + "\n```\n\n"
+        text += f"`perf record -F 499 {shlex.join(words)}`\n\n```\n" + "\n".join(shares(samples)) + "\n```\n\n"
     return text
 
 

@@ -89,7 +89,8 @@ struct PartTable {
   constexpr PartTable() {
     for (int k = 0; k < parts; ++k) {
       const auto at = static_cast<std::size_t>(k);
-      a[at] = k % refinement_ratio - 1, b[at] = k / refinement_ratio - 1;
+      const int column = k % refinement_ratio - 1, row = k / refinement_ratio - 1;
+      a[at] = column, b[at] = row;
     }
     for (std::size_t k = 0; k < padded_parts; ++k)
       ab[k] = a[k] * b[k], aa[k] = 3 * a[k] * a[k] - 2, bb[k] = 3 * b[k] * b[k] - 2;
