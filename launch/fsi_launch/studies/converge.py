@@ -146,8 +146,9 @@ def _judge(rates, least):
 
 
 def _expect_enough(options, case):
-    """Levels to compare. Throws UserMistake."""
-    if len(options.levels) < 2:
+    """Levels to compare; with a reference solution one grid has errors too. Throws UserMistake."""
+    least = 2 if case.reference == "none" or options.min_rate is not None else 1
+    if len(options.levels) < least:
         words = ("two grids or more for a rate of convergence" if case.reference != "none" else
                  "two grids or more to compare, without a reference solution, and three for orders")
         raise UserMistake(f"--levels {','.join(map(str, options.levels))}: it takes {words}; write --levels J,J,J")

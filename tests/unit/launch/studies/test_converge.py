@@ -48,12 +48,12 @@ class Levels(unittest.TestCase):
 
     def test_one_grid_is_too_few_and_it_is_said_how_many_it_takes(self):
         self.assertRegex(self.refused([4], "none"), "--levels 4: .*two grids.* to compare.* three for orders")
-        self.assertRegex(self.refused([4], "piston_1d"), "--levels 4: .*two grids .*rate")
+        self.assertRegex(self.refused([4], "piston_1d", min_rate=1.9), "--levels 4: .*two grids .*rate")
         self.assertIn("--min-rate", self.refused([2, 4], "none", min_rate=1.0))
 
-    def test_two_are_enough_for_a_rate_with_a_reference_and_to_compare_without(self):
-        for reference, rate in (("none", None), ("piston_1d", 1.9)):
-            converge._expect_enough(SimpleNamespace(levels=[2, 4], min_rate=rate), SimpleNamespace(reference=reference))
+    def test_two_are_enough_for_a_rate_with_a_reference_and_to_compare_without_and_one_for_errors(self):
+        for levels, reference, rate in (([2, 4], "none", None), ([2, 4], "piston_1d", 1.9), ([4], "piston_1d", None)):
+            converge._expect_enough(SimpleNamespace(levels=levels, min_rate=rate), SimpleNamespace(reference=reference))
 
 
 if __name__ == "__main__":
