@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
-#include <string_view>
 #include <utility>
 
 #include "common/case/scales.hpp"
@@ -15,9 +14,6 @@
 namespace fsi::coupler {
 
 namespace {
-
-/// A solver's word, before its name, when it was asked to end.
-constexpr std::string_view terminate = "terminate ";
 
 bus::CouplerSession join(const Setup& setup) {
   const Case& problem = setup.problem;
@@ -189,6 +185,23 @@ void CoupledRun::complete_checkpoint() {
   coupler_.request_stop(part_.reason);
 }
 
+void CoupledRun::obey(Request request, bool& checkpoint) {
+  switch (request) {
+    case Request::pause:
+      paused_ = true;
+      break;
+    case Request::resume:
+      paused_ = false;
+      break;
+    case Request::checkpoint:
+      checkpoint = true;
+      break;
+    case Request::stop:
+      stop_ = true;
+      break;
+  }
+}
+
 /// While everybody waits for the answer to what was gathered. A pause waits here; a checkpoint, also that
 /// before an end, is one of the step that the answer leads to.
 void CoupledRun::obey_requests() {
@@ -200,12 +213,10 @@ void CoupledRun::obey_requests() {
   while (true) {
     for (const wire::Control& control : session_.controls()) {
       log_info(fmt::format("request: {}", control.command));
-      if (control.command == "pause") paused_ = true;
-      if (control.command == "resume") paused_ = false;
-      if (control.command == "checkpoint") checkpoint = true;
-      if (control.command == "stop") stop_ = true;
-      if (control.command.starts_with(terminate))
-        end_ = fmt::format("ended on request (SIGTERM to {})", control.command.substr(terminate.size()));
+      if (const auto request = named<Request>(control.command))
+        obey(*request, checkpoint);
+      else if (control.command.starts_with(terminate_word))
+        end_ = fmt::format("ended on request (SIGTERM to {})", control.command.substr(terminate_word.size()));
     }
     if (asked_to_end()) end_ = "ended on request (SIGTERM)";
     checkpoint = checkpoint || stop_ || !end_.empty();

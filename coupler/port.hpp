@@ -11,6 +11,7 @@
 #include "common/io/csv_writer.hpp"
 #include "common/program/run/checkpoints.hpp"
 #include "common/program/run/session.hpp"
+#include "common/wire/request.hpp"
 #include "coupler/coupler.hpp"
 
 namespace fsi::coupler {
@@ -27,6 +28,7 @@ class CoupledRun {
  private:
   void loop();
   void obey_requests();
+  void obey(Request request, bool& checkpoint);
   void exchange();
   void complete_checkpoint();
   void record();

@@ -52,7 +52,7 @@ class Keys {
     if (press.key == Key::none) return false;
     if (press.key != Key::resized) touched_ = true;
     if (std::exchange(view_.ask_stop, false)) {
-      if (press.letter == 'y') request("stop");
+      if (press.letter == 'y') request(Request::stop);
       return true;
     }
     if (std::exchange(view_.help, false)) return true;
@@ -92,13 +92,13 @@ class Keys {
         view_.help = true;
         break;
       case 'p':
-        request("pause");
+        request(Request::pause);
         break;
       case 'r':
-        request("resume");
+        request(Request::resume);
         break;
       case 'c':
-        request("checkpoint");
+        request(Request::checkpoint);
         break;
       case 's':
         view_.ask_stop = true;
@@ -109,10 +109,10 @@ class Keys {
   }
 
   /// In the background: a run that does not answer must not freeze the picture.
-  void request(const std::string& command) {
+  void request(Request request) {
     if (answer_.valid()) return;
-    say(command + " ...");
-    answer_ = std::async(std::launch::async, [this, command] { return source_.request(command); });
+    say(fmt::format("{} ...", name_of(request)));
+    answer_ = std::async(std::launch::async, [this, request] { return source_.request(request); });
   }
 
   Source& source_;

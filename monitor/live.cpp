@@ -83,12 +83,12 @@ void Live::look_at_processes(RunState& state) {
   if (run_.pid > 0 && process_state(run_.pid) == Process::gone) state.end();
 }
 
-std::string Live::request(const std::string& command) {
+std::string Live::request(Request request) {
   try {
-    listener_.request(command);
-    return fmt::format("{}: sent", command);
+    listener_.request(request);
+    return fmt::format("{}: sent", name_of(request));
   } catch (const Failure& failure) {
-    return fmt::format("{}: {}", command, failure.what());
+    return fmt::format("{}: {}", name_of(request), failure.what());
   }
 }
 

@@ -22,7 +22,7 @@ class Live : public Source {
   double now() const override;
   void watch(const std::vector<std::string>& wishes) override { listener_.watch(wishes); }
   std::vector<wire::Picture> pictures() override { return listener_.pictures(); }
-  std::string request(const std::string& command) override;
+  std::string request(Request request) override;
   std::string controls() const override { return "p pause  r resume  c checkpoint  s stop  "; }
 
  private:

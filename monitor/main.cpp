@@ -5,14 +5,12 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
 
 #include "common/bus/sessions/listener.hpp"
 #include "common/core/command_line.hpp"
@@ -107,8 +105,8 @@ void show_once(const Wishes& wishes, Live& live, RunState& state) {
 void follow(const Wishes& wishes, Source& source, RunState& state) {
   if (wishes.web >= 0) {
     follow_web(source, state,
-               {.host = wishes.host, .port = wishes.web, .request = [&source](const std::string& command) {
-                  return source.request(command);
+               {.host = wishes.host, .port = wishes.web, .request = [&source](Request request) {
+                  return source.request(request);
                 }});
   } else if (wishes.plain || wishes.json || isatty(STDOUT_FILENO) == 0) {
     follow_plain(source, state, wishes.json);
@@ -134,11 +132,11 @@ void replay(const Wishes& wishes) {
   show_again(wishes, source, source.run());
 }
 
-void send(const std::string& request, const RunEntry& run) {
+void send(Request request, const RunEntry& run) {
   constexpr double patience_s = 3;
   bus::send_control(run.run, run.key, request, patience_s, run.network);
-  fmt::print("{} has heard: {}\n", run.run, request);
-  if (request == "checkpoint" || request == "stop")
+  fmt::print("{} has heard: {}\n", run.run, name_of(request));
+  if (request == Request::checkpoint || request == Request::stop)
     fmt::print("the checkpoint goes to {}/checkpoints\n", run.dir);
 }
 
@@ -146,7 +144,7 @@ void act(const Wishes& wishes) {
   if (!wishes.replay.empty()) return replay(wishes);
   const auto run = choose_run(wishes);
   if (!run) return;
-  if (!wishes.send.empty()) return send(wishes.send, *run);
+  if (const auto request = named<Request>(wishes.send)) return send(*request, *run);
   Live live(*run, wishes.record);
   RunState state(*run);
   if (wishes.once) return show_once(wishes, live, state);
@@ -177,10 +175,9 @@ void check(const Wishes& wishes) {
   if (wishes.web < no_page || wishes.web > last_port)
     throw UserMistake(fmt::format("--web: {} is no port; write 0 to {}", wishes.web, last_port));
   if (!(wishes.speed > 0)) throw UserMistake("--speed must be positive");
-  constexpr std::array<std::string_view, 4> requests{"pause", "resume", "checkpoint", "stop"};
-  if (!wishes.send.empty() && std::ranges::find(requests, wishes.send) == requests.end()) {
+  if (!wishes.send.empty() && !named<Request>(wishes.send)) {
     throw UserMistake(
-        fmt::format("--send: '{}' is no request; write {}", wishes.send, fmt::join(requests, ", ")));
+        fmt::format("--send: '{}' is no request; write {}", wishes.send, fmt::join(words_of<Request>, ", ")));
   }
 }
 

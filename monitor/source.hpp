@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "common/wire/request.hpp"
 #include "monitor/state.hpp"
 
 namespace fsi::monitor {
@@ -27,8 +28,8 @@ class Source {
   virtual std::vector<wire::Picture> pictures() { return {}; }
   /// The run's files may hold what is still to come here: a recording that is played.
   virtual bool files_lie_ahead() const { return false; }
-  /// Sends a request ("pause", "resume", "checkpoint", "stop"). Returns what became of it, for people.
-  virtual std::string request(const std::string& command) = 0;
+  /// Sends a request. Returns what became of it, for people.
+  virtual std::string request(Request request) = 0;
   /// The requests that `request` understands, with their keys, for people.
   virtual std::string controls() const = 0;
 };

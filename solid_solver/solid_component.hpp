@@ -12,8 +12,8 @@
 #include "common/grid/moving_grid.hpp"
 #include "common/ranks/rows/rank_rows.hpp"
 #include "solid_solver/boundary/solid_boundary.hpp"
-#include "solid_solver/kernels/dissipation.hpp"
-#include "solid_solver/kernels/godunov_sweep.hpp"
+#include "solid_solver/kernels/sweep/dissipation.hpp"
+#include "solid_solver/kernels/sweep/godunov_sweep.hpp"
 #include "solid_solver/solid_points.hpp"
 
 namespace fsi::solid {

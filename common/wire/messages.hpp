@@ -141,7 +141,7 @@ struct Abort {
   std::string reason() const { return sentence_of(place, what); }
 };
 
-/// An outside request: pause, resume, checkpoint or stop.
+/// A `Request` from outside, in its own word; or that a solver was asked to end.
 struct Control {
   std::string run;
   std::string command;

@@ -147,8 +147,8 @@ void EndedRun::listen(RunState& state, double /*seconds*/) {
   state.end();
 }
 
-std::string EndedRun::request(const std::string& command) {
-  return fmt::format("{}: the run is over", command);
+std::string EndedRun::request(Request request) {
+  return fmt::format("{}: the run is over", name_of(request));
 }
 
 }  // namespace fsi::monitor

@@ -28,7 +28,7 @@ class EndedRun : public Source {
 
   void listen(RunState& state, double seconds) override;
   double now() const override { return 0; }
-  std::string request(const std::string& command) override;
+  std::string request(Request request) override;
   std::string controls() const override { return ""; }
 
  private:

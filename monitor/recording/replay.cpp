@@ -45,13 +45,22 @@ void Replay::listen(RunState& state, double seconds) {
   if (finished_) state.end();
 }
 
-std::string Replay::request(const std::string& command) {
+std::string Replay::request(Request request) {
   const std::scoped_lock lock(clock_);
   at_start_ = place();
   start_ = Clock::now();
-  if (command == "pause") held_ = true;
-  if (command == "resume") held_ = false;
-  return command == "pause" || command == "resume" ? "" : fmt::format("a replay cannot {}", command);
+  switch (request) {
+    case Request::pause:
+      held_ = true;
+      return "";
+    case Request::resume:
+      held_ = false;
+      return "";
+    case Request::checkpoint:
+    case Request::stop:
+      break;
+  }
+  return fmt::format("a replay cannot {}", name_of(request));
 }
 
 }  // namespace fsi::monitor

@@ -22,8 +22,8 @@ class Replay : public Source {
   /// Seconds since the recording began.
   double now() const override;
   bool files_lie_ahead() const override { return true; }
-  /// "pause" and "resume" hold and continue the replay.
-  std::string request(const std::string& command) override;
+  /// Pause and resume hold and continue the replay.
+  std::string request(Request request) override;
   std::string controls() const override { return "replay: p pause  r resume  "; }
 
  private:

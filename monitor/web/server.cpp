@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 #include <httplib.h>
 
-#include <algorithm>
-#include <array>
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
@@ -13,7 +11,6 @@
 #include <mutex>
 #include <random>
 #include <sstream>
-#include <string_view>
 #include <thread>
 #include <utility>
 
@@ -177,16 +174,15 @@ struct WebServer::Implementation {
   }
 
   void control(const httplib::Request& request, httplib::Response& response) {
-    constexpr std::array<std::string_view, 4> known = {"pause", "resume", "checkpoint", "stop"};
-    const std::string command = request.get_param_value("command");
+    const auto command = named<Request>(request.get_param_value("command"));
     if (!controllable() || request.get_header_value(token_header) != token) {
       response.status = 403;
       response.set_content("requests need the address that the monitor printed\n", "text/plain");
-    } else if (std::ranges::find(known, command) == known.end()) {
+    } else if (!command) {
       response.status = 400;
       response.set_content("no such request\n", "text/plain");
     } else {
-      response.set_content(options.request(command) + "\n", "text/plain");
+      response.set_content(options.request(*command) + "\n", "text/plain");
     }
   }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "common/wire/request.hpp"
 #include "monitor/state.hpp"
 
 namespace fsi::monitor {
@@ -15,7 +16,7 @@ struct WebOptions {
   int port = 0;  ///< 0: any that is free
   /// Sends a request to the run and returns what became of it. Empty: nobody may. Obeyed only with the token
   /// in `url()`, and only on the loopback interface.
-  std::function<std::string(const std::string& command)> request = {};
+  std::function<std::string(Request)> request = {};
 };
 
 class WebServer {

@@ -18,7 +18,7 @@
 #include "solid_solver/boundary/interface.hpp"
 #include "solid_solver/boundary/matching/characteristics.hpp"
 #include "solid_solver/boundary/matching/matched_ghosts.hpp"
-#include "solid_solver/kernels/dissipation.hpp"
+#include "solid_solver/kernels/sweep/dissipation.hpp"
 
 namespace fsi::solid {
 

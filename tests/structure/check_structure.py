@@ -6,7 +6,7 @@ includes   who may include what: the arrows between the folders point one way
 circles    no header includes, itself or through others, one that includes it
 kernels    the loops over points know common/core and each other; they neither throw nor write
 headers    a file includes, itself or through headers of this tree, what declares the names it uses
-lengths    no source file is longer than 400 lines
+lengths    no source file is longer than 400 lines, no folder has more than 12 modules (a header and its source are one)
 words      no notes of unfinished work in the sources
 
 Every offence is printed as file:line: what is wrong; exit 1 if there is one.
@@ -26,6 +26,7 @@ CXX = (".cpp", ".hpp", ".h")
 SOURCES = (*CXX, ".c", ".py", ".idl", ".cmake", ".sh", ".txt", ".yaml", ".yml", "")
 BY_THE_WIRE = "examples/spring_piston_c/"  # a program in another language
 MAX_LINES = 400
+MAX_MODULES = 12  # of a folder
 UNFINISHED = re.compile(r"\b(" + "|".join(("TO" + "DO", "FIX" + "ME", "X" + "XX", "HA" + "CK")) + r")\b")
 SKIPPED = {"build", "runs", ".git", "__pycache__", ".cache", "docs"}
 
@@ -172,7 +173,7 @@ def check_circles(root):
 
 # --- kernels -------------------------------------------------------------------------------------------------------
 
-KERNEL_FOLDERS = ("fluid_solver/kernels", "fluid_solver/kernels/riemann", "solid_solver/kernels", "solid_solver/laws")
+KERNEL_FOLDERS = ("fluid_solver/kernels", "fluid_solver/kernels/riemann", "solid_solver/kernels", "solid_solver/kernels/sweep", "solid_solver/laws")
 # What those of the solid know besides: the runs of points they pass over, and the limiter's name.
 BESIDE_SOLID_KERNELS = ("solid_solver/solid_points.hpp", "solid_solver/options.hpp")
 # Of common/core, what logs, reads a case or throws.
@@ -270,6 +271,12 @@ def check_lengths(root):
         count = len(text_of(root, path).splitlines())
         if count > MAX_LINES:
             yield f"{path}:{MAX_LINES + 1}: {count} lines, more than {MAX_LINES}"
+    modules = {}
+    for path in files(root, (*CXX, ".py", ".in")):
+        modules.setdefault(path.parent, set()).add(path.name.partition(".")[0])
+    for folder, names in sorted(modules.items()):
+        if len(names) > MAX_MODULES:
+            yield f"{folder}: {len(names)} modules, more than {MAX_MODULES}: give it folders"
 
 
 def check_words(root):

@@ -155,8 +155,8 @@ class Kernels(Copy):
         self.assert_allows("kernels", where, '#include "fluid_solver/kernels/limiter.hpp"')
 
     def test_of_the_solid_too(self):
-        self.assert_bites("kernels", "solid_solver/kernels/godunov_sweep.hpp", '#include "solid_solver/boundary/solid_boundary.hpp"')
-        self.assert_bites("kernels", "solid_solver/kernels/dissipation.hpp", '#include "common/grid/moving_grid.hpp"')
+        self.assert_bites("kernels", "solid_solver/kernels/sweep/godunov_sweep.hpp", '#include "solid_solver/boundary/solid_boundary.hpp"')
+        self.assert_bites("kernels", "solid_solver/kernels/sweep/dissipation.hpp", '#include "common/grid/moving_grid.hpp"')
         self.assert_bites("kernels", "solid_solver/laws/neo_hookean.hpp", '#include "solid_solver/options.hpp"')
 
     def test_do_not_throw_or_write(self):
@@ -191,6 +191,19 @@ class LengthsAndWords(Copy):
         self.assertEqual(self.with_line("lengths", where, "\n" * (399 - lines)), [])
         found = self.with_line("lengths", where, "\n" * (400 - lines))
         self.assertEqual(found, [f"{where}:401: 401 lines, more than 400"])
+
+    def test_full_folder(self):
+        folder = self.root / "common/case/schema"
+        modules = {path.name.partition(".")[0] for path in folder.iterdir()}
+        more = [folder / f"one_more_{k}.hpp" for k in range(13 - len(modules))]
+        for path in more[:-1]:
+            path.write_text("#pragma once\n", encoding="utf-8")
+        self.assertEqual(offences("lengths", self.root), [])
+        more[-1].write_text("#pragma once\n", encoding="utf-8")
+        found = offences("lengths", self.root)
+        for path in more:
+            path.unlink()
+        self.assertEqual(found, ["common/case/schema: 13 modules, more than 12: give it folders"])
 
     def test_note_of_unfinished_work(self):
         self.assert_bites("words", "common/interface/modal.cpp", "// TO" + "DO: more")

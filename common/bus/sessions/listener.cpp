@@ -125,15 +125,16 @@ int Listener::programs() const {
   return implementation_->telemetry_reader.alive();
 }
 
-void Listener::request(const std::string& command, double timeout_s) {
-  deliver({.run = implementation_->run, .command = command}, implementation_->participant, timeout_s);
+void Listener::request(Request request, double timeout_s) {
+  deliver({.run = implementation_->run, .command = std::string(name_of(request))},
+          implementation_->participant, timeout_s);
 }
 
-void send_control(const std::string& run, const std::string& key, const std::string& command,
-                  double timeout_s, const std::string& network) {
+void send_control(const std::string& run, const std::string& key, Request request, double timeout_s,
+                  const std::string& network) {
   const auto domain = join_domain(run, participant_lease_s, network);
   const Entity participant = create_participant(run, parse_key(key), "control");
-  deliver({.run = run, .command = command}, participant, timeout_s);
+  deliver({.run = run, .command = std::string(name_of(request))}, participant, timeout_s);
 }
 
 }  // namespace fsi::bus

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/wire/messages.hpp"
+#include "common/wire/request.hpp"
 
 namespace fsi::bus {
 
@@ -31,17 +32,17 @@ class Listener {
   int programs() const;
   /// As `send_control`, by who listens already: with protection a second participant of one process would end
   /// what the first one hears. @throws PeerLost
-  void request(const std::string& command, double timeout_s = 3);
+  void request(Request request, double timeout_s = 3);
 
  private:
   struct Implementation;
   std::unique_ptr<Implementation> implementation_;
 };
 
-/// Sends a request ("pause", "resume", "checkpoint", "stop") to a run and returns when it has arrived. A
+/// Sends a request to a run and returns when it has arrived. A
 /// protected run hears only who knows its `key`.
 /// @throws PeerLost nobody takes requests for that run within `timeout_s`
-void send_control(const std::string& run, const std::string& key, const std::string& command,
-                  double timeout_s = 3, const std::string& network = {});
+void send_control(const std::string& run, const std::string& key, Request request, double timeout_s = 3,
+                  const std::string& network = {});
 
 }  // namespace fsi::bus

@@ -11,6 +11,7 @@
 #include "common/bus/lengths.hpp"
 #include "common/bus/peers/peer.hpp"
 #include "common/bus/sessions/link.hpp"
+#include "common/wire/request.hpp"
 
 namespace fsi::bus {
 
@@ -313,8 +314,9 @@ const wire::ProjectedInterface& SolverSession::receive(const std::string& interf
   return implementation_->receive(interface, step);
 }
 
-void SolverSession::request(const std::string& command) {
-  const wire::Control request{.run = implementation_->self.run, .command = command};
+void SolverSession::ask_to_end() {
+  const wire::Hello& self = implementation_->self;
+  const wire::Control request{.run = self.run, .command = std::string(terminate_word) + self.name};
   implementation_->control_writer.write(borrow(request));
 }
 

@@ -31,8 +31,8 @@ class SolverSession {
   /// of the same interface. Answers to other runs or older steps are dropped.
   const wire::ProjectedInterface& receive(const std::string& interface, std::uint64_t step);
 
-  /// Asks the coupler for something, as `send_control` does from outside; never waits.
-  void request(const std::string& command);
+  /// Tells the coupler that this solver was asked to end; never waits.
+  void ask_to_end();
 
   /// True when the last telemetry is older than 100 ms: time to make a new one.
   bool telemetry_due() const;

@@ -45,7 +45,7 @@ class CoupledRun {
   void obey_signals() {
     if (asked_to_end() && running_ && !told_) {
       told_ = true;
-      session_.request("terminate " + setup_.name);
+      session_.ask_to_end();
       since_told_.lap();
     }
     if (waiting_ && session_.waits_watched()) session_.show_missing(draw_of(part_, solver_, at_), at_.step);

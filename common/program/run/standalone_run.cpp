@@ -9,6 +9,7 @@
 #include "common/program/run/checkpoints.hpp"
 #include "common/program/run/driver.hpp"
 #include "common/program/run/standalone_watch.hpp"
+#include "common/wire/request.hpp"
 
 namespace fsi {
 
@@ -102,7 +103,7 @@ class StandaloneRun {
 
   /// Obeys requests from outside; false when the run shall stop.
   bool go_on() {
-    bool stop = false, told = false;
+    bool told = false;
     if (due_.due(at_.step)) save();
     if (setup_.pause_at == at_.step) {
       paused_ = true;
@@ -110,12 +111,9 @@ class StandaloneRun {
     }
     do {
       for (const wire::Control& control : session_.controls()) {
-        if (control.command == "pause") paused_ = true;
-        if (control.command == "resume") paused_ = false;
-        if (control.command == "checkpoint") save();
-        if (control.command == "stop") stop = true;
+        if (const auto request = named<Request>(control.command)) obey(*request);
       }
-      if (stop || asked_to_end()) break;
+      if (stop_ || asked_to_end()) break;
       if (!paused_) continue;
       if (at_.step > begun_at_ && !std::exchange(told, true))
         publish(proposal_);  // else nobody hears of this step
@@ -125,7 +123,7 @@ class StandaloneRun {
       clock_.lap(io::Work::waiting);
     } while (paused_);
     throw_if_interrupted();
-    if (!stop && !asked_to_end()) return true;
+    if (!stop_ && !asked_to_end()) return true;
     if (asked_to_end() && at_.step == begun_at_)
       throw Failure(ExitCode::terminated, "ended on request (SIGTERM), before its first step");
     save();
@@ -136,6 +134,23 @@ class StandaloneRun {
     part_.status = "stopped";
     part_.reason = "stopped on request";
     return false;
+  }
+
+  void obey(Request request) {
+    switch (request) {
+      case Request::pause:
+        paused_ = true;
+        break;
+      case Request::resume:
+        paused_ = false;
+        break;
+      case Request::checkpoint:
+        save();
+        break;
+      case Request::stop:
+        stop_ = true;
+        break;
+    }
   }
 
   void save() {
@@ -159,7 +174,7 @@ class StandaloneRun {
   std::string limited_by_;      ///< of the last step: the solver, or a setting
   LastState last_;
   WorkClock clock_;
-  bool end_ = false, fields_written_ = true, paused_ = false;
+  bool end_ = false, fields_written_ = true, paused_ = false, stop_ = false;
   StandaloneWatch watch_;
 };
 

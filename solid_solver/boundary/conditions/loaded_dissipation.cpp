@@ -1,6 +1,6 @@
 #include "solid_solver/boundary/conditions/loaded_dissipation.hpp"
 
-#include "solid_solver/kernels/dissipation.hpp"
+#include "solid_solver/kernels/sweep/dissipation.hpp"
 
 namespace fsi::solid {
 

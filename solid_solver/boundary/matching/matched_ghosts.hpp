@@ -185,12 +185,18 @@ template <Law L>
 void MatchedGhosts<L>::broke(const SidePoint& p, double t) const {
   if (!sides_.owns(p.side, p.k)) return;
   const GridPoint point = grid_point(sides_.layout(), p.side, p.k);
-  const Vec2 T = memory_.T(p.side, p.k);
-  throw Diverged(
-      fmt::format("on side {} the law {} cannot bear the traction ({:.4g}, {:.4g}) per reference area "
-                  "and stay hyperbolic",
-                  name_of(p.side), L::name, T.x(), T.y()),
-      {.t = t, .grid = sides_.grid().name, .point = {point.i, point.j}});
+  const Vec2 T = memory_.T(p.side, p.k), X = sides_.position(sides_.line(p.side).at(p.k, 0));
+  const std::string what =
+      T.allFinite() ? fmt::format(
+                          "on side {} the law {} cannot bear the traction ({:.4g}, {:.4g}) per "
+                          "reference area and stay hyperbolic",
+                          name_of(p.side), L::name, T.x(), T.y())
+                    : fmt::format("on side {} the traction is not a number any more", name_of(p.side));
+  throw Diverged(what, {.t = t,
+                        .grid = sides_.grid().name,
+                        .point = {point.i, point.j},
+                        .position = {X.x(), X.y()},
+                        .of_reference = true});
 }
 
 }  // namespace fsi::solid

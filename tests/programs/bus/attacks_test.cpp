@@ -182,7 +182,7 @@ TEST(Stranger, HearsNothingAndAsksInVain) {
     say("listening");
     for (int k = 0; k < 50; ++k) EXPECT_TRUE(listener.wait(0.02).empty());
     EXPECT_EQ(listener.programs(), 0);
-    EXPECT_THROW(send_control(options.run, "", "stop", 0.3), PeerLost);
+    EXPECT_THROW(send_control(options.run, "", Request::stop, 0.3), PeerLost);
   });
   EXPECT_EQ(stranger.hear(), "listening");
   Trio run(options, many_steps);

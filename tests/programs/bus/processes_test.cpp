@@ -172,7 +172,7 @@ TEST(SideBySide, RunsInOneDomainDoNotSeeEachOther) {
     other = fmt::format("{}/{}", one, k);
   Trio first(protected_options(one), 500), second(protected_options(other), 500);
   Process lonely(
-      [=](const auto&) { EXPECT_THROW(send_control(one + ".", test_key, "stop", 0.3), PeerLost); });
+      [=](const auto&) { EXPECT_THROW(send_control(one + ".", test_key, Request::stop, 0.3), PeerLost); });
   for (Process* process :
        {&first.fluid, &first.beam, &first.coupler, &second.fluid, &second.beam, &second.coupler}) {
     EXPECT_EQ(process->end(), 0) << process->hear();

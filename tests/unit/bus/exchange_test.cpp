@@ -199,7 +199,7 @@ TEST(Exchange, SolverThatNeverFinishesItsStepIsNamed) {
 TEST(Exchange, RequestReachesTheCouplerAndEndsItsIdling) {
   const std::string run = own_run();
   SoloSession solo(options(run), "fluid", "fluid");
-  auto outside = in_thread([&] { send_control(run, "", "pause", 20); });
+  auto outside = in_thread([&] { send_control(run, "", Request::pause, 20); });
   solo.idle(20);
   const auto requests = solo.controls();
   ASSERT_EQ(requests.size(), 1U);
@@ -209,7 +209,7 @@ TEST(Exchange, RequestReachesTheCouplerAndEndsItsIdling) {
 }
 
 TEST(Exchange, RequestToNobodyFails) {
-  EXPECT_THROW(send_control(own_run(), "", "stop", 0.2), PeerLost);
+  EXPECT_THROW(send_control(own_run(), "", Request::stop, 0.2), PeerLost);
 }
 
 TEST(Exchange, ListenerHearsTheNewestTelemetryOfEveryProgram) {

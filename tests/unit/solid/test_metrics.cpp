@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "solid_solver/kernels/dissipation.hpp"
+#include "solid_solver/kernels/sweep/dissipation.hpp"
 #include "solid_solver/laws/neo_hookean.hpp"
 #include "solid_solver/measures/body_integrals.hpp"
 #include "tests/convergence/solid/skewed_grid.hpp"

@@ -11,8 +11,8 @@
 #include <utility>
 
 #include "solid_solver/boundary/ghost_lines.hpp"
-#include "solid_solver/kernels/dissipation.hpp"
-#include "solid_solver/kernels/godunov_sweep.hpp"
+#include "solid_solver/kernels/sweep/dissipation.hpp"
+#include "solid_solver/kernels/sweep/godunov_sweep.hpp"
 #include "solid_solver/laws/neo_hookean.hpp"
 #include "tests/convergence/solid/skewed_grid.hpp"
 

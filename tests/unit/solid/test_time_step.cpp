@@ -5,7 +5,7 @@
 #include <complex>
 
 #include "solid_solver/kernels/impedance.hpp"
-#include "solid_solver/kernels/sweep_rows.hpp"
+#include "solid_solver/kernels/sweep/sweep_rows.hpp"
 #include "solid_solver/laws/linear_elastic.hpp"
 #include "solid_solver/laws/neo_hookean.hpp"
 #include "solid_solver/laws/saint_venant_kirchhoff.hpp"

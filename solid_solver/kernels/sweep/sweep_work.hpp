@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "solid_solver/kernels/update_rows.hpp"
+#include "solid_solver/kernels/sweep/update_rows.hpp"
 
 namespace fsi::solid {
 

@@ -1,4 +1,4 @@
-#include "common/case/grids/other_choices.hpp"
+#include "common/case/grids/choice/other_choices.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

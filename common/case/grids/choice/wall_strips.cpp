@@ -1,4 +1,4 @@
-#include "common/case/grids/wall_strips.hpp"
+#include "common/case/grids/choice/wall_strips.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "common/case/grids/choose_corners.hpp"
+#include "common/case/grids/choice/choose_corners.hpp"
 
 #include <fmt/format.h>
 

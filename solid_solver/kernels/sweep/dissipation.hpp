@@ -4,7 +4,7 @@
 /// points from the old state to the new one; a term whose coefficient is zero is not run at all. They are not
 /// inlined, so that the compiler has room to inline what their loops call and to vectorise them.
 
-#include "solid_solver/kernels/update_rows.hpp"
+#include "solid_solver/kernels/sweep/update_rows.hpp"
 #include "solid_solver/solid_points.hpp"
 
 namespace fsi::solid {

@@ -1,7 +1,7 @@
 #pragma once
 /// The step of one row of points from what the sweep knows of it.
 
-#include "solid_solver/kernels/sweep_rows.hpp"
+#include "solid_solver/kernels/sweep/sweep_rows.hpp"
 
 namespace fsi::solid {
 

@@ -1,4 +1,4 @@
-#include "common/case/grids/choose_grids.hpp"
+#include "common/case/grids/choice/choose_grids.hpp"
 
 #include <fmt/format.h>
 
@@ -9,12 +9,12 @@
 #include "common/case/document/fluid_sections.hpp"
 #include "common/case/document/reader.hpp"
 #include "common/case/grids/block.hpp"
-#include "common/case/grids/choose_corners.hpp"
-#include "common/case/grids/fit_grids.hpp"
+#include "common/case/grids/choice/choose_corners.hpp"
+#include "common/case/grids/choice/fit_grids.hpp"
+#include "common/case/grids/choice/wall_strips.hpp"
 #include "common/case/grids/no_grids_fit.hpp"
 #include "common/case/grids/node_tools.hpp"
 #include "common/case/grids/own_crossing.hpp"
-#include "common/case/grids/wall_strips.hpp"
 #include "common/case/read/build.hpp"
 #include "common/case/read/build_shape.hpp"
 #include "common/case/schema/laws.hpp"

@@ -1,4 +1,4 @@
-#include "common/case/grids/fit_grids.hpp"
+#include "common/case/grids/choice/fit_grids.hpp"
 
 #include <fmt/format.h>
 

@@ -11,9 +11,9 @@
 #include <span>
 #include <utility>
 
-#include "solid_solver/kernels/blocks.hpp"
-#include "solid_solver/kernels/sweep_data.hpp"
-#include "solid_solver/kernels/sweep_work.hpp"
+#include "solid_solver/kernels/sweep/blocks.hpp"
+#include "solid_solver/kernels/sweep/sweep_data.hpp"
+#include "solid_solver/kernels/sweep/sweep_work.hpp"
 #include "solid_solver/solid_points.hpp"
 
 namespace fsi::solid {
