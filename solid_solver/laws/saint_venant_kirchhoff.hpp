@@ -10,6 +10,7 @@ namespace fsi::solid {
 struct SaintVenantKirchhoff {
   static constexpr std::string_view name = "saint_venant_kirchhoff";
   static constexpr bool objective = true;
+  static constexpr bool quick_stiffness = true;  ///< K is a polynomial
   static constexpr std::string_view where_soft =
       "this law loses its stiffness where it is pressed together; `neo_hookean` does not";
 

@@ -2,7 +2,7 @@
 /// One time step of paper eq. (32) at the discretised points of a grid, row by row.
 ///
 /// Row j goes through five loops, each a pass over whole runs of points of structure-of-arrays rows that stay
-/// in cache: `find_stiffness` (F, K), `predict` (slopes, states at t + dt/2), `solve_faces2` (faces between rows j - 1
+/// in cache: `find_stiffness` (F, K; of laws whose K is quick, in the next), `predict` (slopes, states at t + dt/2), `solve_faces2` (faces between rows j - 1
 /// and j), `update` (row j - 1, whose four faces are now known, with what dissipation and relaxation add to it), and
 /// `solve_faces1` (faces inside row j). One Riemann problem per face. Wide grids are swept in strips of columns.
 
@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "solid_solver/kernels/sweep/blocks.hpp"
+#include "solid_solver/kernels/sweep/stiffness_of_row.hpp"
 #include "solid_solver/kernels/sweep/sweep_data.hpp"
 #include "solid_solver/kernels/sweep/sweep_work.hpp"
 #include "solid_solver/solid_points.hpp"
@@ -53,6 +54,7 @@ class GodunovSweep {
 
   // Functions of their own: inlined into run() they would be too much for the compiler to inline what their
   // loops call, and no loop with a call in it vectorises.
+  StiffnessOfRow<L, Row> stiffness_of(int j) const;
   [[gnu::noinline]] void find_stiffness(RowRun run) const;
   [[gnu::noinline]] void predict(RowRun run) const;
   [[gnu::noinline]] SweepResult waves(RowRun run) const;
@@ -102,7 +104,7 @@ SweepResult GodunovSweep<L, Row, limiter>::run_strip(const TermsOf& terms_of, co
   if (rows.first >= rows.end) return result;
   for (int j = rows.first - 1; j <= rows.end; ++j) {
     each_run(j, points.predicted(j), 1, [&](RowRun run) {
-      find_stiffness(run);
+      if constexpr (!quick_stiffness<L>) find_stiffness(run);
       predict(run);
     });
     each_run(j, points.beside(j), 1, [&](RowRun run) {
@@ -141,37 +143,30 @@ void GodunovSweep<L, Row, limiter>::look_at_waves(RowRun run, SweepResult& resul
   if (d_.measures_spread) result.spread_squared = std::max(result.spread_squared, spread_squared(run));
 }
 
-/// K and the acoustic matrices at t + dt/2, from F of u + dt/2 v. Differs from the paper: the acoustic matrix of a
-/// face is the mean of those of its two points, which the time step needs anyway, instead of one from an F
-/// differenced about the face. It multiplies a jump of O(h^3) in smooth flow.
+template <Law L, class Row, Limiter limiter>
+StiffnessOfRow<L, Row> GodunovSweep<L, Row, limiter>::stiffness_of(int j) const {
+  return {.row = Row(metrics_, j),
+          .q = StateRows(d_.q, j),
+          .along1 = work_.acoustic1(),
+          .along2 = work_.acoustic2(j),
+          .stiff = work_.stiffness(j),
+          .sound = work_.soundness(j),
+          .law = law_,
+          .half = 0.5 * d_.dt};
+}
+
+/// A loop of its own: K of some blocks is long in the coming, and other blocks have theirs meanwhile.
 template <Law L, class Row, Limiter limiter>
 void GodunovSweep<L, Row, limiter>::find_stiffness(RowRun run) const {
-  const int j = run.j;
-  const Row row(metrics_, j);
-  const StateRows q(d_.q, j);
-  const AcousticRows along1 = work_.acoustic1(), along2 = work_.acoustic2(j);
-  const StiffnessRows stiff = work_.stiffness(j);
-  double* sound = work_.soundness(j);
-  const L law = law_;
-  const double half = 0.5 * d_.dt;
+  const StiffnessOfRow<L, Row> stiffness = stiffness_of(run.j);
   for (int b = block_with(run.begin); b < run.end; b += block) {
 #pragma omp simd
-    for (int i = b; i < b + block; ++i) {
-      const Tensor2 F = deformation_gradient(row, q, i, half);
-      const Stiffness K = law.K(F);
-      stiff.set(i, K);
-      const SymmetricTensor2 A1 = row.acoustic1(i, K), A2 = row.acoustic2(i, K);
-      along1.set(i, A1);
-      along2.set(i, A2);
-      const double J = determinant(F);
-      sound[i] =
-          J > 0.0 && !(bears_waves(A1) && bears_waves(A2)) ? std::numeric_limits<double>::quiet_NaN() : J;
-    }
+    for (int i = b; i < b + block; ++i) stiffness.find(i);
   }
 }
 
 /// Slopes of v and P; states of the four faces and of the centre at t + dt/2, the last giving its share of u, paper eq.
-/// (37). A loop of its own: K of some blocks is long in the coming, and other blocks have theirs meanwhile.
+/// (37).
 template <Law L, class Row, Limiter limiter>
 void GodunovSweep<L, Row, limiter>::predict(RowRun run) const {
   const int j = run.j;
@@ -179,7 +174,7 @@ void GodunovSweep<L, Row, limiter>::predict(RowRun run) const {
   const StateRows q(d_.q, j);
   const FaceRows to_east = work_.east(), to_west = work_.west(), to_north = work_.north(j),
                  to_south = work_.south();
-  const StiffnessRows stiff = work_.stiffness(j);
+  const StiffnessOfRow<L, Row> stiffness = stiffness_of(j);
   const double *b1 = force(0, j), *b2 = force(1, j);
   double *centre1 = work_.centre(0, j), *centre2 = work_.centre(1, j);
   const double dt = d_.dt, dt_rho = dt / d_.rho;
@@ -190,7 +185,8 @@ void GodunovSweep<L, Row, limiter>::predict(RowRun run) const {
       const Pair s11 = q.P11.template half_slopes<limiter>(i), s12 = q.P12.template half_slopes<limiter>(i);
       const Pair s21 = q.P21.template half_slopes<limiter>(i), s22 = q.P22.template half_slopes<limiter>(i);
       const Pair L1 = row.gradient(i, s1.x, s1.y), L2 = row.gradient(i, s2.x, s2.y);
-      const Tensor2 dP = contract(stiff.at(i), {L1.x, L1.y, L2.x, L2.y});
+      const Tensor2 dP =
+          contract(quick_stiffness<L> ? stiffness.find(i) : stiffness.found(i), {L1.x, L1.y, L2.x, L2.y});
       const double v1 = q.v1[i] + dt_rho * (row.gradient(i, s11.x, s11.y).x +
                                             row.gradient(i, s21.x, s21.y).y + 0.5 * b1[i]);
       const double v2 = q.v2[i] + dt_rho * (row.gradient(i, s12.x, s12.y).x +

@@ -9,7 +9,7 @@ namespace fsi::solid {
 
 /// Rows for as many columns of a grid as are swept at a time, at places that the compiler knows from one another: one
 /// pointer leads to all of them. With a pointer for each the loops were as much about pointers as about points.
-inline constexpr Layout sweep_work(496, 76);
+inline constexpr Layout sweep_work(528, 76);
 
 /// The rows, by the index of the grid's columns. Those of a row number exist for the present and the last row.
 class SweepWork {
