@@ -9,7 +9,6 @@ namespace fsi::solid {
 struct LinearElastic {
   static constexpr std::string_view name = "linear_elastic";
   static constexpr bool objective = false;       ///< a rigid rotation strains E~ to second order in the angle
-  static constexpr bool quick_stiffness = true;  ///< K is constant
 
   double lambda = 0;  ///< Lame constant [pressure]
   double mu = 0;      ///< shear modulus [pressure]

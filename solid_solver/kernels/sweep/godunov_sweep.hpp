@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "solid_solver/kernels/sweep/blocks.hpp"
-#include "solid_solver/kernels/sweep/stiffness_of_row.hpp"
+#include "solid_solver/kernels/sweep/stiffness_at.hpp"
 #include "solid_solver/kernels/sweep/sweep_data.hpp"
 #include "solid_solver/kernels/sweep/sweep_work.hpp"
 #include "solid_solver/solid_points.hpp"
@@ -54,7 +54,6 @@ class GodunovSweep {
 
   // Functions of their own: inlined into run() they would be too much for the compiler to inline what their
   // loops call, and no loop with a call in it vectorises.
-  StiffnessOfRow<L, Row> stiffness_of(int j) const;
   [[gnu::noinline]] void find_stiffness(RowRun run) const;
   [[gnu::noinline]] void predict(RowRun run) const;
   [[gnu::noinline]] SweepResult waves(RowRun run) const;
@@ -143,25 +142,17 @@ void GodunovSweep<L, Row, limiter>::look_at_waves(RowRun run, SweepResult& resul
   if (d_.measures_spread) result.spread_squared = std::max(result.spread_squared, spread_squared(run));
 }
 
-template <Law L, class Row, Limiter limiter>
-StiffnessOfRow<L, Row> GodunovSweep<L, Row, limiter>::stiffness_of(int j) const {
-  return {.row = Row(metrics_, j),
-          .q = StateRows(d_.q, j),
-          .along1 = work_.acoustic1(),
-          .along2 = work_.acoustic2(j),
-          .stiff = work_.stiffness(j),
-          .sound = work_.soundness(j),
-          .law = law_,
-          .half = 0.5 * d_.dt};
-}
-
 /// A loop of its own: K of some blocks is long in the coming, and other blocks have theirs meanwhile.
 template <Law L, class Row, Limiter limiter>
 void GodunovSweep<L, Row, limiter>::find_stiffness(RowRun run) const {
-  const StiffnessOfRow<L, Row> stiffness = stiffness_of(run.j);
+  const Row row(metrics_, run.j);
+  const StateRows q(d_.q, run.j);
+  const PointRows to = work_.points(run.j);
+  const L law = law_;
+  const double half = 0.5 * d_.dt;
   for (int b = block_with(run.begin); b < run.end; b += block) {
 #pragma omp simd
-    for (int i = b; i < b + block; ++i) stiffness.find(i);
+    for (int i = b; i < b + block; ++i) stiffness_at(law, row, q, i, half, to);
   }
 }
 
@@ -174,7 +165,8 @@ void GodunovSweep<L, Row, limiter>::predict(RowRun run) const {
   const StateRows q(d_.q, j);
   const FaceRows to_east = work_.east(), to_west = work_.west(), to_north = work_.north(j),
                  to_south = work_.south();
-  const StiffnessOfRow<L, Row> stiffness = stiffness_of(j);
+  const PointRows points = work_.points(j);
+  const L law = law_;
   const double *b1 = force(0, j), *b2 = force(1, j);
   double *centre1 = work_.centre(0, j), *centre2 = work_.centre(1, j);
   const double dt = d_.dt, dt_rho = dt / d_.rho;
@@ -185,8 +177,9 @@ void GodunovSweep<L, Row, limiter>::predict(RowRun run) const {
       const Pair s11 = q.P11.template half_slopes<limiter>(i), s12 = q.P12.template half_slopes<limiter>(i);
       const Pair s21 = q.P21.template half_slopes<limiter>(i), s22 = q.P22.template half_slopes<limiter>(i);
       const Pair L1 = row.gradient(i, s1.x, s1.y), L2 = row.gradient(i, s2.x, s2.y);
-      const Tensor2 dP =
-          contract(quick_stiffness<L> ? stiffness.find(i) : stiffness.found(i), {L1.x, L1.y, L2.x, L2.y});
+      const Stiffness K =
+          quick_stiffness<L> ? stiffness_at(law, row, q, i, 0.5 * dt, points) : points.stiff.at(i);
+      const Tensor2 dP = contract(K, {L1.x, L1.y, L2.x, L2.y});
       const double v1 = q.v1[i] + dt_rho * (row.gradient(i, s11.x, s11.y).x +
                                             row.gradient(i, s21.x, s21.y).y + 0.5 * b1[i]);
       const double v2 = q.v2[i] + dt_rho * (row.gradient(i, s12.x, s12.y).x +

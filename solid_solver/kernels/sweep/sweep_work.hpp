@@ -3,6 +3,7 @@
 
 #include <cstddef>
 
+#include "solid_solver/kernels/sweep/stiffness_at.hpp"
 #include "solid_solver/kernels/sweep/update_rows.hpp"
 
 namespace fsi::solid {
@@ -40,6 +41,9 @@ class SweepWork {
   }
   /// Velocity of the points at t + dt/2.
   double* centre(int c, int j) const { return row(21 + c, j); }
+  PointRows points(int j) const {
+    return {.stiff = stiffness(j), .along1 = acoustic1(), .along2 = acoustic2(j), .sound = soundness(j)};
+  }
   /// det F, but no number where waves are not real.
   double* soundness(int j) const { return row(23, j); }
   /// Nobody writes there.
