@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <optional>
 #include <variant>
 
 #include "fluid_solver/boundary/every_boundary.hpp"
@@ -75,10 +77,28 @@ class BoundaryConditions {
 
   bool is_mirror(Side side) const { return component_.facts(side).beyond != Beyond::other; }
 
+  const InterfaceValues* projected(Side side) const {
+    const auto found = std::ranges::find(task_.interfaces, side, &InterfaceValues::side);
+    return found == task_.interfaces.end() ? nullptr : &*found;
+  }
+
+  /// Whether of two sides one is an interface and the other one a wall.
+  bool is_foot(Side one, Side other) const {
+    const GasBoundaryFacts &a = component_.facts(one), &b = component_.facts(other);
+    return (a.is_wall && b.meets_solid) || (a.meets_solid && b.is_wall);
+  }
+
+  /// Of an interface along `one`, its normal where it meets `other`.
+  std::optional<Vec2> normal_at_end(Side one, Side other) const {
+    const InterfaceValues* values = projected(one);
+    if (values == nullptr) return std::nullopt;
+    const std::size_t n = values->n.size() / 2, k = at_upper_end(other) ? n - 1 : 0;
+    return Vec2(values->n[k], values->n[n + k]);
+  }
+
   GasSide seen(Side side) const {
     const SidePoints points(layout_, side, component_.live(side), &component_.rows());
     const auto [first, last] = points.neighbours();
-    const auto projected = std::ranges::find(task_.interfaces, side, &InterfaceValues::side);
     return {.q = q_,
             .x = x_,
             .points = points,
@@ -86,10 +106,12 @@ class BoundaryConditions {
             .options = task_.options,
             .motion = component_.wall(side),
             .forcing = component_.forcing(),
-            .projected = projected == task_.interfaces.end() ? nullptr : &*projected,
+            .projected = projected(side),
             .closed = component_.facts(first).beyond == Beyond::period,
             .mirrored_first = is_mirror(first),
             .mirrored_last = is_mirror(last),
+            .held = {is_foot(first, side), is_foot(last, side)},
+            .crossing = {normal_at_end(first, side), normal_at_end(last, side)},
             .grid = component_.grid().name()};
   }
 

@@ -9,8 +9,10 @@
 ///     set_ghosts(GasSide)                other ghosts, beside the points of the side
 ///     set_after_corners(GasSide)         what holds in the corners of the ghost frame, too
 
+#include <array>
 #include <functional>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -45,7 +47,10 @@ struct GasSide {
   const InterfaceValues* projected;    ///< of a side that meets a solid, else null
   bool closed;                         ///< the side is periodic along itself
   bool mirrored_first, mirrored_last;  ///< ghosts beyond its ends along the side are images
-  const std::string& grid;             ///< its name
+  std::array<bool, 2> held;            ///< at its first and last point an interface and a wall meet
+  /// Normals, there, of the interfaces that cross it at its first and last point.
+  std::array<std::optional<Vec2>, 2> crossing;
+  const std::string& grid;  ///< its name
 
   bool limited() const { return options.limiter != Limiter::none; }
   /// Of the chosen solution.
@@ -58,7 +63,9 @@ struct GasSide {
             .a = a,
             .closed = closed,
             .mirrored_first = mirrored_first,
-            .mirrored_last = mirrored_last};
+            .mirrored_last = mirrored_last,
+            .held_first = held[0],
+            .held_last = held[1]};
   }
 };
 

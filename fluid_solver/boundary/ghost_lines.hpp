@@ -21,6 +21,7 @@ struct Wall {
   std::span<const double> a;                           ///< their acceleration
   bool closed = false;                                 ///< the side is periodic along itself
   bool mirrored_first = false, mirrored_last = false;  ///< ghosts beyond its ends along the side are known
+  bool held_first = false, held_last = false;          ///< at its ends another wall holds the gas, too
 };
 
 /// Moving slip wall: density and velocity extrapolated, pressure from the momentum equation on the wall.
@@ -31,7 +32,8 @@ struct Wall {
 ///
 /// Differs from the paper: this is the published compatibility condition with the wall's shear and curvature
 /// written out; the derivative across the side is split into normal and tangential parts so that skewed grids
-/// keep second order.
+/// keep second order. Where another wall holds the gas, too, it goes with the corner: grad p = -rho g_tt. A one-sided
+/// derivative along the side grows there once the two walls are far from a right angle, by what it makes of p itself.
 void wall_ghosts(FieldView q, ConstFieldView x, const SidePoints& side, const Wall& wall, bool limited);
 
 /// Behind an outflow: what leaves along characteristics is extrapolated, what would enter stays as it is on

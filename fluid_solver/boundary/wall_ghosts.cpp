@@ -28,6 +28,9 @@ double pressure_slope(ConstFieldView q, ConstFieldView x, const SidePoints& side
   const auto [i, j] = side.at(k, 0);
   const WallVectors velocity(wall.v, wall.closed);
   const Vec2 n = WallVectors(wall.n, wall.closed)(k), g_tt = WallVectors(wall.a, wall.closed)(k);
+  const Vec2 across = 0.5 * (position(x, side, k, 1) - position(x, side, k, -1));
+  if ((k == 0 && wall.held_first) || (k == side.n() - 1 && wall.held_last))
+    return -q(0, i, j) * across.dot(g_tt);
   const Vec2 before = position(x, side, k - 1, 0), here = position(x, side, k, 0),
              after = position(x, side, k + 1, 0);
   const Vec2 g_r = 0.5 * (after - before), g_rr = after - 2 * here + before;
@@ -45,7 +48,6 @@ double pressure_slope(ConstFieldView q, ConstFieldView x, const SidePoints& side
   };
   const double p_r = along_side(pressure, k, side.n(), !wall.closed && !wall.mirrored_first,
                                 !wall.closed && !wall.mirrored_last);
-  const Vec2 across = 0.5 * (position(x, side, k, 1) - position(x, side, k, -1));
   return p_n * across.dot(n) + p_r * across.dot(g_r) / g_r.squaredNorm();
 }
 

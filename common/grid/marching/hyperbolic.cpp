@@ -11,6 +11,7 @@
 
 #include "common/core/failure.hpp"
 #include "common/grid/geometry/quality.hpp"
+#include "common/grid/marching/ghost_points.hpp"
 
 namespace fsi::grid {
 
@@ -26,11 +27,6 @@ std::size_t unknowns_of(const HyperbolicGrid& grid) {
                                   grid.name, grid.points, grid.lines));
   }
   return static_cast<std::size_t>(grid.ends == Curve::closed ? grid.points - 1 : grid.points);
-}
-
-/// Value that continues v0, v1, v2 (from near to far) one step outward, third order.
-double continued(double v0, double v1, double v2) {
-  return 3 * (v0 - v1) + v2;
 }
 
 }  // namespace
@@ -91,7 +87,7 @@ void HyperbolicMarch::march(std::span<const double> curve, FieldView x, double t
     const int steps = steps_from(x, line, d);
     for (int k = 0; k < steps; ++k) step(x, row_of(line + (k > 0 ? 1 : 0)), row_of(line + 1), d / steps);
   }
-  fill_ghosts(x);
+  fill_ghosts(x, grid_.ends);
   try {
     check_cells(x, grid_.name, t);
   } catch (const Diverged& folded) {
@@ -371,28 +367,6 @@ void HyperbolicMarch::place(FieldView x, int j, int j_next) {
       if (closed() || !wall) continue;
       const std::size_t k = end == 0 ? 0 : n - 1;
       to[k] = ends[end] + (*wall)[c] * wall->dot(step[k]);
-    }
-  }
-}
-
-void HyperbolicMarch::fill_ghosts(FieldView x) const {
-  const int n1 = grid_.points, n2 = grid_.lines;
-  for (int c = 0; c < 2; ++c) {
-    for (int j = 0; j < n2; ++j) {
-      double* row = x.row(c, j);
-      for (int g = 1; g <= Layout::ghosts; ++g) {
-        row[-g] = closed() ? row[n1 - 1 - g] : continued(row[1 - g], row[2 - g], row[3 - g]);
-        row[n1 - 1 + g] = closed() ? row[g] : continued(row[n1 - 2 + g], row[n1 - 3 + g], row[n1 - 4 + g]);
-      }
-    }
-    for (int g = 1; g <= Layout::ghosts; ++g) {
-      double *below = x.row(c, -g), *above = x.row(c, n2 - 1 + g);
-      const double *b0 = x.row(c, 1 - g), *b1 = x.row(c, 2 - g), *b2 = x.row(c, 3 - g);
-      const double *a0 = x.row(c, n2 - 2 + g), *a1 = x.row(c, n2 - 3 + g), *a2 = x.row(c, n2 - 4 + g);
-      for (int i = -Layout::ghosts; i < n1 + Layout::ghosts; ++i) {
-        below[i] = continued(b0[i], b1[i], b2[i]);
-        above[i] = continued(a0[i], a1[i], a2[i]);
-      }
     }
   }
 }

@@ -66,7 +66,7 @@ class HyperbolicMarch {
   void leave_part(std::span<const double> part) { grid_.part.assign(part.begin(), part.end()); }
 
   /// Fills x (planes x1, x2, ghost lines included) from the points of the curve, 2 n component-major.
-  /// Ghosts: periodic or third-order extrapolation. @throws Diverged at a folded cell
+  /// Ghosts as by `fill_ghosts`. @throws Diverged at a folded cell
   void march(std::span<const double> curve, FieldView x, double t);
 
  private:
@@ -107,7 +107,6 @@ class HyperbolicMarch {
   void fill_rows(ConstFieldView x, int j, double d);
   void fill_end(std::size_t k, double d);
   void place(FieldView x, int j, int j_next);
-  void fill_ghosts(FieldView x) const;
   std::string flat_on_wall(ConstFieldView x, double t) const;
 };
 

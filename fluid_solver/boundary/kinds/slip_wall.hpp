@@ -15,8 +15,9 @@ struct SlipWall {
 
   static SlipWall from(const BoundaryData& /*data*/) { return {}; }
 
-  /// n.v := that of the wall; pressure and density follow along
-  /// the simple wave that makes this change of velocity.
+  /// n.v := that of the wall; pressure and density follow along the simple wave that makes this change of velocity. At
+  /// the foot of a body the change is along the interface, whose own condition goes on holding: a change along the
+  /// normal would break it, be undone with the next values of the interface, and pump pressure each time.
   static void set_points(const GasSide& side) {
     const WallMotion& wall = side.motion;
     const auto n = static_cast<std::size_t>(side.points.n());
@@ -26,11 +27,13 @@ struct SlipWall {
       const auto at = side.points.at(static_cast<int>(k), 0);
       const Vec2 normal(wall.normal[k], wall.normal[n + k]);
       StateVector state = load(side.q, at);
+      const Vec2 along = free_direction(side, static_cast<int>(k), normal);
       const double change =
-          normal.dot(velocity_beside(side, static_cast<int>(k)) - Vec2(state.segment<2>(1)));
+          normal.dot(velocity_beside(side, static_cast<int>(k)) - Vec2(state.segment<2>(1))) /
+          normal.dot(along);
       const double a = std::sqrt(gamma * state[3] / state[0]);
       const double a_ratio = std::max(1 + 0.5 * (gamma - 1) * change / a, 0.1);
-      state.segment<2>(1) += change * normal;
+      state.segment<2>(1) += change * along;
       state[0] *= std::pow(a_ratio, 2 / (gamma - 1));
       state[3] *= std::pow(a_ratio, 2 * gamma / (gamma - 1));
       if (side.forcing != nullptr) bring_in(state, side, static_cast<int>(k));
@@ -43,6 +46,16 @@ struct SlipWall {
   }
 
  private:
+  /// In which gas beside point k may yield. An interface that lies almost flat on the wall leaves it no way.
+  static Vec2 free_direction(const GasSide& side, int k, const Vec2& normal) {
+    constexpr double least_sine = 0.1;
+    const std::size_t end = k == 0 ? 0 : 1;
+    if ((k != 0 && k != side.points.n() - 1) || !side.crossing[end]) return normal;
+    const Vec2 t(-side.crossing[end]->y(), side.crossing[end]->x());
+    const double sine = normal.dot(t);
+    return std::fabs(sine) < least_sine ? normal : sine > 0 ? t : Vec2(-t);
+  }
+
   static Vec2 velocity_of(const WallMotion& wall, int k) {
     const auto n = wall.velocity.size() / 2, point = static_cast<std::size_t>(k);
     return {wall.velocity[point], wall.velocity[n + point]};

@@ -12,6 +12,7 @@
 
 #include "common/core/failure.hpp"
 #include "common/grid/geometry/quality.hpp"
+#include "common/grid/marching/ghost_points.hpp"
 #include "common/grid/marching/line_solver.hpp"
 #include "common/grid/shapes/circle.hpp"
 #include "common/grid/shapes/rounded_polygon.hpp"
@@ -248,6 +249,24 @@ TEST(HyperbolicMarch, GhostLinesContinueTheGridSmoothly) {
       EXPECT_NEAR(step, 0.05, 0.002);
     }
   }
+}
+
+TEST(HyperbolicMarch, GhostsOfALineThatBendsSharplyAtItsEndLeaveTheLastCellItsArea) {
+  // The curve leaves its wall at 25 degrees and is upright after one point, as the side of a soft body at its foot.
+  std::vector<double> curve(22);
+  for (std::size_t k = 0; k < 11; ++k) {
+    curve[k] = k == 0 ? 0 : 0.09 + 0.01 * std::min(3.0, static_cast<double>(k));
+    curve[11 + k] = k == 0 ? 0 : 0.04 + 0.1 * static_cast<double>(k - 1);
+  }
+  HyperbolicMarch marcher(beam_grid(11, 6, Side::bottom, 0.02));
+  Field x(marcher.layout(), 2);
+  marcher.march(curve, x.view(), 0);
+  const auto central = [&](int c) { return 0.5 * (x(c, 1, 0) - x(c, -1, 0)); };
+  const double area = std::fabs(central(0) * 0 - central(1) * (x(0, 0, 1) - x(0, 0, 0)));
+  const double cell = std::fabs(x(1, 1, 0) * (x(0, 0, 1) - x(0, 0, 0)));
+  EXPECT_GT(area, 0.5 * cell);  // extrapolation of third order leaves less than nothing
+  const double ghost = std::hypot(x(0, -1, 0), x(1, -1, 0)), last = std::hypot(x(0, 1, 0), x(1, 1, 0));
+  EXPECT_NEAR(ghost / last, 1, largest_change_of_step);
 }
 
 /// Largest distance between the grid around a circle and that around one whose radius swings `waves` times by
