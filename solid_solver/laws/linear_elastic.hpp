@@ -8,7 +8,7 @@ namespace fsi::solid {
 /// paper eq. (11): P = lambda tr(E~) I + 2 mu E~ with the linear strain E~ = (F + F^T) / 2 - I.
 struct LinearElastic {
   static constexpr std::string_view name = "linear_elastic";
-  static constexpr bool objective = false;       ///< a rigid rotation strains E~ to second order in the angle
+  static constexpr bool objective = false;  ///< a rigid rotation strains E~ to second order in the angle
 
   double lambda = 0;  ///< Lame constant [pressure]
   double mu = 0;      ///< shear modulus [pressure]
