@@ -59,15 +59,17 @@ void Component::add_kept_strips(std::vector<Strip>& strips, int grid) const {
   });
 }
 
+/// Plane by plane: one of them at a time is in memory twice.
 void Component::forget_unused_points() {
   for (Field* field : {&state_, &next_}) {
     Field kept(grid_.layout(), 4);
-    each_kept_run(valid_, grid_.layout(), [&](int j, const grid::Interval& run) {
-      for (int plane = 0; plane < 4; ++plane) {
+    for (int plane = 0; plane < 4; ++plane) {
+      each_kept_run(valid_, grid_.layout(), [&](int j, const grid::Interval& run) {
         const double* from = field->view().row(plane, j);
         std::copy(from + run.begin, from + run.end, kept.view().row(plane, j) + run.begin);
-      }
-    });
+      });
+      field->clear_plane(plane);
+    }
     *field = std::move(kept);
   }
 }

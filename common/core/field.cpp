@@ -39,6 +39,10 @@ Field::Field(Layout layout, int planes) : layout_(layout), planes_(planes) {
   zero(data_.get(), size());
 }
 
+void Field::clear_plane(int plane) {
+  zero(data_.get() + static_cast<std::size_t>(plane) * layout_.plane_size(), layout_.plane_size());
+}
+
 Field Field::clone() const {
   Field copy(layout_, planes_);
   std::ranges::copy(values(), copy.values().begin());

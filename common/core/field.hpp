@@ -84,6 +84,8 @@ class Field {
   std::span<double> values() { return {data_.get(), size()}; }
   std::span<const double> values() const { return {data_.get(), size()}; }
   Field clone() const;
+  /// Zeros in a plane, ghosts and padding included; a large one then takes no memory until it is written to.
+  void clear_plane(int plane);
 
  private:
   struct Free {

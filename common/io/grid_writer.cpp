@@ -15,11 +15,18 @@ namespace fsi::io {
 
 namespace {
 
-/// A plane without ghosts and padding, row after row.
-std::vector<double> packed(const ConstFieldView& field, int plane) {
+/// Rows first <= j < end.
+struct Rows {
+  Rows(std::uint64_t first_row, std::uint64_t end_row)
+      : first(static_cast<int>(first_row)), end(static_cast<int>(end_row)) {}
+  int first, end;
+};
+
+/// Rows of a plane without ghosts and padding, one after the other.
+std::vector<double> packed(const ConstFieldView& field, int plane, const Rows& rows) {
   std::vector<double> values;
-  values.reserve(field.layout.points());
-  for (int j = 0; j < field.layout.n2; ++j) {
+  values.reserve(static_cast<std::size_t>(field.layout.n1) * static_cast<std::size_t>(rows.end - rows.first));
+  for (int j = rows.first; j < rows.end; ++j) {
     const double* row = field.row(plane, j);
     values.insert(values.end(), row, row + field.layout.n1);
   }
@@ -31,10 +38,10 @@ Packing packing_of(const GridOutput& grid) {
 }
 
 /// A component of where the points are.
-std::vector<double> moved(const GridOutput& grid, int component) {
-  std::vector<double> x = packed(grid.x, component);
+std::vector<double> moved(const GridOutput& grid, int component, const Rows& rows) {
+  std::vector<double> x = packed(grid.x, component, rows);
   if (grid.u.data == nullptr) return x;
-  const std::vector<double> u = packed(grid.u, component);
+  const std::vector<double> u = packed(grid.u, component, rows);
   for (std::size_t k = 0; k < x.size(); ++k) x[k] += u[k];
   return x;
 }
@@ -44,21 +51,36 @@ void write_positions(Hdf5& group, const GridOutput& grid, const std::array<std::
   const Packing packing = packing_of(grid);
   for (const int c : {0, 1}) {
     const std::string name = fmt::format("x{}", c + 1);
-    if (grid.u.data != nullptr) group.write(name + "_bar", packed(grid.x, c), shape, packing);
-    group.write(name, moved(grid, c), shape, packing);
+    if (grid.u.data != nullptr) {
+      group.write(name + "_bar", shape, packing, [&](std::uint64_t first, std::uint64_t end) {
+        return packed(grid.x, c, {first, end});
+      });
+    }
+    group.write(name, shape, packing, [&](std::uint64_t first, std::uint64_t end) {
+      return moved(grid, c, {first, end});
+    });
   }
-  std::vector<double> both(2 * grid.x.layout.points());
-  for (const int c : {0, 1}) {
-    const std::vector<double> x = moved(grid, c);
-    for (std::size_t k = 0; k < x.size(); ++k) both[2 * k + static_cast<std::size_t>(c)] = x[k];
-  }
-  group.write("x", both, std::array{shape[0], shape[1], std::uint64_t{2}}, packing);
+  group.write(
+      "x", std::array{shape[0], shape[1], std::uint64_t{2}}, packing,
+      [&](std::uint64_t first, std::uint64_t end) {
+        const std::vector<double> x1 = moved(grid, 0, {first, end}), x2 = moved(grid, 1, {first, end});
+        std::vector<double> both(2 * x1.size());
+        for (std::size_t k = 0; k < x1.size(); ++k) {
+          both[2 * k] = x1[k];
+          both[2 * k + 1] = x2[k];
+        }
+        return both;
+      });
 }
 
 /// What each point is, for readers of the file and for VTK.
 void write_kinds(Hdf5& group, const GridOutput& grid, const std::array<std::uint64_t, 2>& shape) {
-  const std::vector<double> kinds(grid.kinds.begin(), grid.kinds.end());
-  group.write("kind", kinds, shape, packing_of(grid));
+  const auto width = static_cast<std::ptrdiff_t>(shape[1]);
+  group.write("kind", shape, packing_of(grid), [&](std::uint64_t first, std::uint64_t end) {
+    const auto from = grid.kinds.begin();
+    return std::vector<double>(from + static_cast<std::ptrdiff_t>(first) * width,
+                               from + static_cast<std::ptrdiff_t>(end) * width);
+  });
   constexpr std::uint8_t shown = 0, hidden = 2;  // vtkDataSetAttributes::HIDDENPOINT
   std::vector<std::uint8_t> ghost_type(grid.kinds.size());
   std::ranges::transform(grid.kinds, ghost_type.begin(), [](int kind) { return kind == 0 ? hidden : shown; });
@@ -70,11 +92,14 @@ void write_grid(Hdf5 group, const GridOutput& grid) {
                          static_cast<std::uint64_t>(grid.x.layout.n1)};
   write_positions(group, grid, shape);
   for (const auto& field : grid.fields) {
-    std::vector<double> values = packed(field.field, field.plane);
-    for (std::size_t k = 0; k < grid.kinds.size(); ++k) {
-      if (grid.kinds[k] == 0) values[k] = std::numeric_limits<double>::quiet_NaN();
-    }
-    group.write(field.name, values, shape, packing_of(grid));
+    group.write(field.name, shape, packing_of(grid), [&](std::uint64_t first, std::uint64_t end) {
+      std::vector<double> values = packed(field.field, field.plane, {first, end});
+      const auto before = static_cast<std::size_t>(first * shape[1]);
+      for (std::size_t k = 0; !grid.kinds.empty() && k < values.size(); ++k) {
+        if (grid.kinds[before + k] == 0) values[k] = std::numeric_limits<double>::quiet_NaN();
+      }
+      return values;
+    });
   }
   if (!grid.kinds.empty()) write_kinds(group, grid, shape);
 }

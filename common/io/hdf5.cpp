@@ -66,12 +66,14 @@ std::vector<std::uint64_t> shape_of(const Handle& dataset) {
   return {extent.begin(), extent.end()};
 }
 
+/// Rows that are compressed, or made, at a time.
+constexpr hsize_t rows_of_a_piece = 32;
+
 /// Rows in pieces that are compressed, fast rather than well.
 void deflate(const Handle& properties, std::vector<hsize_t> extent) {
-  constexpr hsize_t rows = 32;
   constexpr unsigned fast = 1;
   if (H5Zfilter_avail(H5Z_FILTER_DEFLATE) <= 0) return;
-  extent.front() = std::min(extent.front(), rows);
+  extent.front() = std::min(extent.front(), rows_of_a_piece);
   H5Pset_chunk(properties.get(), static_cast<int>(extent.size()), extent.data());
   H5Pset_shuffle(properties.get());
   H5Pset_deflate(properties.get(), fast);
@@ -156,20 +158,23 @@ void Hdf5::link(const std::string& name, const std::string& file, const std::str
   require(status >= 0, path_, fmt::format("cannot link '{}' to '{}'", name, file));
 }
 
+std::int64_t Hdf5::make_dataset(const std::string& name, std::int64_t type,
+                                std::span<const std::uint64_t> shape, Packing packing) {
+  const std::vector<hsize_t> extent(shape.begin(), shape.end());
+  const Handle space(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), H5Sclose);
+  const Handle timeless(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);  // same values, same file
+  H5Pset_obj_track_times(timeless.get(), false);
+  if (packing == Packing::deflated) deflate(timeless, extent);
+  return H5Dcreate2(id_, name.c_str(), type, space.get(), H5P_DEFAULT, timeless.get(), H5P_DEFAULT);
+}
+
 void Hdf5::write_values(const std::string& name, const Values& values, std::span<const std::uint64_t> shape,
                         Packing packing) {
   const auto expected = std::accumulate(shape.begin(), shape.end(), std::uint64_t{1}, std::multiplies<>());
   if (expected != values.count) {
     throw std::logic_error(fmt::format("dataset '{}': {} values do not fill its shape", name, values.count));
   }
-  const std::vector<hsize_t> extent(shape.begin(), shape.end());
-  const Handle space(H5Screate_simple(static_cast<int>(extent.size()), extent.data(), nullptr), H5Sclose);
-  const Handle timeless(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);  // same values, same file
-  H5Pset_obj_track_times(timeless.get(), false);
-  if (packing == Packing::deflated) deflate(timeless, extent);
-  const Handle dataset(
-      H5Dcreate2(id_, name.c_str(), values.in_file, space.get(), H5P_DEFAULT, timeless.get(), H5P_DEFAULT),
-      H5Dclose);
+  const Handle dataset(make_dataset(name, values.in_file, shape, packing), H5Dclose);
   require(
       dataset && H5Dwrite(dataset.get(), values.in_memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data) >= 0,
       path_, fmt::format("cannot write the dataset '{}'", name));
@@ -183,6 +188,30 @@ void Hdf5::write(const std::string& name, std::span<const double> values,
 void Hdf5::write(const std::string& name, std::span<const std::uint8_t> values,
                  std::span<const std::uint64_t> shape, Packing packing) {
   write_values(name, {values.data(), values.size(), H5T_STD_U8LE, H5T_NATIVE_UINT8}, shape, packing);
+}
+
+void Hdf5::write(const std::string& name, std::span<const std::uint64_t> shape, Packing packing,
+                 const std::function<std::vector<double>(std::uint64_t first, std::uint64_t end)>& make) {
+  const Handle dataset(make_dataset(name, H5T_IEEE_F64LE, shape, packing), H5Dclose);
+  const std::string what = fmt::format("cannot write the dataset '{}'", name);
+  require(static_cast<bool>(dataset), path_, what);
+  const Handle in_file(H5Dget_space(dataset.get()), H5Sclose);
+  std::vector<hsize_t> count(shape.begin(), shape.end()), start(shape.size(), 0);
+  for (std::uint64_t first = 0; first < shape.front(); first += rows_of_a_piece) {
+    const std::uint64_t end = std::min<std::uint64_t>(first + rows_of_a_piece, shape.front());
+    start.front() = first;
+    count.front() = end - first;
+    const std::vector<double> values = make(first, end);
+    const Handle in_memory(H5Screate_simple(static_cast<int>(count.size()), count.data(), nullptr), H5Sclose);
+    if (std::cmp_not_equal(H5Sget_simple_extent_npoints(in_memory.get()), values.size()))
+      throw std::logic_error(
+          fmt::format("dataset '{}': {} values do not fill its rows", name, values.size()));
+    const bool chosen =
+        H5Sselect_hyperslab(in_file.get(), H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr) >= 0;
+    require(chosen && H5Dwrite(dataset.get(), H5T_NATIVE_DOUBLE, in_memory.get(), in_file.get(), H5P_DEFAULT,
+                               values.data()) >= 0,
+            path_, what);
+  }
 }
 
 void Hdf5::write(const std::string& name, std::span<const double> values) {

@@ -3,6 +3,7 @@
 /// errors. The only code that includes hdf5.h is hdf5.cpp.
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -42,6 +43,10 @@ class Hdf5 {
   void write(const std::string& name, std::span<const double> values, std::span<const std::uint64_t> shape,
              Packing packing = Packing::plain);
   void write(const std::string& name, std::span<const double> values);
+  /// The same with values that are made while they are written, some rows at a time: no copy of all of them need exist.
+  /// `make(first, end)` gives those of the rows first .. end - 1, the first index of `shape`.
+  void write(const std::string& name, std::span<const std::uint64_t> shape, Packing packing,
+             const std::function<std::vector<double>(std::uint64_t first, std::uint64_t end)>& make);
   /// Small whole numbers, a byte each.
   void write(const std::string& name, std::span<const std::uint8_t> values,
              std::span<const std::uint64_t> shape, Packing packing = Packing::plain);
@@ -77,6 +82,8 @@ class Hdf5 {
   std::int64_t id_ = -1;
   bool is_file_ = false;
 
+  std::int64_t make_dataset(const std::string& name, std::int64_t type, std::span<const std::uint64_t> shape,
+                            Packing packing);
   void write_values(const std::string& name, const Values& values, std::span<const std::uint64_t> shape,
                     Packing packing);
 };

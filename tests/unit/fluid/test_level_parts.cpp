@@ -2,17 +2,32 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
 
+#include "common/core/field.hpp"
 #include "fluid_solver/levels/cell_mask.hpp"
 #include "fluid_solver/levels/transfer.hpp"
 
 namespace fsi::fluid {
 namespace {
+
+TEST(Field, ClearsAPlaneAndLeavesTheOthers) {
+  for (const int width : {5, 700}) {  // small, and so large that its pages are given back
+    Field field(Layout(width, 400), 3);
+    std::ranges::fill(field.values(), 1.5);
+    field.clear_plane(1);
+    const auto n = static_cast<std::ptrdiff_t>(field.layout().plane_size());
+    const auto first = field.values().begin();
+    EXPECT_EQ(std::count(first, first + n, 1.5), n);
+    EXPECT_EQ(std::count(first + n, first + 2 * n, 0.0), n);
+    EXPECT_EQ(std::count(first + 2 * n, first + 3 * n, 1.5), n);
+  }
+}
 
 TEST(LevelPolynomials, HaveTheCoarseValuesAsAverages) {
   constexpr double gamma = 1.4;

@@ -1,7 +1,12 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <numeric>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include "common/core/failure.hpp"
 #include "common/io/hdf5.hpp"
@@ -36,6 +41,35 @@ TEST_F(Hdf5File, GivesBackEveryBitAndTheShape) {
   EXPECT_TRUE(file.has("grid/rho"));
   EXPECT_FALSE(file.has("grid/p"));
   EXPECT_FALSE(file.has("other/rho"));
+}
+
+TEST_F(Hdf5File, OfRowsThatAreMadeWhileTheyAreWrittenIsTheSameToTheBit) {
+  constexpr std::uint64_t rows = 75, width = 7;  // no multiple of what is written at a time
+  std::vector<double> values(rows * width);
+  std::iota(values.begin(), values.end(), 0.1);
+  const std::vector<std::uint64_t> shape{rows, width};
+  for (const Packing packing : {Packing::plain, Packing::deflated}) {
+    std::uint64_t most = 0, next = 0;
+    Hdf5 file = Hdf5::create(dir + "/rows.h5");
+    file.write("at_once", values, shape, packing);
+    file.write("by_rows", shape, packing, [&](std::uint64_t first, std::uint64_t end) {
+      EXPECT_EQ(first, std::exchange(next, end));
+      most = std::max(most, end - first);
+      return std::vector<double>(values.begin() + static_cast<std::ptrdiff_t>(first * width),
+                                 values.begin() + static_cast<std::ptrdiff_t>(end * width));
+    });
+    EXPECT_LT(most, rows / 2);
+    EXPECT_EQ(file.read("by_rows").values, values);
+    EXPECT_EQ(file.read("by_rows").shape, file.read("at_once").shape);
+  }
+}
+
+TEST_F(Hdf5File, RefusesRowsOfAnotherWidth) {
+  Hdf5 file = Hdf5::create(dir + "/rows.h5");
+  const auto narrow = [](std::uint64_t first, std::uint64_t end) {
+    return std::vector<double>(2 * (end - first));
+  };
+  EXPECT_THROW(file.write("x", std::vector<std::uint64_t>{4, 3}, Packing::plain, narrow), std::logic_error);
 }
 
 TEST_F(Hdf5File, FollowsALinkIntoAnotherFileFromAnyWorkingDirectory) {
