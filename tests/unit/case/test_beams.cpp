@@ -26,11 +26,11 @@ solids:
     boundary: {left: free, right: free, bottom: free, top: free}
 )";
 
-struct Mistake {
+struct BeamMistake {
   std::string text, setting, says;  ///< of the message; empty: there is none
 };
 
-void expect_messages(const std::vector<Mistake>& mistakes) {
+void expect_messages(const std::vector<BeamMistake>& mistakes) {
   for (const auto& [text, setting, says] : mistakes) {
     std::vector<std::string> settings;
     const std::size_t second = setting.find(",solids");
