@@ -102,8 +102,8 @@ def _make_directory(request, name):
 # --- the programs
 
 
-def _programs(case, directory, entry, checkpoint, reports, request):
-    """`reports`: {name: file in memory} for a copy of what each leaves."""
+def _programs(case, directory, entry, checkpoint, reports, memory, request):
+    """`reports`: {name: file in memory} for a copy of what each leaves. `memory`: of ranks on this machine."""
     asked = ranks.wanted(request.ranks, case)
     far = hosts.wanted(request.hosts, case)
     networks = hosts.networks(far)
@@ -118,6 +118,8 @@ def _programs(case, directory, entry, checkpoint, reports, request):
     for name, program in case.programs.items():
         command, number = [paths.program(program), *common, "--name", name, *own.get(name, [])], asked.get(name, 1)
         environment = {"AMP_FSI_KEY": entry.key, "AMP_FSI_BIN": str(paths.BIN.resolve())} | (ranks.environment() if number > 1 else {})
+        if name not in far:
+            environment |= memory
         if networks:
             environment["AMP_FSI_NETWORK"] = networks[far[name].address if name in far else ""]
         programs.append(Program(
@@ -288,8 +290,9 @@ def run(request):
         protection = request.protection or ("encrypt" if far else "sign")
         network = hosts.networks(far).get("", "")
         entered = registry.Entry(identity, directory.resolve(), case.name, protection, case.programs, network)
-        with interrupts.held(), entered as entry, interrupts.heard():
-            programs = _programs(case, directory, entry, checkpoint, reports, request)
+        most = max(ranks.wanted(request.ranks, case).values(), default=1)
+        with interrupts.held(), entered as entry, ranks.memory(most) as memory, interrupts.heard():
+            programs = _programs(case, directory, entry, checkpoint, reports, memory, request)
             outcome, told = _watched(case, directory, programs, identity, request, say)
         parts = summary.read_parts(directory, case.programs, _copies(reports))
     found = verdict.judge(outcome, case, directory, parts)

@@ -40,7 +40,8 @@ class Guard:
     def __init__(self, order):
         self._ranks = order["ranks"]
         self._report = os.memfd_create("report")
-        environment = os.environ | order["environment"]
+        self._memory = contextlib.ExitStack()
+        environment = os.environ | order["environment"] | self._memory.enter_context(ranks.memory(self._ranks))
         # mpirun passes no open files on.
         environment["AMP_FSI_REPORT"] = str(self._report) if self._ranks == 1 else f"/proc/{os.getpid()}/fd/{self._report}"
         os.chdir(order["folder"])
@@ -85,6 +86,7 @@ class Guard:
                     self._send(signal.SIGKILL)
         for pid in ranks.members(self._process.pid) if self._ranks > 1 else ():     # they do not outlive their mpirun
             processes.signal_to(pid, signal.SIGKILL)
+        self._memory.close()
         return {"code": self._process.wait(), "report": os.pread(self._report, os.fstat(self._report).st_size, 0).decode("utf-8", "replace")}
 
 

@@ -5,9 +5,11 @@ rank 0 speaks with the other programs. mpirun passes SIGUSR1 on, which a rank ta
 them. On this machine only: nothing listens on a network.
 """
 
+import contextlib
 import os
 import shutil
 import signal
+import tempfile
 from pathlib import Path
 
 from fsi_launch import paths
@@ -19,6 +21,8 @@ PACKAGES = "openmpi-bin libopenmpi-dev"
 GAS = "fluid_solver"
 SOLID = "solid_solver_"             # and the name of its law
 ONE_RANK = ("solid_solver_rigid", "solid_solver_beam")      # few numbers, no grid
+SHARED = Path("/dev/shm")           # what ranks share: Open MPI leaves its part there, and its folder in /tmp, where mpirun is killed
+FOLDER = "amp-fsi-ranks-"           # and who began with it: pid, its start, something new
 MOST = 64
 LEAST_POINTS = 20000                # a rank, where `auto` chooses
 EXTRA = []                          # words for every rank (tests)
@@ -94,6 +98,28 @@ def command(words, number):
 def environment():
     """Of mpirun. That it may run as root goes without saying: so does everything else here."""
     return {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"} if os.geteuid() == 0 else {}
+
+
+@contextlib.contextmanager
+def memory(number):
+    """Where the ranks of the mpiruns within this context share memory, as their environment; nothing of it is left behind.
+    `number`: of ranks; {} for one."""
+    if number == 1 or not os.access(SHARED, os.W_OK):
+        yield {}
+        return
+    _forget_dead()
+    with tempfile.TemporaryDirectory(prefix=f"{FOLDER}{os.getpid()}-{processes.start_time(os.getpid())}-", dir=SHARED,
+                                     ignore_cleanup_errors=True) as folder:
+        yield {"OMPI_MCA_btl_vader_backing_directory": folder, "OMPI_MCA_orte_tmpdir_base": folder}
+
+
+def _forget_dead():
+    """Removes what is left of launchers of this user's that were killed with SIGKILL."""
+    for folder in SHARED.glob(f"{FOLDER}*"):
+        pid, born = folder.name.removeprefix(FOLDER).split("-")[:2]
+        with contextlib.suppress(OSError):
+            if folder.stat().st_uid == os.getuid() and processes.start_time(int(pid)) != int(born):
+                shutil.rmtree(folder, ignore_errors=True)
 
 
 def cores(asked):

@@ -19,9 +19,9 @@ from pathlib import Path
 from fsi_launch import paths
 from fsi_launch.results import restart
 from fsi_launch.failure import DONE, EXPECTATION_MISSED, Failure, INTERNAL_ERROR
+from fsi_launch.living import ranks
 from fsi_launch.living.processes import programs_of, until
 
-OF_RANKS = "vader_segment."  # names of the memory that ranks of other runs share; those here have none
 PEER_TIMEOUT = 4.0      # [s] of the runs: a stopped program is lost after it
 STOP_FOR = 1.0          # [s] and goes on as if nothing had been
 WATCHDOG = 240.0        # [s] nothing here takes so long: what does hangs
@@ -124,7 +124,8 @@ def _reason(directory):
 
 
 def _shared_memory():
-    return {entry.name for entry in Path("/dev/shm").iterdir() if not entry.name.startswith(OF_RANKS)}
+    """Without that of ranks: the runs here have none, other runs may."""
+    return {entry.name for entry in ranks.SHARED.iterdir() if not entry.name.startswith(ranks.FOLDER)}
 
 
 # --- one trial

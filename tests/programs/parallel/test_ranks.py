@@ -25,6 +25,11 @@ from many_on_ranks import LASTING, RECUT, compare_all, compare_in_turn, kill_aga
 MISSING = [what for what, there in (("libfsi_ranks_mpi.so", (BIN / "libfsi_ranks_mpi.so").is_file()),
                                     ("mpirun", shutil.which("mpirun"))) if not there]
 
+def memory_of(run):
+    """The folder in memory that the ranks of a run share; None when there is none."""
+    return next(Path("/dev/shm").glob(f"amp-fsi-ranks-{run.process.pid}-*"), None)
+
+
 # As LASTING, with a solid of two ranks.
 LASTING_SOLID = (*LASTING[:-1], "solid=2")
 
@@ -230,12 +235,28 @@ class Faults(OnRanks):
     def lose(self, rank, number):
         run = self.launch(*self.lasting, script=PATIENT)
         ranks, mpirun = self.ranks_of(run)
+        self.assertEqual(len(list(memory_of(run).rglob("vader_segment.*"))), 2)
         os.kill(mpirun if rank is None else ranks[rank], number)
         self.assertEqual(run.wait(), 4, run.stderr)
         self.assertEqual(run.summary()["status"], "failed")
         self.assertTrue(until(lambda: not any(Path(f"/proc/{pid}").exists() for pid in (*ranks.values(), mpirun))))
         self.assert_nothing_left(run)
+        self.assertIsNone(memory_of(run))
         return run.summary()["reason"]
+
+    def test_memory_of_killed_launchers_is_freed_by_the_next_run(self):
+        run = self.launch(*self.lasting, script=PATIENT)
+        _, mpirun = self.ranks_of(run)
+        run.process.kill()
+        os.kill(mpirun, signal.SIGKILL)
+        run.wait()
+        self.assertIsNotNone(memory_of(run))
+        other = self.launch(*self.lasting, out="other")
+        other.until_stepping()
+        self.assertIsNone(memory_of(run))
+        other.process.send_signal(signal.SIGTERM)
+        self.assertEqual(other.wait(), 143, other.stderr)
+        self.assert_nothing_left(run)
 
     def test_killed_rank(self):
         self.assertRegex(self.lose(1, signal.SIGKILL), rf"rank 1 of {self.who[0]}")
