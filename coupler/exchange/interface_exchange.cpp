@@ -118,7 +118,7 @@ void InterfaceExchange::check_solid(const Moment& moment, const wire::PredictedI
 std::string InterfaceExchange::why_broken() const {
   return fmt::format(
       "the solid is no longer hyperbolic, which too large a strain does, or too large a step, or noise; "
-      "try a smaller time.cfl, such as 0.3, or solids.{}.scheme.relaxation: {{scaled: 0.5}}",
+      "try a smaller time.cfl, such as 0.3, or a stiffer solids.{}",
       pair_.solid);
 }
 

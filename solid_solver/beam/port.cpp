@@ -66,10 +66,11 @@ BeamParticipant::BeamParticipant(const Setup& setup, const SolidSpec& spec)
               .points = static_cast<std::size_t>(motion_.model().nodes()),
               .meets_gas = from_case_.meets_gas};
   for (const Skin& skin : skins_) shape.outlines.push_back(skin.outline());
-  begin(std::move(shape), "beam", [&](std::size_t l, std::size_t i) -> Vec2 {
+  const auto beside_the_line = [&](std::size_t l, std::size_t i) -> Vec2 {
     const std::vector<double>& x = skins_[l].outline().x;
     return Vec2(x[i], x[skins_[l].points() + i]) - (1 - beside) * skins_[l].place(i).r;
-  });
+  };
+  begin(std::move(shape), "beam", beside_the_line, false);
 }
 
 ProposedTimeStep BeamParticipant::compute_time_step() const {

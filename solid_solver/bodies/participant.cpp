@@ -17,20 +17,20 @@ BodyParticipant::BodyParticipant(const Setup& setup, const SolidSpec& spec,
       probe_table_(probe_table(setup, spec.name, quantities)) {}
 
 void BodyParticipant::begin(Shape shape, const std::string& grid,
-                            const std::function<Vec2(std::size_t, std::size_t)>& inside) {
+                            const std::function<Vec2(std::size_t, std::size_t)>& inside, bool around) {
   shape_ = std::move(shape);
   initial_ = totals();
   for (std::size_t l = 0; l < shape_.outlines.size(); ++l) {
     const std::vector<double>& x = shape_.outlines[l].x;
-    const std::size_t n = x.size() / 2;
+    const std::size_t n = x.size() / 2, columns = around ? n + 1 : n;
     Drawn& drawn = drawn_.emplace_back();
     drawn.grid = l == 0 ? grid : grid + "_" + gases_at(spec_)[l];
-    drawn.reference = Field(Layout(static_cast<int>(n), 2), 2);
-    drawn.state = Field(Layout(static_cast<int>(n), 2), static_cast<int>(quantities_.size()));
-    for (std::size_t i = 0; i < n; ++i) {
-      const Vec2 inner = inside(l, i);
+    drawn.reference = Field(Layout(static_cast<int>(columns), 2), 2);
+    drawn.state = Field(Layout(static_cast<int>(columns), 2), static_cast<int>(quantities_.size()));
+    for (std::size_t i = 0; i < columns; ++i) {
+      const Vec2 inner = inside(l, i % n);
       for (int c = 0; c < 2; ++c) {
-        drawn.reference(c, static_cast<int>(i), 0) = x[static_cast<std::size_t>(c) * n + i];
+        drawn.reference(c, static_cast<int>(i), 0) = x[static_cast<std::size_t>(c) * n + i % n];
         drawn.reference(c, static_cast<int>(i), 1) = inner[c];
       }
     }

@@ -50,8 +50,9 @@ class BodyParticipant : public Participant {
   };
   /// Once, when the body is there. @param grid name in the fields
   /// @param inside reference positions of the line inside an outline, point by point
+  /// @param around whether the outline is drawn back to its first point, as around a body that a wall cuts off
   void begin(Shape shape, const std::string& grid,
-             const std::function<Vec2(std::size_t, std::size_t)>& inside);
+             const std::function<Vec2(std::size_t, std::size_t)>& inside, bool around);
 
   virtual BodyTotals totals() const = 0;
   /// Whether nothing but the gas acts on the body.

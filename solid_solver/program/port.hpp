@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <string>
@@ -64,6 +65,7 @@ class SolidParticipant final : public Participant {
   void fill(std::size_t k, wire::PredictedInterface& predicted) const override {
     const Meeting& meeting = body_.meetings()[k];
     body_.show(meeting, interface_);
+    expect_waves(meeting);
     predicted.x = interface_.x;
     move_along(meeting, predicted.x);
     predicted.v = interface_.v;
@@ -77,6 +79,7 @@ class SolidParticipant final : public Participant {
 
   void advance(double t, double dt, int substeps, ProjectedStates projected) override {
     crew_.advance(t, dt, substeps, answers(projected), [this](io::Work work) { lap(work); });
+    squeeze_.add(solver_.health().min_det_F);
   }
 
   std::vector<io::GridOutput> fields_now() override {
@@ -123,7 +126,7 @@ class SolidParticipant final : public Participant {
 
   std::string remedy() const override {
     constexpr bool softens = requires { L::where_soft; };
-    return remedy_for(spec_.name, spec_.scheme, spec_.lambda / spec_.mu, softens);
+    return remedy_for(spec_.name, spec_.scheme, spec_.lambda / spec_.mu, softens, squeeze_.by_load());
   }
   wire::Health health() const override {
     return {.min_rho = 0,
@@ -184,6 +187,21 @@ class SolidParticipant final : public Participant {
                           .w_n = p->w_n,
                           .gas = {.z_f = p->z_f, .t = p->robin_t, .r = p->robin_r}});
     return answers_;
+  }
+
+  /// @throws Diverged where the solid has lost its waves at an interface, which is in `interface_`
+  void expect_waves(const Meeting& meeting) const {
+    const std::size_t n = interface_.x.size() / 2;
+    for (std::size_t k = 0; k < interface_.Z.size(); ++k) {
+      if (std::isfinite(interface_.Z[k])) continue;
+      const std::vector<double> x_bar = body_.reference_points(meeting);
+      throw Diverged("the solid carries no waves any more: its impedance is not a number",
+                     {.t = solver_.t(),
+                      .interface = meeting.name,
+                      .point = {static_cast<int>(k % n)},
+                      .position = {x_bar[k % n], x_bar[n + k % n]},
+                      .of_reference = true});
+    }
   }
 
   std::vector<Strip> strips_of_probes() const {
@@ -286,6 +304,7 @@ class SolidParticipant final : public Participant {
   std::vector<ProbePoint> probes_;
   Totals initial_totals_;
   TimeIntegral<3> received_;  ///< of the gas: force, power
+  Squeeze squeeze_;
   std::optional<grid::RippleWatch> ripples_;
   std::vector<grid::WatchedGrid> watched_;  ///< work memory
 };

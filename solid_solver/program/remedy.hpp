@@ -1,5 +1,5 @@
 #pragma once
-/// What to change in a case whose solid has broken, by its scheme and its material.
+/// What to change in a case whose solid has broken, by its scheme, its material and how it came to it.
 
 #include <fmt/format.h>
 
@@ -10,11 +10,37 @@
 
 namespace fsi::solid {
 
+/// How long a solid has been pressed together until it broke. Noise does that within a few steps, a load takes many.
+class Squeeze {
+ public:
+  static constexpr double strong = 0.4;  ///< det F [-], below which no scheme keeps a body from folding
+  static constexpr int lasting = 20;     ///< [steps]
+
+  /// @param det_F the least of a step
+  void add(double det_F) {
+    steps_ = det_F < strong ? steps_ + 1 : 0;
+    if (steps_ > 0) det_F_ = det_F;
+  }
+  /// The last det F of a solid that its load breaks; 1 for any other.
+  double by_load() const { return steps_ >= lasting ? det_F_ : 1; }
+
+ private:
+  int steps_ = 0;
+  double det_F_ = 1;
+};
+
+/// @param squeezed  Squeeze::by_load
 /// @param stiffness lambda / mu. Of nearly incompressible solids, Poisson's ratios beyond 0.45, (41) is taken out and never
 ///                  put in: what it does to the traction of loaded sides is in proportion to lambda (docs/theory_solid.md)
 /// @param softens   the law carries no waves beyond some strain, and another one does
 inline std::string remedy_for(const std::string& solid, const SolidScheme& scheme, double stiffness,
-                              bool softens) {
+                              bool softens, double squeezed = 1) {
+  if (squeezed < 1)
+    return fmt::format(
+        "a stiffer solids.{} or a weaker load: pressure had squeezed it there to {:.2g} of its volume "
+        "before, "
+        "which a sharp corner of a clamped side reaches the sooner the finer the grid is",
+        solid, squeezed);
   const std::string path = "solids." + solid + ".scheme";
   const bool nearly_incompressible = stiffness > 10;
   const auto is_zero = [](const fsi::Beta& beta) { return beta.rate == 0 && beta.scaled == 0; };

@@ -24,7 +24,8 @@ RigidParticipant::RigidParticipant(const Setup& setup, const SolidSpec& spec)
       own_(own_load(0)) {
   Shape shape{.outlines = {}, .points = body_.points(), .meets_gas = from_case_.meets_gas};
   for (std::size_t k = 0; k < body_.outlines(); ++k) shape.outlines.push_back(body_.outline(k));
-  begin(std::move(shape), "body", [&](std::size_t, std::size_t) { return body_.reference_centre(); });
+  begin(
+      std::move(shape), "body", [&](std::size_t, std::size_t) { return body_.reference_centre(); }, true);
 }
 
 ProposedTimeStep RigidParticipant::compute_time_step() const {

@@ -336,6 +336,21 @@ class Schlieren(unittest.TestCase):
         still.fields["v1"] += 1
         self.assertEqual(len(draw().axes), 2)
 
+    def test_walls_are_not_as_white_as_gas_that_rests(self):
+        gas = self.gas(lambda x, y: 1 + 0.3 * (x > 0.5))
+        gas.grids[0].kind[:8, :15] = 0      # behind a step
+        [(_, draw)] = schlieren.pictures([data.Series("fluid", [gas])], scales.Scales(1, 1, 1))
+        figure = draw()
+        figure.canvas.draw()
+        shown = np.asarray(figure.canvas.buffer_rgba())[::-1, :, :3]
+        box = figure.axes[0].get_window_extent()
+
+        def colour(x, y):
+            return tuple(shown[int(box.y0 + y * box.height), int(box.x0 + x * box.width)])
+
+        self.assertEqual(colour(0.15, 0.8), (255, 255, 255))
+        self.assertNotEqual(colour(0.15, 0.15), (255, 255, 255))
+
     def test_a_solid_beside_the_gas_is_within_the_picture(self):
         around = data.Output(1.0, [ring()])
         (left, right), (bottom, top) = schlieren._box(self.gas(lambda x, y: 1 + x), [around])

@@ -97,6 +97,18 @@ class CompositeGrids(EndToEnd):
                          {"fields_0000", "grid", "grid_disk", "radius_0000", "axis_0000", "streamlines", "interface", "forces_disk"})
 
 
+class RigidBodies(EndToEnd):
+    def test_one_that_a_wall_cuts_off_is_drawn_whole(self):
+        import numpy as np
+        from fsi_launch.plot.reading import data, mesh
+        run = self.complete("panel_on_step", "--set", "time.end=0.01", "--set", "output.every=0.01", "--set", "expect={}")
+        [panel] = [one for one in data.all_series(run.directory) if not one.is_gas()]
+        [grid] = panel.outputs[-1].grids
+        corners = np.column_stack([grid.x1.ravel(), grid.x2.ravel()])[mesh.triangles(grid).triangles]
+        a, b = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+        self.assertAlmostEqual(0.5 * np.abs(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]).sum(), 4 * 50, delta=1e-9)
+
+
 class ExactSolutions(EndToEnd):
     """Beside a run whose solution is known in formulas, reference.h5 has it along the line that pictures draw."""
 

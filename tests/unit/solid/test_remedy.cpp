@@ -41,5 +41,18 @@ TEST(Remedy, NamesWhatIsMissingFirst) {
   EXPECT_EQ(remedy_for("bar", scheme, 49, true), "solids.bar.scheme.limiter: minmod, for jumps");
 }
 
+TEST(Remedy, ASolidThatItsLoadSqueezesIsNotToldToRelax) {
+  Squeeze by_load, by_noise;
+  for (int step = 0; step < 100; ++step) by_load.add(0.5 - 0.0045 * step);
+  EXPECT_NEAR(by_load.by_load(), 0.5 - 0.0045 * 99, 1e-12);
+  for (const double det_F : {1.0, 0.9, 0.3, 0.1}) by_noise.add(det_F);
+  EXPECT_EQ(by_noise.by_load(), 1);
+  by_load.add(0.9);  // it came back
+  EXPECT_EQ(by_load.by_load(), 1);
+  EXPECT_NE(remedy_for("bar", relaxed({.scaled = 0.2}), 1, false, 0.05).find("a stiffer solids.bar"),
+            std::string::npos);
+  EXPECT_EQ(remedy_for("bar", relaxed({.scaled = 0.2}), 1, false, 1), remedy_of({.scaled = 0.2}, 1));
+}
+
 }  // namespace
 }  // namespace fsi::solid

@@ -19,6 +19,7 @@ SOLID_MAP = "magma"
 SIGNED_MAP = "RdBu_r"
 SOLID_FILL = "#d9d4cb"
 SOLID_EDGE = "#5c5346"
+WALL_FILL = "#ece8df"   # what is neither gas nor solid
 GAS_EDGE = "#2f6f9f"
 # The paper's colours of grids: background and body-fitted; the latter in turn, where there are several.
 GAS_GRIDS = ("#2b5ea8", ("#1d8a3d", "#0f8f93", "#8a8a12", "#59a14f"))

@@ -8,6 +8,7 @@ from functools import partial
 import numpy as np
 from matplotlib import pyplot
 from matplotlib.collections import LineCollection
+from matplotlib.patches import Rectangle
 
 from fsi_launch.plot.look import shading, style, units
 from fsi_launch.plot.reading import data, mesh
@@ -16,6 +17,7 @@ from fsi_launch.plot.reading.scales import Scales
 MOST_TIMES = 12        # pictures of fields; of a longer series, times evenly spread
 CONTOURS = 16          # lines, where they are asked for; an even number keeps off the zero of signed fields
 SLOW = 0.05            # solids that move at less than this part of the gas's speed have a scale of their own: one would hide their waves
+RIM = 0.005            # around all points, part of the longer side of their box
 ROUND_OFF = 1e-12      # variation, part of the values, that is no variation
 
 
@@ -61,7 +63,7 @@ def box_around(grids):
     """(x low, x high, y low, y high) around the used points, with room for the line of a rim."""
     x1 = np.concatenate([grid.x1[grid.used()] for grid in grids])
     x2 = np.concatenate([grid.x2[grid.used()] for grid in grids])
-    rim = 0.005 * max(np.ptp(x1), np.ptp(x2))
+    rim = RIM * max(np.ptp(x1), np.ptp(x2))
     return x1.min() - rim, x1.max() + rim, x2.min() - rim, x2.max() + rim
 
 
@@ -168,6 +170,14 @@ def outline(axes, grids):
     axes.add_collection(LineCollection(lines, colors=style.SOLID_EDGE, linewidths=0.7))
 
 
+def _ground(axes):
+    """What is neither gas nor solid, within the box around all points: walls, as the background's rectangle has them."""
+    (left, right), (bottom, top) = axes.get_xlim(), axes.get_ylim()
+    rim = RIM / (1 + 2 * RIM) * max(right - left, top - bottom)
+    axes.add_patch(Rectangle((left + rim, bottom + rim), right - left - 2 * rim, top - bottom - 2 * rim, color=style.WALL_FILL, linewidth=0,
+                             zorder=0))
+
+
 def _draw(figure, axes, gas, solids, panel, look):
     """One panel."""
     if solids and panel.of_solid:  # the bar drawn first is the one further out
@@ -176,6 +186,7 @@ def _draw(figure, axes, gas, solids, panel, look):
         if not panel.one_scale():
             style.bar(figure, axes, drawn, "solid" if gas else "", panel.solid_range[2])
     if gas:
+        _ground(axes)
         drawn = _colour(axes, [gas], panel.of_gas, style.GAS_MAP, panel.gas_range, look)
         style.bar(figure, axes, drawn, "gas" if solids and not panel.one_scale() else "", panel.gas_range[2])
     for solid in solids:

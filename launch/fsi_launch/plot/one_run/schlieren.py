@@ -5,7 +5,7 @@ from functools import partial
 
 import numpy as np
 from matplotlib import pyplot
-from matplotlib.collections import LineCollection, TriMesh
+from matplotlib.collections import LineCollection
 
 from fsi_launch.plot.look import shading, style, units
 from fsi_launch.plot.one_run import fields
@@ -74,20 +74,6 @@ def scales(gas_outputs, solid_outputs):
     return Scales(np.percentile(np.concatenate(sizes), TYPICAL), max(speeds, default=0.0))
 
 
-def _shade(axes, grid, grey):
-    """Grey values of one component grid: a picture of a Cartesian one, triangles of others."""
-    if grid.is_cartesian():
-        shown = np.ma.masked_array(grey, ~grid.used())
-        h1, h2 = grid.x1[0, 1] - grid.x1[0, 0], grid.x2[1, 0] - grid.x2[0, 0]
-        axes.imshow(shown, cmap="gray", vmin=0, vmax=1, origin="lower", interpolation="nearest", aspect="equal",
-                    extent=(grid.x1.min() - h1 / 2, grid.x1.max() + h1 / 2, grid.x2.min() - h2 / 2, grid.x2.max() + h2 / 2))
-    elif triangles := mesh.triangles(grid):
-        drawn = TriMesh(triangles, cmap="gray")
-        drawn.set_array(grey.ravel())
-        drawn.set_clim(0, 1)
-        axes.add_collection(drawn, autolim=False)
-
-
 def _colour(axes, solids, speed):
     """Speed of the solids; returns what a colour bar needs. Solids that rest at all times (`speed` is 0) are plain and need none."""
     drawn = None
@@ -111,8 +97,9 @@ def _box(gas, solids):
 
 def draw(axes, gas, solids, size):
     """One output on one pair of axes; returns what a colour bar of the solids' speed needs."""
+    axes.set_facecolor(style.WALL_FILL)
     for grid in gas.grids:
-        _shade(axes, grid, np.exp(-STRENGTH * np.minimum(gradient(grid, "rho") / size.gradient, 1)))
+        shading.shade(axes, grid, np.exp(-STRENGTH * np.minimum(gradient(grid, "rho") / size.gradient, 1)), "gray", (0, 1))
     for grid in gas.grids:
         if grid.level > 0:
             axes.add_collection(LineCollection(mesh.level_outline(grid), **LEVEL_LINES), autolim=False)
