@@ -4,8 +4,10 @@
 
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/case/schema/boundary_facts.hpp"
@@ -75,6 +77,13 @@ class Freedom {
   }
 };
 
+Side opposite(Side side) {
+  for (const Side other : all_sides) {
+    if (other != side && direction_of(other) == direction_of(side)) return other;
+  }
+  std::abort();  // each has one
+}
+
 /// Direction of a side that has to be straight to slide.
 Vec2 direction_along(const std::vector<double>& x) {
   const std::size_t n = x.size() / 2;
@@ -129,23 +138,26 @@ BodyFromCase body_of_grid(const SolidSpec& spec) {
   const grid::MovingGrid grid(grid_from_case(spec.grid, false), 0);
   Freedom freedom(spec);
   std::vector<Outline> outlines;
-  const auto outline_along = [&](Side side) -> Outline {
+  std::vector<std::vector<double>> across;
+  const auto add_outline = [&](Side side) {
     const bool closed = grid.periodic(1 - direction_of(side));
-    return {.x = grid.side_points(side),
-            .ends = closed ? grid::Curve::closed : grid::Curve::open,
-            .orientation = grid::outward(side)};
+    outlines.push_back({.x = grid.side_points(side),
+                        .ends = closed ? grid::Curve::closed : grid::Curve::open,
+                        .orientation = grid::outward(side)});
+    across.push_back(grid.side_points(opposite(side)));
   };
   for (const Side side : all_sides) {
     const BoundarySpec& boundary = at(spec.boundary, side);
     freedom.add(boundary, side, direction_along(grid.side_points(side)));
-    if (is_interface(boundary)) outlines.push_back(outline_along(side));
+    if (is_interface(boundary)) add_outline(side);
   }
   const Inertia inertia = inertia_of(rim_of(grid));
   const bool meets_gas = !outlines.empty();
-  if (!meets_gas) outlines.push_back(outline_along(Side::bottom));
+  if (!meets_gas) add_outline(Side::bottom);
   BodyFromCase result{.body = RigidBody(outlines.front(), inertia, spec.rho, freedom.modes()),
                       .area = inertia.area,
-                      .meets_gas = meets_gas};
+                      .meets_gas = meets_gas,
+                      .across = std::move(across)};
   for (std::size_t k = 1; k < outlines.size(); ++k) result.body.add_outline(outlines[k]);
   return result;
 }

@@ -1,6 +1,8 @@
 #pragma once
 /// What a case file says about a solid, as a rigid body.
 
+#include <vector>
+
 #include "common/case/case.hpp"
 #include "solid_solver/rigid/body.hpp"
 
@@ -11,6 +13,8 @@ struct BodyFromCase {
   RigidBody body;
   double area = 0;  ///< [length^2]
   bool meets_gas = false;
+  /// Of a body that is a grid: for each outline the points of the opposite side, 2 n component-major. Of a shape: none.
+  std::vector<std::vector<double>> across = {};
 };
 
 /// The body of `spec`: that of its shape, or of its grid. Where a side slides along a wall, the motion along

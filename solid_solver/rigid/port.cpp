@@ -24,8 +24,13 @@ RigidParticipant::RigidParticipant(const Setup& setup, const SolidSpec& spec)
       own_(own_load(0)) {
   Shape shape{.outlines = {}, .points = body_.points(), .meets_gas = from_case_.meets_gas};
   for (std::size_t k = 0; k < body_.outlines(); ++k) shape.outlines.push_back(body_.outline(k));
-  begin(
-      std::move(shape), "body", [&](std::size_t, std::size_t) { return body_.reference_centre(); }, true);
+  const bool is_grid = !from_case_.across.empty();
+  const auto inside = [&](std::size_t l, std::size_t i) -> Vec2 {
+    if (!is_grid) return body_.reference_centre();
+    const std::vector<double>& x = from_case_.across[l];
+    return {x[i], x[x.size() / 2 + i]};
+  };
+  begin(std::move(shape), "body", inside, !is_grid);
 }
 
 ProposedTimeStep RigidParticipant::compute_time_step() const {

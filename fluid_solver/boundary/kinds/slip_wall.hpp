@@ -16,8 +16,10 @@ struct SlipWall {
   static SlipWall from(const BoundaryData& /*data*/) { return {}; }
 
   /// n.v := that of the wall; pressure and density follow along the simple wave that makes this change of velocity. At
-  /// the foot of a body the change is along the interface, whose own condition goes on holding: a change along the
-  /// normal would break it, be undone with the next values of the interface, and pump pressure each time.
+  /// the foot of a body the velocity changes along the interface, whose own condition goes on holding: a change along
+  /// the normal would break it, be undone with the next values of the interface, and pump pressure each time. The wave
+  /// runs along the interface, too, where gas in a corner below a right angle has no other way, and off the wall in a
+  /// wider one: towards a flat corner its strength is that of a wall alone.
   static void set_points(const GasSide& side) {
     const WallMotion& wall = side.motion;
     const auto n = static_cast<std::size_t>(side.points.n());
@@ -29,11 +31,12 @@ struct SlipWall {
       StateVector state = load(side.q, at);
       const Vec2 along = free_direction(side, static_cast<int>(k), normal);
       const double change =
-          normal.dot(velocity_beside(side, static_cast<int>(k)) - Vec2(state.segment<2>(1))) /
-          normal.dot(along);
+          normal.dot(velocity_beside(side, static_cast<int>(k)) - Vec2(state.segment<2>(1)));
+      const double slant = normal.dot(along);
+      const double of_wave = is_narrow(side, static_cast<int>(k), along) ? change / slant : change;
       const double a = std::sqrt(gamma * state[3] / state[0]);
-      const double a_ratio = std::max(1 + 0.5 * (gamma - 1) * change / a, 0.1);
-      state.segment<2>(1) += change * along;
+      const double a_ratio = std::max(1 + 0.5 * (gamma - 1) * of_wave / a, 0.1);
+      state.segment<2>(1) += change / slant * along;
       state[0] *= std::pow(a_ratio, 2 / (gamma - 1));
       state[3] *= std::pow(a_ratio, 2 * gamma / (gamma - 1));
       if (side.forcing != nullptr) bring_in(state, side, static_cast<int>(k));
@@ -54,6 +57,12 @@ struct SlipWall {
     const Vec2 t(-side.crossing[end]->y(), side.crossing[end]->x());
     const double sine = normal.dot(t);
     return std::fabs(sine) < least_sine ? normal : sine > 0 ? t : Vec2(-t);
+  }
+
+  /// Whether the gas between the wall and a line from its end k that goes `along` has less than a right angle.
+  static bool is_narrow(const GasSide& side, int k, const Vec2& along) {
+    const int next = k == 0 ? 1 : k - 1;
+    return along.dot(position(side.x, side.points, next, 0) - position(side.x, side.points, k, 0)) > 0;
   }
 
   static Vec2 velocity_of(const WallMotion& wall, int k) {

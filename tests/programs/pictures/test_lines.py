@@ -21,7 +21,7 @@ class Lines(unittest.TestCase):
         rest = {key: 0 * x1 for key in ("u1", "u2", "v1", "v2", "P11")}
         body = data.Series("body", [data.Output(1.0, [read({"x1": x1, "x2": x2, "x1_bar": x1, "x2_bar": x2, **rest})])])
         rigid = data.Series("rigid", [data.Output(1.0, [read({"x1": x1[:2], "x2": x2[:2]})])])
-        self.assertEqual([curves._has_an_inside(one) for one in (body, rigid)], [True, False])
+        self.assertEqual([one.has_an_inside() for one in (body, rigid)], [True, False])
         for grids, found in (([alone], ["lines"]), ([alone, ring()], [])):
             series = [data.Series("fluid", [data.Output(1.0, grids)]), body]
             self.assertEqual([name for name, _ in curves.pictures(series, [], scales.Scales(1, 1, 1), {})], found)

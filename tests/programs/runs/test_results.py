@@ -98,15 +98,23 @@ class CompositeGrids(EndToEnd):
 
 
 class RigidBodies(EndToEnd):
-    def test_one_that_a_wall_cuts_off_is_drawn_whole(self):
+    """They are drawn whole."""
+
+    def area(self, case, *settings):
         import numpy as np
         from fsi_launch.plot.reading import data, mesh
-        run = self.complete("panel_on_step", "--set", "time.end=0.01", "--set", "output.every=0.01", "--set", "expect={}")
-        [panel] = [one for one in data.all_series(run.directory) if not one.is_gas()]
-        [grid] = panel.outputs[-1].grids
+        run = self.complete(case, "--set", "expect={}", *settings)
+        [body] = [one for one in data.all_series(run.directory) if not one.is_gas()]
+        [grid] = body.outputs[-1].grids
         corners = np.column_stack([grid.x1.ravel(), grid.x2.ravel()])[mesh.triangles(grid).triangles]
         a, b = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
-        self.assertAlmostEqual(0.5 * np.abs(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]).sum(), 4 * 50, delta=1e-9)
+        return 0.5 * np.abs(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0]).sum()
+
+    def test_that_a_wall_cuts_off(self):
+        self.assertAlmostEqual(self.area("panel_on_step", "--set", "time.end=0.01", "--set", "output.every=0.01"), 4 * 50, delta=1e-9)
+
+    def test_that_are_a_grid(self):
+        self.assertAlmostEqual(self.area("rigid_piston", "--set", "parameters.angle=20"), 1 * 0.5, delta=1e-9)
 
 
 class ExactSolutions(EndToEnd):

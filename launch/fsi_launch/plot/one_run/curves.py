@@ -75,7 +75,7 @@ def line_panels(first):
 
 def along_one_coordinate(series):
     """The gas and the solids with an inside, if their fields depend on one coordinate only; else none."""
-    inside = [one for one in series if _has_an_inside(one)]
+    inside = [one for one in series if one.has_an_inside()]
     grids = [one.outputs[-1].grids for one in inside]
     return inside if all(len(some) == 1 and _depends_on_one_coordinate(some[0]) for some in grids) else []
 
@@ -87,11 +87,6 @@ def _reference_line(axes, one, key, table):
     s = part["x"] if one.is_gas() else part["x_bar"] + part["u"]
     shown = (s >= computed.min()) & (s <= computed.max())
     axes.plot(s[shown], part[key][shown], **REFERENCE)
-
-
-def _has_an_inside(one):
-    """False of rigid bodies and beams, which are two lines of points."""
-    return len(one.outputs[0].grids[0].x1) > 2
 
 
 def _lines_picture(series, scales, reference):

@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib import pyplot
 from matplotlib.collections import LineCollection
 from matplotlib.lines import Line2D
-from matplotlib.patches import Rectangle
+from matplotlib.patches import Patch, Rectangle
 
 from fsi_launch.plot.look import style, units
 from fsi_launch.plot.one_run import fields
@@ -37,6 +37,9 @@ def _looks(series, index):
         grids = one.outputs[index].grids
         colours = style.GAS_GRIDS if one.is_gas() else style.SOLID_GRIDS
         background, fitted = colours
+        if not one.has_an_inside():
+            looks |= {(one.name, grid.name): (style.SOLID_EDGE, one.name) for grid in grids}
+            continue
         plain = len(grids) == 1 and (one.is_gas() or bodies == 0)
         bodies += not one.is_gas()
         for grid in grids:
@@ -48,10 +51,23 @@ def _looks(series, index):
     return looks
 
 
+def _fill(axes, grids):
+    """A body without a grid: its cells, or what lies within its outline where no run has given it any."""
+    fields.fill(axes, grids)
+    for grid in grids:
+        if len(grid.x1) == 1:
+            axes.fill(grid.x1[0], grid.x2[0], color=style.SOLID_FILL, linewidth=0)
+    fields.outline(axes, grids)
+
+
 def _draw(axes, series, index, step, width):
-    """All component grids at output `index`; returns handles for the legend."""
+    """All component grids at output `index`, bodies that have none as they are; returns handles for the legend."""
     handles, looks = [], _looks(series, index)
     for one in series:
+        if not one.has_an_inside():
+            _fill(axes, one.outputs[index].grids)
+            handles.append(Patch(facecolor=style.SOLID_FILL, edgecolor=style.SOLID_EDGE, label=one.name))
+            continue
         for grid in one.outputs[index].grids:
             colour, label = looks[one.name, grid.name]
             axes.add_collection(LineCollection(_lines(grid, step), colors=colour, linewidths=width))

@@ -76,6 +76,10 @@ class Series:
     def is_gas(self):
         return self.of_gas or self.name == "fluid"
 
+    def has_an_inside(self):
+        """False of rigid bodies and beams, which are two lines of points."""
+        return len(self.outputs[0].grids[0].x1) > 2
+
 
 @dataclass
 class Table:
