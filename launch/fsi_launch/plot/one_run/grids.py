@@ -52,10 +52,10 @@ def _looks(series, index):
 
 
 def _fill(axes, grids):
-    """A body without a grid: its cells, or what lies within its outline where no run has given it any."""
+    """A body without a grid: its cells, or what lies within its outline where no run has given it any: both its lines are that, then."""
     fields.fill(axes, grids)
     for grid in grids:
-        if len(grid.x1) == 1:
+        if np.array_equal(grid.x1[0], grid.x1[-1]) and np.array_equal(grid.x2[0], grid.x2[-1]):
             axes.fill(grid.x1[0], grid.x2[0], color=style.SOLID_FILL, linewidth=0)
     fields.outline(axes, grids)
 
