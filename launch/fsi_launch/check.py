@@ -7,6 +7,7 @@ from pathlib import Path
 from fsi_launch import case as cases
 from fsi_launch import paths
 from fsi_launch.failure import DONE, Failure, INTERNAL_ERROR, UserMistake
+from fsi_launch.living import ranks
 
 FORMATS = (".png", ".pdf", ".svg")
 
@@ -49,9 +50,22 @@ def draw(options):
     return path
 
 
+def shared_out(options):
+    """What `--ranks` would do to a case that is right, one line. Throws UserMistake where it cannot."""
+    case = cases.resolve(options.case, options.overrides, options.laws)
+    numbers = ranks.wanted(options.ranks, case)
+    ranks.expect_mpi(numbers)
+    if not numbers:
+        return "one process for each program"
+    return "; ".join(f"{name}: {number} ranks" + (f", about {case.cost[name]['points'] / number:.0f} points each" if name in case.cost else "")
+                     for name, number in numbers.items())
+
+
 def main(options):
-    """Prints what `fsi_case check` says, and draws where that is asked for."""
+    """Prints what `fsi_case check` says, shares out ranks and draws where that is asked for."""
     print(cases.check(options.case, options.overrides, options.laws), flush=True)
+    if options.ranks is not None:
+        print(f"  ranks: {shared_out(options)}")
     if options.plot is not None:
         print(f"  grids drawn in {draw(options)}")
     return DONE

@@ -262,6 +262,7 @@ def _parser():
     _add_case(verb)
     verb.add_argument("--plot", metavar="FILE", nargs="?", const="", help="draw all its grids at t = 0, unused points left out, "
                       "as .png, .pdf or .svg (default: CASE_grids.png in this folder)")
+    verb.add_argument("--ranks", metavar="NAME=N,..", help="say who would have how many processes, as for fsi run; auto: on this machine")
     verb.set_defaults(act=_check)
 
     verb = verbs.add_parser("converge", description="Runs a case on several grids and prints its errors with their "

@@ -13,13 +13,14 @@ import os
 import re
 import shutil
 import signal
+import subprocess
 import sys
 import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from comparing import Comparing  # noqa: E402
-from running import BIN, EndToEnd, PATIENT, processes, until  # noqa: E402
+from running import BIN, EndToEnd, FSI, PATIENT, processes, until  # noqa: E402
 from many_on_ranks import LASTING, RECUT, compare_all, compare_in_turn, kill_again_and_again, restart_all  # noqa: E402
 
 MISSING = [what for what, there in (("libfsi_ranks_mpi.so", (BIN / "libfsi_ranks_mpi.so").is_file()),
@@ -300,6 +301,16 @@ class Refusals(EndToEnd):
 
     def test_no_number(self):
         self.assertIn("'fluid=0' is not NAME=N with N from 1 to 64", self.refused("fluid=0"))
+
+    def test_check_says_the_same_and_who_would_have_how_many(self):
+        def checked(text):
+            return subprocess.run([FSI, "check", "shock_ellipse", "--ranks", text], env=os.environ | {"FSI_BIN": str(BIN)}, capture_output=True,
+                                  text=True, check=False)
+        refused, right = checked("gas=2"), checked("fluid=2")
+        self.assertEqual(refused.returncode, 2)
+        self.assertIn("no participant 'gas'; it has", refused.stderr)
+        self.assertEqual(right.returncode, 0, right.stderr)
+        self.assertRegex(right.stdout, r"ranks: fluid: 2 ranks, about \d+ points each\n")
 
 
 if __name__ == "__main__":
