@@ -116,9 +116,9 @@ def memory(number):
 def _forget_dead():
     """Removes what is left of launchers of this user's that were killed with SIGKILL."""
     for folder in SHARED.glob(f"{FOLDER}*"):
-        pid, born = folder.name.removeprefix(FOLDER).split("-")[:2]
-        with contextlib.suppress(OSError):
-            if folder.stat().st_uid == os.getuid() and processes.start_time(int(pid)) != int(born):
+        with contextlib.suppress(OSError, ValueError):      # gone meanwhile; a name of somebody else's
+            pid, born = map(int, folder.name.removeprefix(FOLDER).split("-")[:2])
+            if folder.lstat().st_uid == os.getuid() and processes.start_time(pid) != born:
                 shutil.rmtree(folder, ignore_errors=True)
 
 

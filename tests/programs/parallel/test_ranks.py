@@ -252,6 +252,9 @@ class Faults(OnRanks):
         os.kill(mpirun, signal.SIGKILL)
         run.wait()
         self.assertIsNotNone(memory_of(run))
+        strange = Path(f"/dev/shm/amp-fsi-ranks-{os.getpid()}x")    # of somebody else
+        strange.mkdir()
+        self.addCleanup(strange.rmdir)
         other = self.launch(*self.lasting, out="other")
         other.until_stepping()
         self.assertIsNone(memory_of(run))
