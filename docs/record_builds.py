@@ -1,4 +1,4 @@
-"""The studies of record_results.py about builds: instruction sets, bare distributions."""
+"""The studies of record_results.py about builds and the suite: instruction sets, bare distributions, how often all passes."""
 
 import json
 import os
@@ -74,7 +74,15 @@ def levels(tools):
     return f"`{shlex.join(command)}`, exit code {answer.returncode}\n\n```\n{(answer.stdout + answer.stderr).strip()[-3000:]}\n```\n"
 
 
+def again(tools):
+    """The suite many times in a row, and beside busy processes."""
+    command = ["tests/again/run.py"]
+    answer = subprocess.run(command, cwd=tools.ROOT, capture_output=True, text=True, check=False)
+    return f"`{shlex.join(command)}`, exit code {answer.returncode}\n\n{answer.stdout.strip()}\n"
+
+
 def studies(tools):
     yield "Kernels by instruction set: what a portable build costs", lambda: instruction_sets(tools)
     yield "The two commands on bare Debians", lambda: distributions(tools)
     yield "All tests on each level of x86-64", lambda: levels(tools)
+    yield "The suite again and again", lambda: again(tools)

@@ -520,7 +520,7 @@ def all_studies():
             *flutter_studies.studies(tools), *thin_studies.studies(tools),
             *record_impacts.studies(tools), *record_outlines.studies(tools),
             ("What watching costs", lambda: watched("watched")), ("What live pictures cost", lambda: looked_at(15)),
-            ("Signals to every program at random moments", lambda: faults(200)), *record_faults.studies(tools),
+            ("Signals to every program at random moments", lambda: faults(1000)), *record_faults.studies(tools),
             ("What protecting the bus costs", lambda: protection("protection")),
             ("Damaged case files", lambda: damaged(10000)),
             ("Benchmarks", lambda: bench("bench")), ("Benchmarks, where the time goes", lambda: profile("profile"))]
