@@ -12,7 +12,7 @@ from pathlib import Path
 
 HOMES = {"tests/waiting.hpp", "tests/programs/running.py", "tests/programs/monitor/browser.py", "tests/unit/launch/launcher.py"}
 # Checks of the sources, and tools that say how long they took and judge nothing by it.
-NO_TESTS = ("tests/structure/", "tests/mutations/", "tests/instruction_sets/")
+NO_TESTS = ("tests/structure/", "tests/mutations/", "tests/instruction_sets/", "tests/again/")
 CLOCKS = {
     ".py": re.compile(r"\btime\.(sleep|monotonic|perf_counter|process_time|time)\(|\btimeout=\d|\buntil\(.*,\s*[\d.]+\)"),
     ".cpp": re.compile(r"\b(sleep_for|sleep_until|usleep|nanosleep|sleep)\(|\b(steady|system|high_resolution)_clock\b|"
