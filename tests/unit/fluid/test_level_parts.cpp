@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numbers>
 #include <utility>
 
 #include "common/core/field.hpp"
@@ -82,6 +83,24 @@ TEST(LevelMembers, AreTheSameAtBothEndsOfAPeriod) {
   for (std::size_t k = 0; k < 3; ++k) {
     EXPECT_EQ(first.at[k] % (n - 1), last.at[k] % (n - 1));
     EXPECT_EQ(first.weight[k], last.weight[k]);
+  }
+}
+
+TEST(LevelMembers, OfPeriodicPointsLieAroundTheirOwnAtTheEndsAsWithin) {
+  const std::array<Beyond, 2> period{Beyond::period, Beyond::period};
+  const int n = 28;
+  const double turn = 2 * std::numbers::pi / (n - 1);
+  for (int k = 0; k <= (n - 1) / refinement_ratio; ++k) {
+    const Members members = members_of(k, n, period);
+    double along = 0,
+           across = 0;  // the mean of a wave of one period about the point: the wave itself, weaker
+    for (std::size_t m = 0; m < static_cast<std::size_t>(members.n); ++m) {
+      const double from_own = turn * (members.at[m] - refinement_ratio * k);
+      along += members.weight[m] * std::cos(from_own);
+      across += members.weight[m] * std::sin(from_own);
+    }
+    EXPECT_NEAR(along, (1 + 2 * std::cos(turn)) / 3, 1e-14) << k;
+    EXPECT_NEAR(across, 0, 1e-14) << k;
   }
 }
 
