@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "common/core/component_major.hpp"
+
 namespace fsi::coupler {
 
 namespace {
@@ -16,24 +18,20 @@ constexpr double coincident = 1e-9;
 /// are of the order of 1e-8.
 constexpr double path_step = 1e-4;
 
-Vec2 point(std::span<const double> x, std::size_t k) {
-  return {x[k], x[x.size() / 2 + k]};
-}
-
 /// Derivative of the position with respect to the index at point k.
 Vec2 tangent(std::span<const double> x, const Curve& curve, std::size_t k) {
   const std::size_t last = x.size() / 2 - 1;
-  if (k > 0 && k < last) return 0.5 * (point(x, k + 1) - point(x, k - 1));
-  if (curve.periodic) return 0.5 * (point(x, 1) - (point(x, last - 1) - period_of(x)));
-  if (curve.closed) return 0.5 * (point(x, 1) - point(x, last - 1));
-  if (last == 1) return point(x, 1) - point(x, 0);
-  if (k == 0) return 2.0 * point(x, 1) - 1.5 * point(x, 0) - 0.5 * point(x, 2);
-  return 1.5 * point(x, last) - 2.0 * point(x, last - 1) + 0.5 * point(x, last - 2);
+  if (k > 0 && k < last) return 0.5 * (vector_at(x, k + 1) - vector_at(x, k - 1));
+  if (curve.periodic) return 0.5 * (vector_at(x, 1) - (vector_at(x, last - 1) - period_of(x)));
+  if (curve.closed) return 0.5 * (vector_at(x, 1) - vector_at(x, last - 1));
+  if (last == 1) return vector_at(x, 1) - vector_at(x, 0);
+  if (k == 0) return 2.0 * vector_at(x, 1) - 1.5 * vector_at(x, 0) - 0.5 * vector_at(x, 2);
+  return 1.5 * vector_at(x, last) - 2.0 * vector_at(x, last - 1) + 0.5 * vector_at(x, last - 2);
 }
 
 double length(std::span<const double> x) {
   double sum = 0;
-  for (std::size_t k = 1; k < x.size() / 2; ++k) sum += (point(x, k) - point(x, k - 1)).norm();
+  for (std::size_t k = 1; k < x.size() / 2; ++k) sum += (vector_at(x, k) - vector_at(x, k - 1)).norm();
   return sum;
 }
 
@@ -41,11 +39,11 @@ double length(std::span<const double> x) {
 
 bool is_closed(std::span<const double> x) {
   const std::size_t n = x.size() / 2;
-  return n > 3 && (point(x, 0) - point(x, n - 1)).norm() < coincident * length(x);
+  return n > 3 && (vector_at(x, 0) - vector_at(x, n - 1)).norm() < coincident * length(x);
 }
 
 Vec2 period_of(std::span<const double> x) {
-  return point(x, x.size() / 2 - 1) - point(x, 0);
+  return vector_at(x, x.size() / 2 - 1) - vector_at(x, 0);
 }
 
 Curve::Curve(std::span<const double> x, std::span<const double> n0, bool is_periodic)
@@ -57,14 +55,14 @@ Curve::Curve(std::span<const double> x, std::span<const double> n0, bool is_peri
   double agreement = 0;
   for (std::size_t k = 0; k < n; ++k) {
     const Vec2 t = tangent(x, *this, k).normalized();
-    agreement += Vec2(t.y(), -t.x()).dot(point(n0, k)) / static_cast<double>(n);
+    agreement += Vec2(t.y(), -t.x()).dot(vector_at(n0, k)) / static_cast<double>(n);
   }
   if (!(std::abs(agreement) > 0.5)) {
     throw std::invalid_argument("the solid's reference normals do not stand on the interface curve");
   }
   sign = agreement > 0 ? 1 : -1;
-  first.n0 = point(n0, 0);
-  last.n0 = point(n0, n - 1);
+  first.n0 = vector_at(n0, 0);
+  last.n0 = vector_at(n0, n - 1);
 }
 
 void unit_normals(const Curve& curve, std::span<const double> x, std::span<double> n) {
@@ -83,7 +81,7 @@ void unit_normals(const Curve& curve, std::span<const double> x, std::span<doubl
 void point_lengths(std::span<const double> x, std::span<double> ds) {
   std::ranges::fill(ds, 0.0);
   for (std::size_t k = 1; k < x.size() / 2; ++k) {
-    const double half = 0.5 * (point(x, k) - point(x, k - 1)).norm();
+    const double half = 0.5 * (vector_at(x, k) - vector_at(x, k - 1)).norm();
     ds[k - 1] += half;
     ds[k] += half;
   }
@@ -91,7 +89,8 @@ void point_lengths(std::span<const double> x, std::span<double> ds) {
 
 void arclength(std::span<const double> x, std::span<double> s) {
   s[0] = 0;
-  for (std::size_t k = 1; k < x.size() / 2; ++k) s[k] = s[k - 1] + (point(x, k) - point(x, k - 1)).norm();
+  for (std::size_t k = 1; k < x.size() / 2; ++k)
+    s[k] = s[k - 1] + (vector_at(x, k) - vector_at(x, k - 1)).norm();
 }
 
 PrescribedMotion::PrescribedMotion(Path path, std::span<const double> x)

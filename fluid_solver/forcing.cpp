@@ -17,16 +17,6 @@ void each_point(const Layout& layout, const RankRows& rows, const Action& action
   }
 }
 
-StateVector conserved(const StateVector& q, double gamma) {
-  const double kinetic = 0.5 * q[0] * (q[1] * q[1] + q[2] * q[2]);
-  return {q[0], q[0] * q[1], q[0] * q[2], q[3] / (gamma - 1) + kinetic};
-}
-
-StateVector primitive(const StateVector& U, double gamma) {
-  const double v1 = U[1] / U[0], v2 = U[2] / U[0];
-  return {U[0], v1, v2, (gamma - 1) * (U[3] - 0.5 * (U[1] * v1 + U[2] * v2))};
-}
-
 /// Flux along direction c. paper eq. (1)
 StateVector flux(const State& s, int c, double gamma) {
   const StateVector U = conserved(to_vector(s), gamma);

@@ -22,4 +22,14 @@ inline StateVector to_vector(const State& state) {
   return {state.rho, state.v1, state.v2, state.p};
 }
 
+/// @{ Density, momentum and energy from density, velocity and pressure, and back.
+inline StateVector conserved(const StateVector& q, double gamma) {
+  return {q[0], q[0] * q[1], q[0] * q[2], q[3] / (gamma - 1) + 0.5 * q[0] * (q[1] * q[1] + q[2] * q[2])};
+}
+inline StateVector primitive(const StateVector& c, double gamma) {
+  const double v1 = c[1] / c[0], v2 = c[2] / c[0];
+  return {c[0], v1, v2, (gamma - 1) * (c[3] - 0.5 * (c[1] * v1 + c[2] * v2))};
+}
+/// @}
+
 }  // namespace fsi::fluid

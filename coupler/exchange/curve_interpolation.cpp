@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "common/core/component_major.hpp"
 #include "coupler/interface_motion.hpp"
 
 namespace fsi::coupler {
@@ -16,10 +17,6 @@ constexpr double coincident = 1e-11;
 /// Steps to the closest place of the curve; each reduces the distance to it by about (h / radius)^2.
 constexpr int most_steps = 50;
 
-Vec2 point(std::span<const double> x, std::size_t k) {
-  return {x[k], x[x.size() / 2 + k]};
-}
-
 }  // namespace
 
 CurveInterpolation::CurveInterpolation(std::span<const double> from, std::span<const double> to,
@@ -31,7 +28,7 @@ CurveInterpolation::CurveInterpolation(std::span<const double> from, std::span<c
   for (std::size_t k = 0; k < m; ++k) {
     // The two copies of a closing point get the same bits.
     const bool again = k > 0 && k + 1 == m && (periodic || is_closed(to));
-    places_.push_back(again ? places_.front() : locate(from, point(to, k)));
+    places_.push_back(again ? places_.front() : locate(from, vector_at(to, k)));
     if (places_[k].distance > places_[farthest_].distance) farthest_ = k;
   }
 }
@@ -39,7 +36,7 @@ CurveInterpolation::CurveInterpolation(std::span<const double> from, std::span<c
 CurveInterpolation::Place CurveInterpolation::locate(std::span<const double> from, const Vec2& x) const {
   std::size_t nearest = 0;
   for (std::size_t k = 1; k < n_; ++k) {
-    if ((point(from, k) - x).norm() < (point(from, nearest) - x).norm()) nearest = k;
+    if ((vector_at(from, k) - x).norm() < (vector_at(from, nearest) - x).norm()) nearest = k;
   }
   const double length = s_.back();
   double s = s_[nearest];
@@ -49,11 +46,11 @@ CurveInterpolation::Place CurveInterpolation::locate(std::span<const double> fro
     const Weights w = weights(cell, widest, s);
     Vec2 sum = Vec2::Zero();
     for (std::size_t k = 0; k < w.count; ++k)
-      sum += w.weight[k] * (point(from, w.index[k]) + w.turns[k] * period);
+      sum += w.weight[k] * (vector_at(from, w.index[k]) + w.turns[k] * period);
     return sum;
   };
   for (int step = 0; step < most_steps; ++step) {
-    const Vec2 chord = point(from, cell + 1) - point(from, cell);
+    const Vec2 chord = vector_at(from, cell + 1) - vector_at(from, cell);
     const double change = (x - curve()).dot(chord) / chord.norm();
     s += change;
     if (closed_ && !periodic_) s -= length * std::floor(s / length);

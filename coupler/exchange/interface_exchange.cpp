@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "common/core/component_major.hpp"
 #include "common/core/failure.hpp"
 #include "common/core/types.hpp"
 #include "common/interface/modal.hpp"
@@ -17,10 +18,6 @@
 namespace fsi::coupler {
 
 namespace {
-
-Vec2 vector_at(std::span<const double> values, std::size_t k) {
-  return {values[k], values[values.size() / 2 + k]};
-}
 
 Curve curve_of(const InterfacePair& pair, const std::vector<double>& x, const std::vector<double>& n0) {
   try {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "common/core/component_major.hpp"
 #include "common/core/failure.hpp"
 #include "common/core/types.hpp"
 #include "coupler/exchange/curve_interpolation.hpp"
@@ -17,14 +18,10 @@ namespace {
 constexpr double same_point = 1e-3;  ///< of the mean spacing of the points
 constexpr double same_curve = 0.05;  ///< of the mean spacing of the coarser side
 
-Vec2 point(const std::vector<double>& x, std::size_t k) {
-  return {x[k], x[x.size() / 2 + k]};
-}
-
 double mean_spacing(const std::vector<double>& x) {
   const std::size_t n = x.size() / 2;
   double sum = 0;
-  for (std::size_t k = 1; k < n; ++k) sum += (point(x, k) - point(x, k - 1)).norm();
+  for (std::size_t k = 1; k < n; ++k) sum += (vector_at(x, k) - vector_at(x, k - 1)).norm();
   return sum / static_cast<double>(n - 1);
 }
 
@@ -56,7 +53,7 @@ void check_shape(const wire::Hello& hello, const wire::InterfaceInfo& info) {
 /// Index of the two points of the same number that are farthest apart.
 std::size_t farthest_pair(const std::vector<double>& gas, const std::vector<double>& solid) {
   std::size_t worst = 0;
-  const auto distance = [&](std::size_t k) { return (point(gas, k) - point(solid, k)).norm(); };
+  const auto distance = [&](std::size_t k) { return (vector_at(gas, k) - vector_at(solid, k)).norm(); };
   for (std::size_t k = 1; k < gas.size() / 2; ++k) {
     if (distance(k) > distance(worst)) worst = k;
   }
@@ -66,7 +63,7 @@ std::size_t farthest_pair(const std::vector<double>& gas, const std::vector<doub
 bool same_points(const std::vector<double>& gas, const std::vector<double>& solid) {
   if (gas.size() != solid.size()) return false;
   const std::size_t k = farthest_pair(gas, solid);
-  return (point(gas, k) - point(solid, k)).norm() <= same_point * mean_spacing(gas);
+  return (vector_at(gas, k) - vector_at(solid, k)).norm() <= same_point * mean_spacing(gas);
 }
 
 /// One side's points and what it is called in messages.
@@ -80,7 +77,7 @@ void check_curve(const InterfacePair& pair, const Points& from, const Points& to
   const std::string& name = pair.name;
   const CurveInterpolation curve(from.x, to.x, pair.periodic);
   if (curve.largest_distance() <= tolerance) return;
-  const Vec2 x = point(to.x, curve.farthest());
+  const Vec2 x = vector_at(to.x, curve.farthest());
   throw UserMistake(
       fmt::format("interface \"{}\": gas and solid do not meet: point {} of the {} is at ({:.6g}, {:.6g}), "
                   "{:.3g} from the side of the {}; let the grids of fluid and solids.{} have the same curve "

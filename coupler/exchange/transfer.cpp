@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 
+#include "common/core/component_major.hpp"
 #include "common/wire/sparse.hpp"
 
 namespace fsi::coupler {
@@ -14,10 +15,6 @@ constexpr double no_force = 1e-10;
 
 /// A point counts as clamped where the marks of its neighbours, weighted, come to this.
 constexpr double clamped = 1 - 1e-9;
-
-Vec2 vector_at(std::span<const double> values, std::size_t k) {
-  return {values[k], values[values.size() / 2 + k]};
-}
 
 std::vector<double> lengths(std::span<const double> x) {
   std::vector<double> ds(x.size() / 2);

@@ -25,15 +25,6 @@ Members members_of(int k, int fine_points, const std::array<Beyond, 2>& ends) {
   }
 }
 
-StateVector conserved(const StateVector& q, double gamma) {
-  return {q[0], q[0] * q[1], q[0] * q[2], q[3] / (gamma - 1) + 0.5 * q[0] * (q[1] * q[1] + q[2] * q[2])};
-}
-
-StateVector primitive(const StateVector& c, double gamma) {
-  const double v1 = c[1] / c[0], v2 = c[2] / c[0];
-  return {c[0], v1, v2, (gamma - 1) * (c[3] - 0.5 * (c[1] * v1 + c[2] * v2))};
-}
-
 namespace {
 
 /// Asks early for the states of a run: short runs, one above the other, are far away in memory.

@@ -30,10 +30,6 @@ Members members_of(int k, int fine_points, const std::array<Beyond, 2>& ends);
 /// What lies beyond the sides left, right, bottom, top.
 using Ends = std::array<Beyond, 4>;
 
-/// Density, momentum and energy from density, velocity and pressure, and back.
-StateVector conserved(const StateVector& primitive, double gamma);
-StateVector primitive(const StateVector& conserved, double gamma);
-
 /// Gives coarse points the averages of their control volumes. States are primitive.
 void restrict_to(const grid::RowSets& points, FieldView coarse, ConstFieldView fine, const Ends& ends,
                  double gamma);

@@ -8,6 +8,7 @@
 #include "common/grid/geometry/quality.hpp"
 #include "fluid_solver/boundary/side_points.hpp"
 #include "fluid_solver/gas_solver.hpp"
+#include "fluid_solver/state_vector.hpp"
 
 namespace fsi::fluid {
 
@@ -291,11 +292,8 @@ Field GasSolver::conserved() const {
   Field conserved(q.layout, 4);
   for (int j = -Layout::ghosts; j < q.layout.n2 + Layout::ghosts; ++j) {
     for (int i = -Layout::ghosts; i < q.layout.n1 + Layout::ghosts; ++i) {
-      const double rho = q(0, i, j), v1 = q(1, i, j), v2 = q(2, i, j);
-      conserved(0, i, j) = rho;
-      conserved(1, i, j) = rho * v1;
-      conserved(2, i, j) = rho * v2;
-      conserved(3, i, j) = q(3, i, j) / (options_.gamma - 1) + 0.5 * rho * (v1 * v1 + v2 * v2);
+      const SidePoints::Index at{i, j};
+      store(conserved.view(), at, fluid::conserved(load(q, at), options_.gamma));
     }
   }
   return conserved;

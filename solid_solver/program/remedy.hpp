@@ -37,9 +37,8 @@ inline std::string remedy_for(const std::string& solid, const SolidScheme& schem
                               bool softens, double squeezed = 1) {
   if (squeezed < 1)
     return fmt::format(
-        "a stiffer solids.{} or a weaker load: pressure had squeezed it there to {:.2g} of its volume "
-        "before, "
-        "which a sharp corner of a clamped side reaches the sooner the finer the grid is",
+        "a stiffer solids.{} or a weaker load: pressure had squeezed it to {:.2g} of its volume "
+        "there before, which a sharp corner of a clamped side reaches the sooner the finer the grid is",
         solid, squeezed);
   const std::string path = "solids." + solid + ".scheme";
   const bool nearly_incompressible = stiffness > 10;

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/core/component_major.hpp"
 #include "common/interface/modal.hpp"
 #include "common/wire/sparse.hpp"
 
@@ -26,9 +27,7 @@ RigidParticipant::RigidParticipant(const Setup& setup, const SolidSpec& spec)
   for (std::size_t k = 0; k < body_.outlines(); ++k) shape.outlines.push_back(body_.outline(k));
   const bool is_grid = !from_case_.across.empty();
   const auto inside = [&](std::size_t l, std::size_t i) -> Vec2 {
-    if (!is_grid) return body_.reference_centre();
-    const std::vector<double>& x = from_case_.across[l];
-    return {x[i], x[x.size() / 2 + i]};
+    return is_grid ? vector_at(from_case_.across[l], i) : body_.reference_centre();
   };
   begin(std::move(shape), "body", inside, !is_grid);
 }

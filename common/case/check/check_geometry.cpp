@@ -17,6 +17,7 @@
 #include "common/case/grids/no_grids_fit.hpp"
 #include "common/case/grids/own_crossing.hpp"
 #include "common/case/schema/laws.hpp"
+#include "common/core/component_major.hpp"
 #include "common/grid/geometry/outline.hpp"
 #include "common/grid/shapes/blunted.hpp"
 
@@ -36,7 +37,7 @@ struct CheckedOutline {
   Side side;              ///< of the grid fitted to it; bottom: the domain is to the left of the curve
   std::string grid = {};  ///< of the gas
 
-  Vec2 point(std::size_t k) const { return {curve.x[k], curve.x[curve.x.size() / 2 + k]}; }
+  Vec2 point(std::size_t k) const { return vector_at(curve.x, k); }
   /// Is a position on the other side of the curve than the domain? Known of closed curves.
   bool behind(const Vec2& x) const {
     return curve.closed() && grid::encloses(curve.x, x) == (side == Side::top);

@@ -5,6 +5,8 @@
 #include <limits>
 #include <vector>
 
+#include "common/core/component_major.hpp"
+
 namespace fsi::grid {
 
 namespace {
@@ -25,13 +27,9 @@ double cross(const Vec2& a, const Vec2& b) {
   return a[0] * b[1] - a[1] * b[0];
 }
 
-Vec2 point(std::span<const double> x, std::size_t k) {
-  return {x[k], x[x.size() / 2 + k]};
-}
-
 void append(std::span<const double> x, int curve, std::vector<Segment>& segments) {
   for (std::size_t k = 0; k + 1 < x.size() / 2; ++k)
-    segments.push_back({.from = point(x, k), .to = point(x, k + 1), .index = k, .curve = curve});
+    segments.push_back({.from = vector_at(x, k), .to = vector_at(x, k + 1), .index = k, .curve = curve});
 }
 
 /// Touching counts, so that crossings at a point of a curve are not missed.
@@ -74,9 +72,9 @@ Vec2 nearest_on(const Vec2& from, const Vec2& to, const Vec2& position) {
 
 /// The point of a curve nearest to a position.
 Vec2 nearest_on(std::span<const double> curve, const Vec2& position) {
-  Vec2 best = point(curve, 0);
+  Vec2 best = vector_at(curve, 0);
   for (std::size_t k = 0; k + 1 < curve.size() / 2; ++k) {
-    const Vec2 x = nearest_on(point(curve, k), point(curve, k + 1), position);
+    const Vec2 x = nearest_on(vector_at(curve, k), vector_at(curve, k + 1), position);
     if ((x - position).squaredNorm() < (best - position).squaredNorm()) best = x;
   }
   return best;
@@ -106,7 +104,7 @@ bool encloses(std::span<const double> outline, const Vec2& position) {
   const std::size_t n = outline.size() / 2;
   bool inside = false;
   for (std::size_t k = 0; k < n; ++k) {
-    const Vec2 a = point(outline, k) - position, b = point(outline, (k + 1) % n) - position;
+    const Vec2 a = vector_at(outline, k) - position, b = vector_at(outline, (k + 1) % n) - position;
     if ((a[1] > 0) == (b[1] > 0)) continue;
     if ((cross(a, b) > 0) == (b[1] > a[1])) inside = !inside;
   }
@@ -120,12 +118,12 @@ double distance_to(std::span<const double> curve, const Vec2& position) {
 Gap gap_between(std::span<const double> a, std::span<const double> b) {
   Gap gap{.distance = std::numeric_limits<double>::infinity()};
   for (std::size_t k = 0; k < a.size() / 2; ++k) {
-    const double distance = distance_to(b, point(a, k));
-    if (distance < gap.distance) gap = {.distance = distance, .x = point(a, k)};
+    const double distance = distance_to(b, vector_at(a, k));
+    if (distance < gap.distance) gap = {.distance = distance, .x = vector_at(a, k)};
   }
   for (std::size_t k = 0; k < b.size() / 2; ++k) {
-    const Vec2 x = nearest_on(a, point(b, k));
-    const double distance = (x - point(b, k)).norm();
+    const Vec2 x = nearest_on(a, vector_at(b, k));
+    const double distance = (x - vector_at(b, k)).norm();
     if (distance < gap.distance) gap = {.distance = distance, .x = x};
   }
   return gap;
@@ -136,7 +134,8 @@ Bend sharpest_bend(std::span<const double> x, Curve ends, double turn, std::span
   Bend bend{.radius = std::numeric_limits<double>::infinity()};
   for (std::size_t k = ends == Curve::closed ? 0 : 1; k + 1 < n; ++k) {
     if (std::ranges::find(corners, static_cast<int>(k)) != corners.end()) continue;
-    const Vec2 before = point(x, k == 0 ? n - 2 : k - 1), here = point(x, k), after = point(x, k + 1);
+    const Vec2 before = vector_at(x, k == 0 ? n - 2 : k - 1), here = vector_at(x, k),
+               after = vector_at(x, k + 1);
     const double area = turn * cross(here - before, after - here);
     if (!(area > 0)) continue;
     // The circle through three points: the product of the sides over four times the triangle's area.
@@ -166,11 +165,12 @@ Gap narrowest(std::span<const double> x, Curve ends, double side) {
   const std::size_t n = x.size() / 2;
   Gap gap{.distance = std::numeric_limits<double>::infinity()};
   for (std::size_t k = ends == Curve::closed ? 0 : 1; k + 1 < n; ++k) {
-    const Vec2 before = point(x, k == 0 ? n - 2 : k - 1), here = point(x, k), after = point(x, k + 1);
+    const Vec2 before = vector_at(x, k == 0 ? n - 2 : k - 1), here = vector_at(x, k),
+               after = vector_at(x, k + 1);
     const Vec2 normal = side * Vec2(before[1] - after[1], after[0] - before[0]).normalized();
     for (std::size_t m = 0; m + 1 < n; ++m) {
       if (m == k || m + 1 == k || (k == 0 && m + 2 == n)) continue;  // the point's own segments
-      const double distance = leaving(here, normal, point(x, m), point(x, m + 1), side);
+      const double distance = leaving(here, normal, vector_at(x, m), vector_at(x, m + 1), side);
       if (distance < gap.distance) gap = {.distance = distance, .x = here};
     }
   }
