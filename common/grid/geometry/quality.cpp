@@ -103,11 +103,13 @@ void check_cells(ConstFieldView x, const std::string& name, double t) {
 
 namespace {
 
-/// What is left of the line half-way to the first ghost line, and whether that is enough.
+/// What is left of the line half-way to the first ghost line, and whether that is enough. The ghost line is continued
+/// freely here; `fill_ghosts` bounds it where too little is left.
 CrowdedCorner crowd_at(ConstFieldView x, Side curve, int i, double least) {
   const int out = curve == Side::bottom ? -1 : 1, j = curve == Side::bottom ? 0 : x.layout.n2 - 1;
   const auto at = [x](int k, int line) { return Vec2(x(0, k, line), x(1, k, line)); };
-  const Vec2 along = at(i + 1, j) - at(i - 1, j), behind = at(i + 1, j + out) - at(i - 1, j + out);
+  const auto ghost = [&](int k) -> Vec2 { return 3 * (at(k, j) - at(k, j - out)) + at(k, j - 2 * out); };
+  const Vec2 along = at(i + 1, j) - at(i - 1, j), behind = ghost(i + 1) - ghost(i - 1);
   const double share = 0.5 * (1 + behind.dot(along) / along.squaredNorm());
   const double part = share < 1 ? (1 - least) / (1 - share) : std::numeric_limits<double>::infinity();
   return {.point = i, .spacing = part * (at(i, j - out) - at(i, j)).norm(), .part = part, .x = at(i, j)};

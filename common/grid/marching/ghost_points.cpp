@@ -1,5 +1,7 @@
 #include "common/grid/marching/ghost_points.hpp"
 
+#include <algorithm>
+
 #include "common/core/types.hpp"
 
 namespace fsi::grid {
@@ -53,6 +55,38 @@ void continue_across(FieldView x, int j, int step) {
   }
 }
 
+double cross(const Vec2& a, const Vec2& b) {
+  return a[0] * b[1] - a[1] * b[0];
+}
+
+/// The part of their way behind line j that ghost points go at point i, where the lines across shall keep the distance
+/// `least_ghost_distance`: the whole, but where they come nearer; that distance is linear in the part.
+/// @param out  rows to the first line of ghosts
+double part_of_way(ConstFieldView x, int i, int j, int out) {
+  const Vec2 across = point(x, i, j + 2 * out) - point(x, i, j);
+  const double own = cross(point(x, i + 1, j) - point(x, i - 1, j), across),
+               behind = cross(point(x, i + 1, j + out) - point(x, i - 1, j + out), across);
+  if ((own - behind) * own <= (1 - least_ghost_distance) * own * own) return 1;
+  return (1 - least_ghost_distance) * own / (own - behind);
+}
+
+/// Behind a sharp corner, around which they fan out, lines across the curve would cross at the ghost points, whose cells
+/// have no area then: these go less far there.
+void keep_apart(FieldView x, int j, int out, Curve lines) {
+  const int first = -1, last = x.layout.n1;
+  double before = 1, here = part_of_way(x, first, j, out);
+  for (int i = first; i <= last; ++i) {
+    const double next = i < last ? part_of_way(x, i + 1, j, out) : 1, part = std::min({before, here, next});
+    before = here;
+    here = next;
+    if (part == 1) continue;
+    const Vec2 own = point(x, i, j);
+    for (int g = 1; g <= Layout::ghosts; ++g)
+      set(x, i, j + g * out, own + part * (point(x, i, j + g * out) - own));
+  }
+  for (int g = 1; lines == Curve::closed && g <= Layout::ghosts; ++g) continue_line(x, j + g * out, lines);
+}
+
 }  // namespace
 
 void fill_ghosts(FieldView x, Curve lines) {
@@ -62,6 +96,8 @@ void fill_ghosts(FieldView x, Curve lines) {
     continue_across(x, -g, 1);
     continue_across(x, last + g, -1);
   }
+  keep_apart(x, 0, -1, lines);
+  keep_apart(x, last, 1, lines);
 }
 
 }  // namespace fsi::grid
