@@ -26,6 +26,7 @@ STOP_STEPS = 4      # many times more than the longest time between two lines of
 ASKED_AGAIN = 1.0   # [s] from the first Ctrl-C or SIGTERM: what comes sooner is the same request (`timeout` sends two), later a second one
 AFTER_STOP = 5.0    # [s] from the first end after that to SIGTERM for the others
 LAST_GRACE = 60.0   # [s] from the first program's good end to SIGTERM for the others: results may be written
+STOPPED = 4.0       # [s] that a program may be stopped after such an end, before it is asked to go on and end
 PIPE_SIZE = 1 << 20
 PR_SET_PDEATHSIG = 1
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
@@ -56,13 +57,14 @@ class Program:
 @dataclass
 class Ending:
     """How a program ended. `ours`: the supervisor sent it the signal. `early`: it ended as if all were well, but the run had
-    not begun. `cut`: it ran on another machine, and why nothing is known of its end."""
+    not begun. `stopped`: somebody had stopped it (SIGSTOP). `cut`: it ran on another machine, and why nothing is known of its end."""
 
     name: str
     code: int
     when: float
     ours: bool = False
     early: bool = False
+    stopped: bool = False
     cut: str = ""
 
     def lost(self):
@@ -103,6 +105,7 @@ class Supervisor:
         self._processes = {}
         self._pidfds = {}
         self._signalled = set()
+        self._stopped_since = {}    # {name: moment} of programs that somebody has stopped
         self._ranked = set()        # names of those that several processes compute
         self._far = {}              # {name: lines from the other machine} of those that run on one
         self._reports = {}
@@ -217,7 +220,7 @@ class Supervisor:
             code, cut = self._far_end(name, process, code)
         if name in self._ranked and code > 128 and code not in (INTERRUPTED, TERMINATED):
             code = 128 - code       # as mpirun tells of a rank that a signal ended
-        ending = Ending(name, code, time.monotonic(), name in self._signalled, cut=cut)
+        ending = Ending(name, code, time.monotonic(), name in self._signalled, stopped=name in self._stopped_since, cut=cut)
         ending.early = ending.code == 0 and not self._begun
         self._outcome.endings.append(ending)
         grace = self._grace_after(ending)
@@ -251,21 +254,27 @@ class Supervisor:
 
     def _keep_deadlines(self):
         now = time.monotonic()
-        if any(ending.code != 0 or ending.early for ending in self._outcome.endings) and not self._outcome.signal:
-            self._send(signal.SIGKILL, self._stopped())
+        if self._outcome.endings and not self._outcome.signal:
+            self._end_stopped(now, any(ending.code != 0 or ending.early for ending in self._outcome.endings))
         if now >= self._kill_at:
             self._send(signal.SIGKILL)
         elif now >= self._terminate_at:
             self._terminate_at = float("inf")
             self._send(signal.SIGTERM)
 
-    def _stopped(self):
-        """Names of programs that somebody has stopped."""
-        found = []
+    def _end_stopped(self, now, failed):
+        """Programs that somebody has stopped: killed after a failure; after a good end asked to go on and end, if they stay stopped."""
         for name, process in self._processes.items():
+            state = None
             with contextlib.suppress(OSError):
-                found += [name] if processes.state_of(process.pid) == "T" else []
-        return found
+                state = processes.state_of(process.pid)
+            if state != "T":
+                if name not in self._signalled:
+                    self._stopped_since.pop(name, None)
+                continue
+            since = self._stopped_since.setdefault(name, now)
+            if failed or now - since >= STOPPED:
+                self._send(signal.SIGKILL if failed else signal.SIGTERM, [name])
 
     def _send(self, number, names=None):
         """To all, or to those named."""

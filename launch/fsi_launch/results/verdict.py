@@ -86,8 +86,8 @@ def _explain(ending, case, directory, part):
                            f"{_last_words(directory, ending.name)}")
     if ending.cut:
         return PEER_LOST, f"lost {label}: {ending.cut}{_last_words(directory, ending.name)}"
-    if ending.ours:
-        return PEER_LOST, f"lost {label}: it did not end by itself"
+    if ending.ours and not (ending.code == PEER_LOST and part.get("reason")):  # who had lost another one was ending already
+        return PEER_LOST, f"lost {label}: it did not end by itself" + "; somebody had stopped it" * ending.stopped
     reason = _of_ranks(ending.name, directory, part.get("reason") or _last_line(directory, ending.name))
     code = ending.code if ending.code in range(1, 6) else PEER_LOST
     if part.get("origin", ending.name) != ending.name:

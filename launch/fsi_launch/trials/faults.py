@@ -201,13 +201,12 @@ def _try(trial, folder, undisturbed):
         moment = _signal(run, trial)
         trial.code = _as_a_shell_says(run.wait())
         until(lambda: not run.programs(), WATCHDOG)
-        asked = FAULTS[trial.fault][0] in ("SIGTERM", "SIGINT")  # who is ending anyway does not mind
-        trial.late = moment is None or (asked and trial.code == 0)
-        trial.seconds = time.monotonic() - (moment or 0)
-        if trial.late:
-            trial.seconds = None
-        else:
+        over = trial.code == 0 and FAULTS[trial.fault][2] != 0      # who has done all there was to do minds no signal
+        trial.late = moment is None or over
+        trial.seconds = None if trial.late else time.monotonic() - moment
+        if not trial.late:
             _check_end(run, trial, before)
+        if not trial.late or over:
             _check_restart(run, trial, undisturbed)
     except (subprocess.TimeoutExpired, OSError) as error:
         trial.flaws.append(str(error))

@@ -86,6 +86,16 @@ class Supervision(InScratch):
         self.assertTrue(endings["b"].ours)
         self.assertEqual(root_cause(outcome.endings, {"a": "a"}).name, "a")  # its verdict says why
 
+    def test_stopped_program_is_asked_to_end_when_others_have_ended_well(self):
+        self.within(STOPPED=0.1, LAST_GRACE=FOR_EVER, KILL_AFTER=FOR_EVER)
+        ends = "signal.signal(signal.SIGTERM, lambda *_: sys.exit({code})); here(sys.argv[1]); os.kill(os.getpid(), signal.SIGSTOP); rest()"
+        for code in (0, 143):
+            endings, outcome = self.supervise(a=exits(0, after="b"), b=ends.format(code=code), c="wait('a', 'b'); linger(); here('c')")
+            self.assertEqual({name: ending.code for name, ending in endings.items()}, {"a": 0, "b": code, "c": 0})
+            self.assertEqual([name for name, ending in endings.items() if ending.stopped], ["b"])
+            cause = root_cause(outcome.endings)
+            self.assertEqual(cause and cause.name, "b" if code else None)
+
     def test_lines_reach_the_listener_and_the_rest_the_log(self):
         self.supervise(listen="a", a="print('joined\\ny'); print('words', file=sys.stderr); here('a')", b="wait('a'); print('z')")
         self.assertEqual(self.heard, ["joined", "y"])

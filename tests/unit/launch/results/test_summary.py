@@ -143,6 +143,18 @@ class Verdict(InScratch):
         found = verdict.judge(Outcome(endings), piston(), self.folder, {"fluid": heard, "coupler": own})
         self.assertEqual((found.code, found.reason), (4, f"coupler: {own['reason']}"))
 
+    def test_program_that_was_ending_already_when_it_was_asked_to_says_why(self):
+        own = {"reason": "coupler (pid 7) has been silent for 4 s (time.peer_timeout); is it stopped?", "origin": "fluid"}
+        heard = {"reason": f"fluid: {own['reason']}", "origin": "fluid"}
+        endings = [Ending("solid", 4, 0.0), Ending("coupler", -9, 0.1, ours=True, stopped=True), Ending("fluid", 4, 0.6, ours=True)]
+        found = verdict.judge(Outcome(endings), piston(), self.folder, {"fluid": own, "solid": heard})
+        self.assertEqual((found.code, found.reason), (4, f"fluid: {own['reason']}"))
+
+    def test_program_that_stayed_stopped_when_all_others_had_ended_well_is_lost(self):
+        endings = [Ending("solid", 0, 0.0), Ending("coupler", 0, 0.1), Ending("fluid", -15, 5.0, ours=True, stopped=True)]
+        found = verdict.judge(Outcome(endings), piston(), self.folder, {})
+        self.assertEqual((found.code, found.reason), (4, "lost fluid (fluid_solver): it did not end by itself; somebody had stopped it"))
+
     def test_program_that_was_killed_by_the_limit_of_a_file_is_output_that_failed(self):
         self.assertEqual(self.judge(("solid", -25), ("fluid", 4), ("coupler", 4)).code, 5)
 
