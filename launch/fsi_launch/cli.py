@@ -4,7 +4,7 @@ import argparse
 import os
 import sys
 
-from fsi_launch import paths
+from fsi_launch import paths, version
 from fsi_launch.living import interrupts
 from fsi_launch.failure import DONE, Failure, INTERRUPTED, NOBODY_READS, OUTPUT_FAILED, TERMINATED, UserMistake
 
@@ -351,12 +351,10 @@ def _parser():
     verb.add_argument("--no-open", dest="open", action="store_false", help="print only where it is")
     verb.set_defaults(act=_docs)
 
-    verb = verbs.add_parser("schema", description="Prints the JSON Schema of case files, by which editors complete and check them.")
-    verb.set_defaults(act=_schema)
-
-    verb = verbs.add_parser("completion", description="Prints a script for bash that completes verbs, options and cases: "
-                            "source <(./launch/fsi completion)")
-    verb.set_defaults(act=_completion)
+    for name, act, description in (
+            ("schema", _schema, "Prints the JSON Schema of case files, by which editors complete and check them."),
+            ("completion", _completion, "Prints a script for bash that completes verbs, options and cases: source <(./launch/fsi completion)")):
+        verbs.add_parser(name, description=description).set_defaults(act=act)
     return parser
 
 
@@ -368,19 +366,22 @@ def _nobody_reads():
     return NOBODY_READS
 
 
-def main(arguments):
-    """Returns the exit code."""
+def _act(arguments):
     if not arguments or arguments[0] in ("-h", "--help", "help"):
         print(USAGE, end="")
         return DONE
     if arguments == ["--version"]:
-        from fsi_launch import version
         print(version.describe())
         return DONE
+    interrupts.listen()
+    options = _parser().parse_args(arguments)
+    return options.act(options)
+
+
+def main(arguments):
+    """Returns the exit code."""
     try:
-        interrupts.listen()
-        options = _parser().parse_args(arguments)
-        code = options.act(options)
+        code = _act(arguments)
         sys.stdout.flush()
         return code
     except BrokenPipeError:

@@ -35,11 +35,12 @@ class BadInput(EndToEnd):
         return line
 
     def test_output_that_nobody_reads_any_more_ends_the_command_silently(self):
-        reading, writing = os.pipe()
-        os.close(reading)
-        answer = subprocess.run([FSI, "gallery"], stdout=writing, stderr=subprocess.PIPE, text=True, check=False)
-        os.close(writing)
-        self.assertEqual((answer.returncode, answer.stderr), (141, ""))
+        for words in (["gallery"], ["--version"], ["--help"], []):
+            reading, writing = os.pipe()
+            os.close(reading)
+            answer = subprocess.run([FSI, *words], stdout=writing, stderr=subprocess.PIPE, text=True, check=False)
+            os.close(writing)
+            self.assertEqual((words, answer.returncode, answer.stderr), (words, 141, ""))
 
     def test_unknown_key_and_what_was_meant(self):
         self.assertRegex(self.changed("cfl: 0.9", "clf: 0.9"), r"clf.*cfl")
