@@ -20,7 +20,7 @@ from fsi_launch.living import hosts, interrupts, processes, ranks
 
 GRACE = 4.0         # [s] from a program's failure to SIGTERM for the others: they should have ended by then
 NOT_BEGUN = 0.5     # [s] the same before everybody has joined
-KILL_AFTER = 1.0    # [s] from that SIGTERM to SIGKILL
+KILL_AFTER = 4.0    # [s] from that SIGTERM to SIGKILL: who has lost another one tells the rest for a second before it ends (common/bus)
 STOP_GRACE = 60.0   # [s] from Ctrl-C or SIGTERM to SIGKILL: a checkpoint is written, which takes two steps; so
 STOP_STEPS = 4      # many times more than the longest time between two lines of progress
 ASKED_AGAIN = 1.0   # [s] from the first Ctrl-C or SIGTERM: what comes sooner is the same request (`timeout` sends two), later a second one
