@@ -2,6 +2,7 @@
 """However programs end, all of them end, and the launcher knows which one was the cause. The programs are scripts."""
 
 import os
+import re
 import signal
 import sys
 import threading
@@ -10,7 +11,7 @@ from pathlib import Path
 from unittest import mock
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
-from launcher import InScratch  # noqa: E402
+from launcher import InScratch, ROOT  # noqa: E402
 from fsi_launch.living import processes, supervise  # noqa: E402
 from fsi_launch.results.verdict import root_cause  # noqa: E402
 
@@ -95,6 +96,12 @@ class Supervision(InScratch):
             self.assertEqual([name for name, ending in endings.items() if ending.stopped], ["b"])
             cause = root_cause(outcome.endings)
             self.assertEqual(cause and cause.name, "b" if code else None)
+
+    def test_programs_that_tell_others_of_a_death_are_not_killed_at_it(self):
+        link = (ROOT / "common" / "bus" / "sessions" / "link.cpp").read_text(encoding="utf-8")
+        telling = float(re.search(r"abort_patience_s = ([\d.]+);", link).group(1))
+        self.assertGreaterEqual(supervise.KILL_AFTER, 2 * telling)
+        self.assertGreaterEqual(supervise.GRACE, 2 * telling)
 
     def test_lines_reach_the_listener_and_the_rest_the_log(self):
         self.supervise(listen="a", a="print('joined\\ny'); print('words', file=sys.stderr); here('a')", b="wait('a'); print('z')")
