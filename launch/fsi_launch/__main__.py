@@ -7,7 +7,8 @@ from fsi_launch.cli import main
 from fsi_launch.failure import INTERRUPTED, TERMINATED
 
 try:
-    code = main(sys.argv[1:])
+    with interrupts.unwrapped():
+        code = main(sys.argv[1:])
 except KeyboardInterrupt:  # behind all handlers
     code = INTERRUPTED
 except interrupts.Terminated:

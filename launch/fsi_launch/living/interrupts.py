@@ -54,3 +54,15 @@ def held():
 def heard():
     """Context within `held` that lets requests in."""
     return _masked(signal.SIG_UNBLOCK)
+
+
+@contextlib.contextmanager
+def unwrapped():
+    """Context that a request leaves as itself, also where Python has made a RuntimeError of it (in the callbacks of a class's members,
+    as dataclasses have, before 3.12)."""
+    try:
+        yield
+    except RuntimeError as error:
+        if isinstance(error.__cause__, (KeyboardInterrupt, Terminated)):
+            raise error.__cause__ from None
+        raise

@@ -12,7 +12,7 @@ from unittest import mock
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from launcher import InScratch, ROOT  # noqa: E402
-from fsi_launch.living import processes, supervise  # noqa: E402
+from fsi_launch.living import interrupts, processes, supervise  # noqa: E402
 from fsi_launch.results.verdict import root_cause  # noqa: E402
 
 FOR_EVER = 1e6      # [s]
@@ -28,6 +28,22 @@ def exits(code, after=()):
 
 def dies(number, after=()):
     return f"wait(*{tuple(after)!r}); here(sys.argv[1]); os.kill(os.getpid(), {int(number)})"
+
+
+class Requests(unittest.TestCase):
+    def test_one_in_the_callbacks_of_a_class_is_no_other_error(self):
+        def strikes(error):
+            class Member:
+                def __set_name__(self, owner, name):
+                    raise error
+
+            with interrupts.unwrapped():
+                type("Owner", (), {"member": Member()})
+
+        for error in (KeyboardInterrupt, interrupts.Terminated):
+            self.assertRaises(error, strikes, error)
+        with self.assertRaises((RuntimeError, ValueError)):
+            strikes(ValueError)
 
 
 class Supervision(InScratch):
