@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <filesystem>
 #include <mutex>
+#include <thread>
 
 #include "common/bus/convert.hpp"
 #include "common/bus/sessions/link.hpp"
@@ -81,15 +83,18 @@ void expect_flawless(Trio& run) {
     EXPECT_EQ(process->end(), 0) << process->hear();
 }
 
-/// Says "ready" when it knows all writers of the run, then says that nobody needs what they will send.
+/// Says that nobody needs what the writers of the run will send, once it knows them, and "sent"; then goes on, for who has not met a
+/// writer yet does not listen.
 void forge_gaps(const BusOptions& options, std::uint32_t last, const Process::Say& say) {
   const std::vector<Pair> pairs = pairs_of(options.run, options.key, writers, readers);
   EXPECT_GE(pairs.size(), 10U);
   const Forger forger(options.run);
-  for (int round = 0; round < 5; ++round) {
+  constexpr int rounds = 600;
+  for (int round = 0; round < rounds; ++round) {
     for (const Pair& pair : pairs) forger.send_to_all(gap(pair, 1, last));
+    if (round == 4) say("sent");
+    if (round > 4) std::this_thread::sleep_for(std::chrono::milliseconds(100));
   }
-  say("sent");
 }
 
 /// Even what the others are told of the end is lost: they see who is gone.
