@@ -6,10 +6,8 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <filesystem>
 #include <mutex>
-#include <thread>
 
 #include "common/bus/convert.hpp"
 #include "common/bus/sessions/link.hpp"
@@ -93,7 +91,7 @@ void forge_gaps(const BusOptions& options, std::uint32_t last, const Process::Sa
   for (int round = 0; round < rounds; ++round) {
     for (const Pair& pair : pairs) forger.send_to_all(gap(pair, 1, last));
     if (round == 4) say("sent");
-    if (round > 4) std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    if (round > 4) let_pass(0.1);
   }
 }
 
