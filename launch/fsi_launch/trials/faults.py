@@ -134,7 +134,10 @@ def _shared_memory():
 def _signal(run, trial):
     """Does it; returns the moment, or None where the target is gone already."""
     kind = FAULTS[trial.fault][0]
-    pid = run.process.pid if trial.target == "launcher" else until(run.programs, WATCHDOG).get(trial.target)
+    pid = run.process.pid
+    if trial.target != "launcher":
+        until(lambda: run.programs() or run.process.poll() is not None, WATCHDOG)
+        pid = run.programs().get(trial.target)
     if pid is None or run.process.poll() is not None:
         return None
     moment = time.monotonic()
