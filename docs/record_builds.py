@@ -74,10 +74,10 @@ def levels(tools):
     return f"`{shlex.join(command)}`, exit code {answer.returncode}\n\n```\n{(answer.stdout + answer.stderr).strip()[-3000:]}\n```\n"
 
 
-def again(tools):
-    """The suite many times in a row, and beside busy processes."""
-    command = ["tests/again/run.py"]
-    answer = subprocess.run(command, cwd=tools.ROOT, capture_output=True, text=True, check=False)
+def again(tools, *options):
+    """The suite many times in a row, or beside busy processes."""
+    command = ["tests/again/run.py", *options]
+    answer = subprocess.run(command, cwd=tools.ROOT, stdout=subprocess.PIPE, text=True, check=False)
     return f"`{shlex.join(command)}`, exit code {answer.returncode}\n\n{answer.stdout.strip()}\n"
 
 
@@ -85,4 +85,5 @@ def studies(tools):
     yield "Kernels by instruction set: what a portable build costs", lambda: instruction_sets(tools)
     yield "The two commands on bare Debians", lambda: distributions(tools)
     yield "All tests on each level of x86-64", lambda: levels(tools)
-    yield "The suite again and again", lambda: again(tools)
+    yield "The suite again and again", lambda: again(tools, "--times", "10", "--beside", "0")
+    yield "The suite beside busy processes", lambda: again(tools, "--times", "0", "--beside", "3")

@@ -10,7 +10,9 @@ ORDER = 0.1         # of observed orders of convergence
 ENDLESS = ("nan", "inf")
 # What depends on the machine and not on the numerics: these columns, and all numbers of these sections.
 MEASURED = re.compile(r"wall|\[s\]|\[ms|updates/s|MiB|\[%\]|time of|processor")
-MACHINES = ("Benchmarks", "What watching costs", "What live pictures cost", "Signals to every program", "Two ranks against one", "time of each program", "Sanitizers", "Mutat")
+MACHINES = ("Benchmarks", "What watching costs", "What live pictures cost", "Signals to every program", "Two ranks against one",
+            "time of each program", "Sanitizers", "Mutat", "Kernels by instruction set", "bare Debians", "level of x86-64",
+            "The suite again", "protecting the bus")
 
 
 def _rows(text):

@@ -287,15 +287,6 @@ def faults(count):
     return f"`{shlex.join(command)}`, exit code {answer.returncode}\n\n```\n" + "\n".join([answer.stdout.rstrip(), *flaws]) + "\n```\n"
 
 
-def damaged(count):
-    """Case files damaged in every way a test knows: what became of them, and what the worst one cost."""
-    command = [ROOT / "build" / "release" / "bin" / "test_case", "--gtest_filter=DamagedCase.*"]
-    answer = subprocess.run(command, env=os.environ | {"FSI_DAMAGES": str(count)}, capture_output=True, text=True, check=True)
-    line = next(line for line in answer.stdout.splitlines() if "damaged files" in line)
-    line = re.sub(r" \([^)]*seed \d+\)", "", line)
-    return f"`FSI_DAMAGES={count} build/release/bin/test_case --gtest_filter='DamagedCase.*'`\n\n{line}.\n"
-
-
 RATIOS = ["0.001", "0.01", "0.1", "1", "10", "1000"]
 PISTON = [("steps", "steps"), ("v_bar", "errors.v_bar"), ("P_bar", "errors.P_bar"), ("u_bar", "errors.u_bar"),
           ("rho", "errors.rho"), ("v1", "errors.v1"), ("T", "errors.T"), ("gap", "interface.max_gap")]
@@ -514,23 +505,36 @@ def write(sections, titles):
 def all_studies():
     """[(title, function)] in the order of the page."""
     tools = sys.modules[__name__]
+
+    def of(*modules):
+        return [study for module in modules for study in module.studies(tools)]
+
     return [*piston_studies(), *record_paper.manufactured(tools),
             ("Gas: manufactured solution on a moving grid", lambda: converge("chosen-gas", "gas_manufactured", "2,4,8,16")),
-            *other_studies(), *record_paper.disks(tools), *disk_studies(), *record_ellipse.studies(tools), *record_levels.studies(tools), *record_ranks.studies(tools), *beam_studies.studies(tools), *wall_studies.studies(tools),
-            *flutter_studies.studies(tools), *thin_studies.studies(tools),
-            *record_impacts.studies(tools), *record_outlines.studies(tools),
+            *other_studies(), *record_paper.disks(tools), *disk_studies(),
+            *of(record_ellipse, record_levels, record_ranks, beam_studies, wall_studies, flutter_studies, thin_studies,
+                record_impacts, record_outlines),
             ("What watching costs", lambda: watched("watched")), ("What live pictures cost", lambda: looked_at(15)),
-            ("Signals to every program at random moments", lambda: faults(1000)), *record_faults.studies(tools),
+            ("Signals to every program at random moments", lambda: faults(1000)), *of(record_faults, record_builds),
             ("What protecting the bus costs", lambda: protection("protection")),
-            ("Damaged case files", lambda: damaged(10000)),
             ("Benchmarks", lambda: bench("bench")), ("Benchmarks, where the time goes", lambda: profile("profile"))]
+
+
+def chosen_studies(words):
+    """Those whose title has one of the words, all without any.
+    @throws SystemExit for words that no title has"""
+    chosen = [(title, study) for title, study in all_studies() if not words or any(word in title for word in words)]
+    idle = [word for word in words if not any(word in title for title, _ in chosen)]
+    if idle:
+        raise SystemExit(f"no study has {', '.join(map(repr, idle))} in its title; docs/record_results.py --list shows all")
+    return chosen
 
 
 def check(words):
     """Repeats studies and prints what differs from what is recorded; the exit code."""
     recorded, wrong, count = kept_sections(), 0, 0
-    for title, study in all_studies():
-        if title in recorded and (not words or any(word in title for word in words)):
+    for title, study in chosen_studies(words):
+        if title in recorded:
             found = record_check.differences(title, recorded[title], "\n" + study().strip() + "\n\n")
             count, wrong = count + 1, wrong + bool(found)
             print("\n".join(found) if found else f"{title}: repeats", flush=True)
@@ -546,13 +550,12 @@ def recorded_with():
 
 def record(words):
     """Runs the studies whose title has one of the words, all without any, and writes each as soon as it is there; the exit code."""
-    sections, studies = kept_sections(), all_studies()
-    chosen = [(title, study) for title, study in studies if not words or any(word in title for word in words)]
-    for title, study in chosen:
+    sections, order = kept_sections(), [title for title, _ in all_studies()]
+    for title, study in chosen_studies(words):
         print(title, flush=True)
         sections[title] = "\n" + study().strip() + "\n\n" + recorded_with()
-        write(sections, [name for name, _ in studies if name in sections])
-    return 0 if chosen else 1
+        write(sections, [name for name in order if name in sections])
+    return 0
 
 
 def main(words):
@@ -560,7 +563,7 @@ def main(words):
         print(__doc__)
         return 0
     if words[:1] == ["--list"]:
-        print("\n".join(title for title, _ in all_studies() if not words[1:] or any(word in title for word in words[1:])))
+        print("\n".join(title for title, _ in chosen_studies(words[1:])))
         return 0
     return check(words[1:]) if words[:1] == ["--check"] else record(words)
 

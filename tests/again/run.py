@@ -3,7 +3,7 @@
 
 Runs `./launch/fsi test` N times in a row (default: 10), then --beside times (default: 3) beside --hogs processes (default: 4) that
 do nothing but keep a core each busy. Prints a line for each. By hand, for it takes hours; docs/record_results.py "The suite again
-and again" puts the table into docs/results.md. Exit 1 where a test failed.
+and again" "The suite beside busy processes" puts the tables into docs/results.md. Exit 1 where a test failed.
 """
 
 import argparse
@@ -54,7 +54,10 @@ def main():
         with hogs(busy):
             seconds, passed, failed = suite()
         every = every and passed.startswith("100%") and not failed
-        print(f"| {number + 1} | {f'{busy} busy processes' if busy else '-'} | {seconds:.0f} | {passed} | {', '.join(failed) or '-'} |", flush=True)
+        line = f"| {number + 1} | {f'{busy} busy processes' if busy else '-'} | {seconds:.0f} | {passed} | {', '.join(failed) or '-'} |"
+        print(line, flush=True)
+        if not sys.stdout.isatty():  # who reads the table later wants to know how far it is
+            print(line, file=sys.stderr, flush=True)
     return 0 if every else 1
 
 
