@@ -3,8 +3,13 @@
 import json
 import os
 import re
+import resource
 import shlex
+import shutil
 import subprocess
+import tempfile
+import time
+from pathlib import Path
 
 FOLDERS = {"native": "release", "x86-64-v4": "march-v4", "x86-64-v3": "march-v3", "x86-64-v2": "march-v2"}  # by FSI_MARCH
 ROUNDS = 7
@@ -81,7 +86,42 @@ def again(tools, *options):
     return f"`{shlex.join(command)}`, exit code {answer.returncode}\n\n{answer.stdout.strip()}\n"
 
 
+def spent(command, folder):
+    """(processor time, clock) of a command that must go well [s]."""
+    def processor():
+        used = resource.getrusage(resource.RUSAGE_CHILDREN)
+        return used.ru_utime + used.ru_stime
+    before, start = processor(), time.monotonic()
+    answer = subprocess.run(command, shell=True, cwd=folder, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
+    if answer.returncode:
+        raise SystemExit(f"{command}: exit code {answer.returncode}: {answer.stderr[-500:]}")
+    return processor() - before, time.monotonic() - start
+
+
+def first_case(tools):
+    """The README's first command and those of docs/first_case.md, typed one after the other in a fresh clone."""
+    blocks = [block.strip() for block in (tools.ROOT / "docs" / "first_case.md").read_text(encoding="utf-8").split("```")[1::2]]
+    typed = [line for block in blocks for line in block.splitlines() if line.startswith("./launch/fsi")]
+    first_picture = next(line for line in typed if line.startswith("./launch/fsi plot"))
+    lines = ["| command | processor time [s] | clock [s] |", "|---|---|---|"]
+    total = [0.0, 0.0]
+    with tempfile.TemporaryDirectory(prefix="fsi-first-case-") as scratch:
+        clone = Path(scratch) / "amp-fsi"
+        do(tools, "git", "clone", "-q", str(tools.ROOT), str(clone))
+        (clone / "bean.csv").write_text(next(block for block in blocks if block.startswith("#")), encoding="utf-8")
+        for command in ["./launch/fsi run elastic_piston", *typed]:
+            times = spent(command, clone)
+            total = [sum(pair) for pair in zip(total, times)]
+            lines.append(f"| `{command}` | {times[0]:.1f} | {times[1]:.1f} |")
+            if command == first_picture:
+                lines.append(f"| **until here** | **{total[0]:.0f}** | **{total[1]:.0f}** |")
+    cache = "with" if shutil.which("ccache") else "without"
+    return (f"Typed in a fresh clone, {cache} a compiler's cache, on {os.cpu_count()} processors, the packages installed "
+            f"(load before it: {os.getloadavg()[0]:.1f}).\n\n" + "\n".join(lines) + "\n")
+
+
 def studies(tools):
+    yield "From clone to pictures of one's own", lambda: first_case(tools)
     yield "Kernels by instruction set: what a portable build costs", lambda: instruction_sets(tools)
     yield "The two commands on bare Debians", lambda: distributions(tools)
     yield "All tests on each level of x86-64", lambda: levels(tools)

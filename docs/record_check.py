@@ -12,7 +12,7 @@ ENDLESS = ("nan", "inf")
 MEASURED = re.compile(r"wall|\[s\]|\[ms|updates/s|MiB|\[%\]|time of|processor")
 MACHINES = ("Benchmarks", "What watching costs", "What live pictures cost", "Signals to every program", "Two ranks against one",
             "time of each program", "Sanitizers", "Mutat", "Kernels by instruction set", "bare Debians", "level of x86-64",
-            "The suite again", "protecting the bus")
+            "The suite again", "The suite beside", "From clone", "protecting the bus")
 
 
 def _rows(text):

@@ -20,6 +20,7 @@ import socket
 import statistics
 import subprocess
 import sys
+import tempfile
 import time
 from pathlib import Path
 
@@ -367,6 +368,7 @@ def sides():
                                                       f"{key}.top=displacement"], [])
 
 
+BEFORE_THE_BOUNDS = "a2ebc303b6fe"   # the last commit before waves at sides and loaded sides had bounds of their own
 # Ten times as long as shipped, small strains where the gas would fold: noise that feeds on itself would show.
 TEN_TIMES = [("free_stream", ["time.end=10"]), ("rotating_disk", ["time.end=5", "output.times=[5]", "grid.factor=4"]),
              *((f"piston_{law}", ["time.end=15", "output.times=[15]", "parameters.strain=0.005", f"grid.factor={factor}"])
@@ -382,15 +384,23 @@ def ten_times_as_long():
     return "\n".join(tables)
 
 
-def noise_of_solids(steps):
-    """Growth of noise in a strained body over all combinations of the three betas."""
-    subprocess.run(["./launch/fsi", "--build", "noise_of_solids"], cwd=ROOT, check=True)
-    said = subprocess.run(["build/release/bin/noise_of_solids", str(steps)], cwd=ROOT, check=True, capture_output=True, text=True)
-    return f"`build/release/bin/noise_of_solids {steps}` after `./launch/fsi --build noise_of_solids`\n\n" + said.stdout
+def noise_of_solids(steps, commit=None):
+    """Growth of noise in a strained body over all combinations of the three betas, with the programs of an older commit if one is given."""
+    with tempfile.TemporaryDirectory(prefix="fsi-noise-") as scratch:
+        root = ROOT
+        if commit:
+            root = Path(scratch)
+            subprocess.run(["git", "clone", "-q", str(ROOT), scratch], check=True)
+            subprocess.run(["git", "checkout", "-q", commit], cwd=root, check=True)
+        subprocess.run(["./launch/fsi", "--build", "noise_of_solids"], cwd=root, check=True)
+        said = subprocess.run(["build/release/bin/noise_of_solids", str(steps)], cwd=root, check=True, capture_output=True, text=True)
+    text = f"`build/release/bin/noise_of_solids {steps}` after `./launch/fsi --build noise_of_solids`"
+    return text + (f", in a clone at commit {commit}" if commit else "") + "\n\n" + said.stdout
 
 
 def other_studies():
-    yield "Noise in a strained solid, 64 combinations of the three betas", lambda: noise_of_solids(1000)
+    yield "Noise in a strained solid, 64 combinations of the three betas", lambda: noise_of_solids(10000)
+    yield "Noise in a strained solid, before the step bounded what grew", lambda: noise_of_solids(1000, BEFORE_THE_BOUNDS)
     yield "Ten times as long as shipped", ten_times_as_long
     for case in ("piston_svk", "piston_neo_hookean"):
         yield (f"{case} against the fine one-dimensional run", lambda c=case: converge(c, c, "2,4,8,16"))
@@ -413,7 +423,9 @@ def other_studies():
            lambda: sweep("block", "spinning_block",
                          [(f"h = 1/{10 * j}, {turns} turn{'s' if turns > 1 else ''}",
                            [f"grid.factor={j}", f"parameters.turns={turns}"], [])
-                          for turns, j in ((1, 2), (1, 4), (1, 8), (5, 4), (40, 2))],
+                          for turns, j in ((1, 2), (1, 4), (1, 8), (5, 4), (40, 2))]
+                         + [(f"h = 1/20, 1 turn, relaxation {beta}", ["grid.factor=2", f"solids.block.scheme.relaxation={beta}"], [])
+                            for beta in ("{scaled: 0.2}", "{scaled: 1}", "{rate: 1}")],
                          [("t", "t"), ("energy drift", "conservation.block.energy"),
                           ("energy", "conservation.block.energy_initial"),
                           ("angular momentum drift", "conservation.block.angular_momentum"),

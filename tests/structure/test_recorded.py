@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""docs/results.md and docs/record_results.py belong together: every section has its study, and every study can be asked for."""
+"""docs/results.md and docs/record_results.py belong together: every section has its study, every study can be asked for; and links of the
+documentation lead to headings that are there."""
 
 import importlib
 import re
@@ -25,7 +26,7 @@ class Recorded(unittest.TestCase):
         self.assertEqual(len(TITLES), len(set(TITLES)))
 
     def test_every_section_has_its_study(self):
-        sections = set(record_results.kept_sections()) - {"The paper's tables in one", "Contents"}
+        sections = set(record_results.kept_sections()) - {"The paper's tables in one", "What differs from the paper", "Contents"}
         self.assertEqual(sections - set(TITLES), set())
 
     def test_every_study_is_among_all(self):
@@ -40,6 +41,18 @@ class Recorded(unittest.TestCase):
         self.assertGreater(len(named), 2)
         for word in named:
             self.assertTrue(any(" ".join(word.split()) in title for title in TITLES), word)
+
+    def test_links_lead_to_headings(self):
+        pages = {path: path.read_text(encoding="utf-8") for path in ROOT.rglob("*.md") if "build" not in path.parts and "runs" not in path.parts}
+        headings = {path: {record_results.anchor(title) for title in re.findall(r"^#+ (.*)$", text, flags=re.M)} for path, text in pages.items()}
+        links = [(path, target) for path, text in pages.items() for target in re.findall(r"\]\(([^)\s:]*#[^)\s]+)\)", text)]
+        self.assertGreater(len(links), 100)
+        for path, link in links:
+            with self.subTest(page=str(path.relative_to(ROOT)), link=link):
+                name, _, heading = link.partition("#")
+                page = (path.parent / name).resolve() if name else path
+                if page in headings:
+                    self.assertIn(heading, headings[page])
 
     def test_words_that_no_title_has_are_refused(self):
         with self.assertRaises(SystemExit) as refused:

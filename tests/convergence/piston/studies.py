@@ -1,4 +1,4 @@
-"""Convergence studies of the elastic piston by ./launch/fsi converge."""
+"""Convergence studies of elastic pistons by ./launch/fsi converge."""
 
 import json
 import os
@@ -21,10 +21,10 @@ ALL = ("rho", "v1", "T", "u_bar", "v_bar", "P_bar")
 
 
 class Study(unittest.TestCase):
-    def converge(self, *settings, levels=LEVELS):
+    def converge(self, *settings, levels=LEVELS, case="elastic_piston"):
         """The table of a study; it must not fail."""
         with tempfile.TemporaryDirectory(prefix="fsi-converge-") as scratch:
-            command = [ROOT / "launch" / "fsi", "converge", "elastic_piston", "--levels", levels, "--out", f"{scratch}/s"]
+            command = [ROOT / "launch" / "fsi", "converge", case, "--levels", levels, "--out", f"{scratch}/s"]
             command += [f"--set={setting}" for setting in settings]
             answer = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
             self.assertEqual(answer.returncode, 0, answer.stderr)

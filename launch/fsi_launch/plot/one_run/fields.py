@@ -16,7 +16,7 @@ from fsi_launch.plot.reading.scales import Scales
 
 MOST_TIMES = 12        # pictures of fields; of a longer series, times evenly spread
 CONTOURS = 16          # lines, where they are asked for; an even number keeps off the zero of signed fields
-SLOW = 0.05            # solids that move at less than this part of the gas's speed have a scale of their own: one would hide their waves
+SLOW = 0.05            # gas and solids of which one moves at less than this part of the other's speed have scales of their own: one would hide its waves
 RIM = 0.005            # around all points, part of the longer side of their box
 ROUND_OFF = 1e-12      # variation, part of the values, that is no variation
 
@@ -211,6 +211,12 @@ def _size(limits):
     return abs(constant) if constant is not None else max(abs(low), abs(high))
 
 
+def comparable(*speeds):
+    """Whether one scale shows both: none is slow beside the other, or one is at rest."""
+    slower, faster = sorted(speeds)
+    return slower == 0 or slower >= SLOW * faster
+
+
 def _panels_of(gas, solids, look):
     """The panels for all these outputs of the gas and of the solids."""
     found = []
@@ -221,7 +227,7 @@ def _panels_of(gas, solids, look):
         solid_range = _range(([], solids), (None, of_solid), floor) if of_solid else None
         if of_gas and solid_range and solid_range[2] == 0:    # a rigid body has no stress, a held one no speed: plain
             title, of_solid, solid_range = of_gas_alone[of_gas], None, None
-        if of_gas is of_solid and _size(solid_range) >= SLOW * _size(gas_range):
+        if of_gas is of_solid and comparable(_size(gas_range), _size(solid_range)):
             gas_range = solid_range = _range((gas, solids), (of_gas, of_solid), floor)
         found.append(Panel(title, of_gas, of_solid, gas_range, solid_range))
     return found

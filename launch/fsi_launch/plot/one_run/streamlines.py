@@ -182,7 +182,7 @@ def _picture(series, gas, solids, moments, floor):
     """Streamlines at the outputs `moments`; speeds up to `floor` are round-off."""
     most = [_largest([one.outputs[k] for one in some for k in moments]) for some in ([gas], solids)]
     most[1] = most[1] if most[1] > floor else 0
-    if most[1] > fields.SLOW * most[0]:     # as in the pictures of the fields
+    if most[1] > 0 and fields.comparable(*most):     # as in the pictures of the fields
         most = [max(most)] * 2
     box = fields.box_around([grid for one in series for output in one.outputs for grid in output.grids])
     figure, axes = _panels(len(moments), box)

@@ -266,6 +266,8 @@ TEST(DamagedCase, IsAMistakeWithItsPlaceOrFineButNeverACrash) {
   EXPECT_GT(tally.mistakes, damages / 3);
 #ifndef __SANITIZE_ADDRESS__  // which keeps what was given back
   EXPECT_LT(peak_memory(), 500);
+  constexpr double most_processor_time_s = 5;
+  EXPECT_LT(tally.slowest, most_processor_time_s) << tally.slowest_file;
 #endif
 }
 
