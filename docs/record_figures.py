@@ -15,7 +15,7 @@ from pathlib import Path
 
 from PIL import Image
 
-from record_paper import DISK_CFL, PAPER_DISK, RINGS
+from record_paper import PAPER_DISK, as_in_the_paper
 from record_results import anchor
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -93,9 +93,7 @@ START = ("--at", "0")
 
 
 def disk(delta, factor, *more):
-    """With the paper's rings and Courant number."""
-    return Run(f"disk-{delta}-{factor}", "rotating_disk",
-               (f"grid.factor={factor}", f"parameters.delta={delta}", f"time.cfl={DISK_CFL[str(delta)]}", *RINGS, *more, "expect={}"))
+    return Run(f"disk-{delta}-{factor}", "rotating_disk", (f"grid.factor={factor}", f"parameters.delta={delta}", *as_in_the_paper(delta), *more))
 
 
 def ellipse(law, factor, projection="simplified"):

@@ -377,7 +377,7 @@ TEN_TIMES = [("free_stream", ["time.end=10"]), ("rotating_disk", ["time.end=5", 
 
 
 def ten_times_as_long():
-    columns = [("t", "t"), ("steps", "steps"), ("ripple", "noise.value"), ("v2", "errors.v2"), ("v_bar", "errors.v_bar"),
+    columns = [("t", "t"), ("steps", "steps"), ("ripple", "noise.value"), ("largest at t", "noise.t"), ("v2", "errors.v2"), ("v_bar", "errors.v_bar"),
                ("P_bar", "errors.P_bar")]
     tables = [sweep(f"ten-times-{case}-{index}", case, [(case, settings, [])], columns, ["expect={}"])
               for index, (case, settings) in enumerate(TEN_TIMES)]
@@ -441,6 +441,13 @@ def disk_studies():
            lambda: converge("disk-stiff", "rotating_disk", "2,4,8,16", ["solids.disk.lambda=2", "solids.disk.mu=0.5"]))
     yield ("Rotating disk, a ring of the solid by a formula instead of marching",
            lambda: converge("disk-mapped", "rotating_disk", "2,4,8", [POLAR_RING, "solids.disk.body_fitted.lines=9"]))
+    yield ("Rotating disk, relaxation on the paper's rings",
+           lambda: sweep("disk-relaxation", "rotating_disk",
+                         [(f"{rings}, relaxation {beta}, h = 1/{10 * j}",
+                           [f"grid.factor={j}", *settings, f"solids.disk.scheme.relaxation={beta}"], [])
+                          for rings, settings in (("7 h deep", []), ("0.25 deep", record_paper.RINGS))
+                          for beta in ("{scaled: 0.2}", "{rate: 0.5}") for j in (8, 16)],
+                         [(name, f"errors.{name}") for name in COLUMNS], ["parameters.delta=10", "expect={}"]))
     yield ("Rotating disk, without each stabilisation, h = 1/160",
            lambda: sweep("disk-without", "rotating_disk",
                          [("all", [], [])] + [(f"without {key}", [f"solids.disk.scheme.{key}.scaled=0"], [])
