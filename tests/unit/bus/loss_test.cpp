@@ -7,6 +7,7 @@
 #include <ostream>
 
 #include "tests/unit/bus/seats.hpp"
+#include "tests/waiting.hpp"
 
 namespace fsi::bus::test {
 namespace {
@@ -33,7 +34,7 @@ constexpr int for_ever = 1 << 30;
 BusOptions losing(const std::string& run, const Loss& loss) {
   BusOptions result = options(run);
   // Who must come through may take its time.
-  result.peer_timeout_s = loss.count == for_ever ? 1.2 : watchdog_s;
+  result.peer_timeout_s = loss.count == for_ever ? 1.2 : fsi::test::watchdog_s;
   auto sent = std::make_shared<std::atomic<int>>(0);  // of this program; every topic has one sender
   result.loses = [loss, sent](const std::string& topic) {
     if (std::ranges::find(loss.topics, topic) == loss.topics.end()) return false;
