@@ -180,7 +180,10 @@ def _loads(tools):
 
 
 VARIANTS = (("twice as thick", ["parameters.thickness=0.2"]), ("half as high", ["parameters.height=0.5"]),
-            ("Mach 1.3", ["parameters.mach=1.3"]), ("Mach 1.3, softer", ["parameters.mach=1.3", *_parameters(("10", "10"))]))
+            ("Mach 1.3", ["parameters.mach=1.3"]), ("Mach 1.2, softer", ["parameters.mach=1.2", *_parameters(("10", "10"))]),
+            ("Mach 1.3, softer", ["parameters.mach=1.3", *_parameters(("10", "10"))]),
+            ("Mach 1.3, softer, with the limiter that the message names",
+             ["parameters.mach=1.3", *_parameters(("10", "10")), "solids.beam.scheme.limiter=minmod"]))
 
 
 def _variants(tools):

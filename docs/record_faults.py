@@ -25,7 +25,7 @@ def mutated(root):
     command = ["build/release/bin/test_case", "--gtest_filter=DamagedCase.*"]
     answer = subprocess.run(command, cwd=root, capture_output=True, text=True, check=False,
                             env=os.environ | {"FSI_DAMAGES": str(DAMAGES)})
-    said = [line for line in answer.stdout.splitlines() if "damaged files" in line or "Failure" in line]
+    said = [line.replace(f"{root}/", "") for line in answer.stdout.splitlines() if "damaged files" in line or "Failure" in line]
     return (f"`FSI_DAMAGES={DAMAGES} {shlex.join(command)}`, exit code {answer.returncode}\n\n"
             + ("\n".join(said) or answer.stderr.strip()[-300:] or "no word: it crashed") + "\n")
 

@@ -373,7 +373,7 @@ BEFORE_THE_BOUNDS = "a2ebc303b6fe"   # the last commit before waves at sides and
 TEN_TIMES = [("free_stream", ["time.end=10"]), ("rotating_disk", ["time.end=5", "output.times=[5]", "grid.factor=4"]),
              *((f"piston_{law}", ["time.end=15", "output.times=[15]", "parameters.strain=0.005", f"grid.factor={factor}"])
                for law in ("svk", "neo_hookean") for factor in (8, 16)),
-             ("clamped_beam", ["time.end=20"]), ("spinning_block", ["parameters.turns=10"])]
+             ("clamped_beam", ["time.end=20"]), ("clamped_beam", ["time.end=60"]), ("spinning_block", ["parameters.turns=10"])]
 
 
 def ten_times_as_long():
@@ -381,7 +381,8 @@ def ten_times_as_long():
                ("P_bar", "errors.P_bar")]
     tables = [sweep(f"ten-times-{case}-{index}", case, [(case, settings, [])], columns, ["expect={}"])
               for index, (case, settings) in enumerate(TEN_TIMES)]
-    return "\n".join(tables)
+    return "\n".join(tables) + ("\nThe ripple of `clamped_beam` is a wave around its rounded tip, whose corners have five points each: in v2, whose range is a tenth of v1's. "
+                                "It is as large in a run three times as long.\n")
 
 
 def noise_of_solids(steps, commit=None):

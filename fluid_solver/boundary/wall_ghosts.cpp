@@ -51,6 +51,14 @@ double pressure_slope(ConstFieldView q, ConstFieldView x, const SidePoints& side
   return p_n * across.dot(n) + p_r * across.dot(g_r) / g_r.squaredNorm();
 }
 
+/// How far the density behind a wall may be from that of its mirror image, `change` as extrapolated: whole up to half of the
+/// density, then less and less, and not at all where it would be all of it. There a shock stands between the wall and the
+/// first line, which is its own mirror image: ghosts with the gas's density at the wall and its speed before the shock
+/// would push the wall's gas away as fast as it comes, and the shock would stay for ever.
+double change_of_density(double change, double inside) {
+  return change * std::clamp(2 * (1 - std::fabs(change) / inside), 0.0, 1.0);
+}
+
 }  // namespace
 
 void wall_ghosts(FieldView q, ConstFieldView x, const SidePoints& side, const Wall& wall, bool limited) {
@@ -67,6 +75,7 @@ void wall_ghosts(FieldView q, ConstFieldView x, const SidePoints& side, const Wa
       const double largest_change = limited ? 0.5 * inside[3] : (1 - 1e-3) * inside[3];
       ghost[3] = inside[3] - std::clamp(2 * m * slope, -largest_change, largest_change);
       if (limited) {  // odd reflection: the wall stays where it is when a shock meets it
+        ghost[0] = inside[0] + change_of_density(ghost[0] - inside[0], inside[0]);
         Vec2 v = ghost.segment<2>(1);
         v += (2 * v_n - n.dot(Vec2(inside.segment<2>(1))) - n.dot(v)) * n;
         ghost.segment<2>(1) = v;

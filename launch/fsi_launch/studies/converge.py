@@ -123,7 +123,8 @@ def _run_levels(options, directory):
 
 def _compare_levels(options, case, directory):
     """The bodies on each grid against those on the next finer one."""
-    rows = self_convergence.compare(options.levels, [directory / f"level_{j}" for j in options.levels], case.times)
+    times = sorted({*case.times, case.end})  # the end is written whatever the times of output
+    rows = self_convergence.compare(options.levels, [directory / f"level_{j}" for j in options.levels], times)
     if not rows:
         raise UserMistake(f"{case.name} has no reference solution and no solid that moves: there is nothing to compare")
     text = self_convergence.as_text(options.levels, rows)
@@ -132,7 +133,7 @@ def _compare_levels(options, case, directory):
                             ("json", self_convergence.as_json(options.levels, rows))):
         (directory / f"converge.{suffix}").write_text(content, encoding="utf-8")
     print(f"tables in {directory}", file=sys.stderr)
-    return _judge({f"{row.quantity} of {row.solid} at t = {row.t:g}": row.orders[-1] for row in rows
+    return _judge({f"{row.quantity} of {row.solid} at t = {row.t:g}": row.orders[-1] if row.orders else None for row in rows
                    if any(_has_rate(difference) for difference in row.differences)}, options.min_rate)
 
 

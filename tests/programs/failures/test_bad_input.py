@@ -2,6 +2,7 @@
 """The user's mistakes: exit 2, one line that says where and what to write, nothing started, nothing made."""
 
 import os
+import re
 import subprocess
 import sys
 import unittest
@@ -129,6 +130,21 @@ class BadInput(EndToEnd):
         answer = subprocess.run([FSI, "rn"], capture_output=True, text=True, check=False)
         self.assertEqual(answer.returncode, 2)
         self.assertRegex(answer.stderr, r"^fsi: no verb 'rn'; there are run, submit, test, .*completion$")
+
+    def test_every_verb_of_the_usage_says_its_own(self):
+        usage = (ROOT / "launch" / "usage.txt").read_text(encoding="utf-8").split("CASE is a file")[0]
+        verbs = set(re.findall(r"^  ([a-z]+) ", usage, flags=re.M))
+        self.assertGreater(len(verbs), 14)
+        for verb in sorted(verbs):
+            answer = subprocess.run([FSI, verb, "--help"], env=os.environ | {"FSI_BIN": str(BIN)}, capture_output=True, text=True, check=False)
+            self.assertEqual(answer.returncode, 0, f"{verb}: {answer.stderr}")
+            self.assertIn(f"fsi {verb}", answer.stdout)
+
+    def test_two_grids_have_differences_and_no_order(self):
+        answer = subprocess.run([FSI, "converge", "rigid_piston", "--levels", "1,2", "--set", "time.end=0.3", "--set", "output.times=[0.1]"],
+                                cwd=self.folder, env=os.environ | {"FSI_BIN": str(BIN)}, capture_output=True, text=True, check=False)
+        self.assertEqual(answer.returncode, 0, answer.stderr)
+        self.assertIn(" 0.3 ", answer.stdout)  # the end, though it is no time of output
 
     def test_a_rate_between_grids_takes_three(self):
         answer = subprocess.run([FSI, "converge", "rigid_piston", "--levels", "1,2", "--min-rate", "5"], cwd=self.folder,

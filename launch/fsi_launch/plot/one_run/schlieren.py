@@ -88,11 +88,10 @@ def _colour(axes, solids, speed):
 
 
 def _box(gas, solids):
-    """((x_a, x_b), (y_a, y_b)) of the background, or of those of several gases, and of solids beside it."""
-    shown = [grid for grid in gas.grids if grid.is_cartesian()] or gas.grids[:1]
-    shown = shown + [grid for one in solids for grid in one.grids]
+    """((x_a, x_b), (y_a, y_b)) of all gases, and of solids beside them."""
+    shown = [grid for one in (gas, *solids) for grid in one.grids]
     return tuple((min(values.min() for values in x), max(values.max() for values in x))
-                 for x in ([grid.x1 for grid in shown], [grid.x2 for grid in shown]))
+                 for x in ([grid.x1[grid.used()] for grid in shown], [grid.x2[grid.used()] for grid in shown]))
 
 
 def draw(axes, gas, solids, size):
