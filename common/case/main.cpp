@@ -38,13 +38,15 @@ fsi::Case load(const Options& options) {
 
 void check(const Options& options) {
   const fsi::Case problem = load(options);
+  const fsi::RunCost cost = fsi::cost_of(problem);
+  fsi::refuse_endless(cost);
   if (options.as_json) {
     fmt::print("{}\n", fsi::summary_as_json(problem));
     return;
   }
   fmt::print("{}\n", fsi::summary_line(problem));
   for (const std::string& line : problem.chosen) fmt::print("  chosen: {}\n", line);
-  if (const std::string text = fsi::cost_text(fsi::cost_of(problem)); !text.empty()) fmt::print("{}\n", text);
+  if (const std::string text = fsi::cost_text(cost); !text.empty()) fmt::print("{}\n", text);
 }
 
 void resolve(const Options& options) {

@@ -9,6 +9,7 @@
 #include "common/case/grids/composite_from_case.hpp"
 #include "common/case/grids/grid_points.hpp"
 #include "common/case/schema/laws.hpp"
+#include "common/core/failure.hpp"
 
 namespace fsi {
 
@@ -263,6 +264,19 @@ std::string why_long(const RunCost& cost, const std::string& steps) {
 }
 
 }  // namespace
+
+void refuse_endless(const RunCost& cost) {
+  constexpr double most_steps = 1e11;
+  if (!(cost.steps > most_steps)) return;
+  const StepCost& slowest =
+      *std::ranges::min_element(cost.programs, {}, [](const StepCost& program) { return program.dt; });
+  throw UserMistake(
+      fmt::format("time.end is {:.2g} steps of {:.3g} away, more than any run can take ({:.0e}): write a "
+                  "smaller time.end, or find out what makes the steps "
+                  "so small: those of {} are {:.3g} long (cell ({}, {}) of \"{}\")",
+                  cost.steps, cost.dt, most_steps, slowest.program, slowest.dt, slowest.cell[0],
+                  slowest.cell[1], slowest.grid));
+}
 
 std::string cost_text(const RunCost& cost) {
   if (cost.steps == 0) return "";

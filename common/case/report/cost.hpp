@@ -42,6 +42,9 @@ struct RunCost {
 /// for all grids: a flow that becomes faster takes more steps.
 RunCost cost_of(const Case& problem);
 
+/// @throws UserMistake for a run of more steps than any can take: `TimeSchedule` would refuse its first one
+void refuse_endless(const RunCost& cost);
+
 /// For people, a line for each program and one for the run;
 /// and one more where a few small cells set the step, or where the run takes more than an hour.
 std::string cost_text(const RunCost& cost);

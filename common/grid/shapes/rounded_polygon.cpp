@@ -66,7 +66,8 @@ Skeleton skeleton_of(const RoundedPolygon& shape) {
   for (std::size_t k = 0; k < edges; ++k) {
     const Vec2 along = skeleton.points[k + 1] - skeleton.points[k];
     if (!(along.norm() > 0))
-      throw UserMistake(fmt::format("corners {} and {} of a polygon coincide", k + 1, k + 2));
+      throw UserMistake(
+          fmt::format("corners {} and {} of a polygon coincide: leave one of them out", k + 1, k + 2));
     skeleton.directions.push_back(along.normalized());
     skeleton.lengths.push_back(along.norm());
   }

@@ -84,7 +84,8 @@ std::vector<Edge> edges_of(const SmoothedPolygon& shape) {
   for (std::size_t k = 0; k < n; ++k) {
     const double width = (corners[k + 1] - corners[k]).norm() / total;
     if (!(width > 0))
-      throw UserMistake(fmt::format("corners {} and {} of a smoothed polygon coincide", k, k + 1));
+      throw UserMistake(
+          fmt::format("corners {} and {} of a smoothed polygon coincide: leave one of them out", k, k + 1));
     const double sharpness = shape.sharpness_at.empty() ? shape.sharpness : shape.sharpness_at[k];
     edges.push_back(
         {from, from + width, sharpness, (corners[k + 1] - corners[k]) / width, Vec2::Constant(total)});

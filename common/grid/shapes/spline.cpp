@@ -162,8 +162,9 @@ Knots knots_of(std::vector<Vec2> points) {
   for (std::size_t k = 1; k < knots.x.size(); ++k) {
     const double chord = (knots.x[k] - knots.x[k - 1]).norm();
     if (!(chord > 0)) {
-      throw UserMistake(fmt::format("points {} and {} of a spline coincide at ({:.6g}, {:.6g})", k, k + 1,
-                                    knots.x[k][0], knots.x[k][1]));
+      throw UserMistake(
+          fmt::format("points {} and {} of a spline coincide at ({:.6g}, {:.6g}): leave one of them out", k,
+                      k + 1, knots.x[k][0], knots.x[k][1]));
     }
     knots.s[k] = knots.s[k - 1] + chord;
   }

@@ -140,6 +140,13 @@ class BadInput(EndToEnd):
             self.assertEqual(answer.returncode, 0, f"{verb}: {answer.stderr}")
             self.assertIn(f"fsi {verb}", answer.stdout)
 
+    def test_more_steps_than_any_run_can_take(self):
+        endless = ("elastic_piston", "--set", "solids.solid.lambda=1e30")
+        self.assertIn("more than any run can take", self.refused(*endless))
+        answer = subprocess.run([FSI, "check", *endless], env=os.environ | {"FSI_BIN": str(BIN)}, capture_output=True, text=True, check=False)
+        self.assertEqual(answer.returncode, 2, answer.stdout)
+        self.assertIn("more than any run can take", answer.stderr)
+
     def test_two_grids_have_differences_and_no_order(self):
         answer = subprocess.run([FSI, "converge", "rigid_piston", "--levels", "1,2", "--set", "time.end=0.3", "--set", "output.times=[0.1]"],
                                 cwd=self.folder, env=os.environ | {"FSI_BIN": str(BIN)}, capture_output=True, text=True, check=False)
