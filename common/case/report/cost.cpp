@@ -270,12 +270,12 @@ void refuse_endless(const RunCost& cost) {
   if (!(cost.steps > most_steps)) return;
   const StepCost& slowest =
       *std::ranges::min_element(cost.programs, {}, [](const StepCost& program) { return program.dt; });
-  throw UserMistake(
-      fmt::format("time.end is {:.2g} steps of {:.3g} away, more than any run can take ({:.0e}): write a "
-                  "smaller time.end, or find out what makes the steps "
-                  "so small: those of {} are {:.3g} long (cell ({}, {}) of \"{}\")",
-                  cost.steps, cost.dt, most_steps, slowest.program, slowest.dt, slowest.cell[0],
-                  slowest.cell[1], slowest.grid));
+  throw UserMistake(fmt::format(
+      "time.end is {:.2g} steps of {:.3g} away, more than any run can take ({:.0e}): write a smaller "
+      "time.end, or "
+      "find out what makes the steps of {} so small: cells {:.2g} x {:.2g} of grid \"{}\", or fast waves "
+      "there",
+      cost.steps, cost.dt, most_steps, slowest.program, slowest.cell[0], slowest.cell[1], slowest.grid));
 }
 
 std::string cost_text(const RunCost& cost) {
