@@ -44,6 +44,11 @@ class New(InFolder):
 
     def test_circle_of_aluminium_in_a_shock(self):
         self.begin()
+        text = (self.folder / "own.yaml").read_text(encoding="utf-8")
+        shock, left, factor = (float(re.search(pattern, text)[1]) for pattern in (r"x_shock: (\S+)", r"background, x: \[([^,]+),", r"factor: (\S+)}"))
+        for level in (1, 2, 4, 8):  # it is between lines of points, on finer grids too
+            cells = (shock - left) * 10 * factor * level
+            self.assertGreater(abs(cells - round(cells)), 0.3)
 
     def test_scaled_outline_of_rubber(self):
         self.begin("--outline", "corners.csv", "--size", "0.1", "--material", "rubber")
