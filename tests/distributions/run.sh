@@ -50,6 +50,8 @@ make_chroot() {  # make_chroot SUITE DIR LOG
     touch "$2/etc/fsi-complete"
   fi
   cp -L /etc/resolv.conf "$2/etc/resolv.conf"
+  # As every installed system has it; without it mpirun asks the name server for localhost, and waits.
+  printf '127.0.0.1 localhost\n' >"$2/etc/hosts"
   rm -rf "$2/root/amp-fsi"
   # An owner of its own: a clone, not a copy with what happens to lie here.
   git clone -q --no-hardlinks "$root" "$2/root/amp-fsi"
