@@ -7,8 +7,10 @@ them. On this machine only: nothing listens on a network.
 
 import contextlib
 import os
+import re
 import shutil
 import signal
+import subprocess
 import tempfile
 from pathlib import Path
 
@@ -86,6 +88,16 @@ def expect_mpi(asked):
     if missing:
         raise UserMistake(f"--ranks: {' and '.join(missing)} is missing; install Open MPI (sudo apt-get install {PACKAGES}) and build "
                           "again, or leave --ranks away")
+    if other := other_mpi():
+        raise UserMistake(f"--ranks: mpirun is of {other}, and ranks go with Open MPI 4 (of Debian 12) alone: its successor takes other options and "
+                          "finds no network on the loopback interface; leave --ranks away")
+
+
+def other_mpi():
+    """What mpirun says it is, where that is not Open MPI 4; \"\" where it is."""
+    said = subprocess.run(["mpirun", "--version"], capture_output=True, text=True, check=False).stdout.partition("\n")[0]
+    found = re.search(r"Open MPI\) ((\d+)\S*)", said)
+    return "" if found and found[2] == "4" else f"Open MPI {found[1]}" if found else said or "an unknown kind"
 
 
 def command(words, number):

@@ -218,8 +218,8 @@ class Supervisor:
         code, cut = process.wait(), ""
         if name in self._far:
             code, cut = self._far_end(name, process, code)
-        if name in self._ranked and code > 128 and code not in (INTERRUPTED, TERMINATED):
-            code = 128 - code       # as mpirun tells of a rank that a signal ended
+        if name in self._ranked and code - 128 in signal.valid_signals() and code not in (INTERRUPTED, TERMINATED):
+            code = 128 - code       # as mpirun tells of a rank that a signal ended; its own failures have greater codes
         ending = Ending(name, code, time.monotonic(), name in self._signalled, stopped=name in self._stopped_since, cut=cut)
         ending.early = ending.code == 0 and not self._begun
         self._outcome.endings.append(ending)
