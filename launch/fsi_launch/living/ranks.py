@@ -94,7 +94,7 @@ def expect_mpi(asked):
 
 
 def other_mpi():
-    """What mpirun says it is, where that is not Open MPI 4; \"\" where it is."""
+    """What mpirun says it is, where that is not Open MPI 4; nothing where it is."""
     said = subprocess.run(["mpirun", "--version"], capture_output=True, text=True, check=False).stdout.partition("\n")[0]
     found = re.search(r"Open MPI\) ((\d+)\S*)", said)
     return "" if found and found[2] == "4" else f"Open MPI {found[1]}" if found else said or "an unknown kind"
