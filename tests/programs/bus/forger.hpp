@@ -13,6 +13,7 @@
 #include <fstream>
 #include <map>
 #include <random>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -28,7 +29,12 @@ using Guid = std::array<unsigned char, 16>;
 /// A writer and a reader that hears it.
 struct Pair {
   Guid writer, reader;
+  bool is_of_state = false;  ///< of an interface in a step
 };
+
+inline bool is_of_state(const std::string& topic) {
+  return topic.starts_with("amp_fsi/predicted/") || topic.starts_with("amp_fsi/projected/");
+}
 
 /// A packet and the port it went to.
 struct Overheard {
@@ -36,12 +42,14 @@ struct Overheard {
   Bytes bytes;
 };
 
-/// Writers or readers of a run by topic, as a member of it sees them; waits until there are `count`.
+/// Writers or readers of a run by topic, as a member of it sees them. Waits until there are `states`, writers or
+/// readers, of the interface states of the run, which every program makes last.
 inline std::multimap<std::string, Guid> endpoints(const Entity& participant, dds_entity_t kind,
-                                                  std::size_t count) {
+                                                  std::size_t states) {
   const Entity reader(dds_create_reader(participant.get(), kind, nullptr, nullptr), "reader of endpoints");
   std::multimap<std::string, Guid> found;
-  for (int k = 0; k < 3000 && found.size() < count; ++k) {
+  std::set<Guid> of_states;
+  for (int k = 0; k < 30000 && of_states.size() < states; ++k) {
     void* place[1] = {nullptr};
     dds_sample_info_t info[1];
     while (dds_take(reader.get(), place, info, 1, 1) > 0) {
@@ -49,6 +57,7 @@ inline std::multimap<std::string, Guid> endpoints(const Entity& participant, dds
       Guid guid{};
       std::copy_n(endpoint->key.v, guid.size(), guid.begin());
       if (info[0].valid_data) found.emplace(endpoint->topic_name, guid);
+      if (info[0].valid_data && is_of_state(endpoint->topic_name)) of_states.insert(guid);
       dds_return_loan(reader.get(), place, 1);
     }
     fsi::test::let_pass(0.01);
@@ -56,19 +65,18 @@ inline std::multimap<std::string, Guid> endpoints(const Entity& participant, dds
   return found;
 }
 
-/// Everybody who hears somebody in a run with so many writers and readers. A stranger would have to guess
-/// them; this one knows the key.
-inline std::vector<Pair> pairs_of(const std::string& run, const std::string& key, std::size_t writers,
-                                  std::size_t readers) {
+/// Everybody who hears somebody in a run in which so many interface states are sent in a step. A stranger would
+/// have to guess them; this one knows the key.
+inline std::vector<Pair> pairs_of(const std::string& run, const std::string& key, std::size_t states) {
   const auto domain = join_domain(run, 10);
   const Entity participant = create_participant(run, parse_key(key), "monitor");
-  const auto all_writers = endpoints(participant, DDS_BUILTIN_TOPIC_DCPSPUBLICATION, writers);
-  const auto all_readers = endpoints(participant, DDS_BUILTIN_TOPIC_DCPSSUBSCRIPTION, readers);
+  const auto all_writers = endpoints(participant, DDS_BUILTIN_TOPIC_DCPSPUBLICATION, states);
+  const auto all_readers = endpoints(participant, DDS_BUILTIN_TOPIC_DCPSSUBSCRIPTION, states);
   std::vector<Pair> pairs;
   for (const auto& [topic, writer] : all_writers) {
     const auto [begin, end] = all_readers.equal_range(topic);
     for (auto reader = begin; reader != end; ++reader)
-      pairs.push_back({.writer = writer, .reader = reader->second});
+      pairs.push_back({.writer = writer, .reader = reader->second, .is_of_state = is_of_state(topic)});
   }
   return pairs;
 }
