@@ -3,7 +3,8 @@
 
 Runs `./launch/fsi test` N times in a row (default: 10), then --beside times (default: 3) beside --hogs processes (default: 4) that
 do nothing but keep a core each busy. Prints a line for each. By hand, for it takes hours; docs/record_results.py "The suite again
-and again" "The suite beside busy processes" puts the tables into docs/results.md. Exit 1 where a test failed.
+and again" "The suite beside busy processes" puts the tables into docs/results.md. What a suite with failures printed stays in
+build/again/NUMBER.log. Exit 1 where a test failed.
 """
 
 import argparse
@@ -18,6 +19,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 FAILED = re.compile(r"^\s*\d+ - (\S+) \(", re.MULTILINE)
 BUSY = "while True: pass"
+LOGS = ROOT / "build" / "again"
 
 
 @contextlib.contextmanager
@@ -32,12 +34,15 @@ def hogs(number):
             one.wait()
 
 
-def suite():
-    """(seconds, CTest's line about how many passed, names of tests that did not)."""
+def suite(log):
+    """(seconds, CTest's line about how many passed, names of tests that did not). `log`: a file for what it printed, kept where not all passed."""
     start = time.monotonic()
     done = subprocess.run([ROOT / "launch" / "fsi", "test"], cwd=ROOT, capture_output=True, text=True, check=False)
     passed = re.search(r"\d+% tests passed.*", done.stdout)
     _, _, failed = done.stdout.partition("The following tests FAILED:")
+    if done.returncode:
+        LOGS.mkdir(parents=True, exist_ok=True)
+        log.write_text(done.stdout + done.stderr, encoding="utf-8")
     return time.monotonic() - start, passed.group() if passed else f"exit code {done.returncode}: {done.stderr.strip()[-200:]}", FAILED.findall(failed)
 
 
@@ -52,7 +57,7 @@ def main():
     for number in range(chosen.times + chosen.beside):
         busy = 0 if number < chosen.times else chosen.hogs
         with hogs(busy):
-            seconds, passed, failed = suite()
+            seconds, passed, failed = suite(LOGS / f"{number + 1}.log")
         every = every and passed.startswith("100%") and not failed
         line = f"| {number + 1} | {f'{busy} busy processes' if busy else '-'} | {seconds:.0f} | {passed} | {', '.join(failed) or '-'} |"
         print(line, flush=True)
