@@ -42,8 +42,7 @@ grid::PlaneCurve curve_of(const Node& shape, bool closed, const std::string& pat
 grid::PlaneCurve blunted_curve(const Reader& reader, const Node& shape, bool closed,
                                const std::string& path) {
   const grid::PlaneCurve curve = curve_of(shape, closed, path);
-  constexpr double usual = 0.5;  // a face of one cell, half as wide as others
-  double width = usual * reader.scope().constants.at("h");
+  double width = usual_blunt * reader.scope().constants.at("h");
   Reader::assign(shape, "blunt", width);
   return grid::blunted(curve, width);
 }

@@ -13,6 +13,9 @@ namespace fsi {
 /// relative to `folder`. @throws UserMistake
 void inline_point_files(config::Node& root, const std::string& folder);
 
+/// `blunt` of a shape that gives none, in parts of h [-]: a face of one cell, half as wide as others.
+inline constexpr double usual_blunt = 0.5;
+
 /// Points of the curve under `shape`, as many as it says or `points` of them. @throws UserMistake
 CurveSpec build_curve(const Reader& reader, const config::Node& shape, const std::string& path,
                       std::optional<int> points = {});

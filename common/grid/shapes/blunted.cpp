@@ -162,4 +162,15 @@ PlaneCurve blunted(const PlaneCurve& curve, double width) {
           .corners = new_corners(curve, shared->parts)};
 }
 
+std::vector<CutCorner> cut_corners(const PlaneCurve& curve, double width) {
+  std::vector<CutCorner> result;
+  for (const Cut& cut : cuts_of(curve, width)) {
+    const Vec2 at = curve.position(cut.corner);
+    const Vec2 face = 0.5 * (curve.position(around(cut.corner - cut.reach)) +
+                             curve.position(around(cut.corner + cut.reach)));
+    result.push_back({.at = at, .loss = (at - face).norm()});
+  }
+  return result;
+}
+
 }  // namespace fsi::grid

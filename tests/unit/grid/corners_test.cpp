@@ -109,6 +109,10 @@ TEST(Blunted, CutsSharpEndsOffAsWideAsItIsTold) {
     EXPECT_NEAR(b[0], a[0], 1e-9);
   }
   EXPECT_EQ(faces, 1);
+  const std::vector<CutCorner> told = cut_corners(dart, width);
+  ASSERT_EQ(told.size(), 1U);
+  EXPECT_EQ(told.front().at.norm(), 0);  // the tail
+  EXPECT_NEAR(told.front().loss, width / 0.2, 1e-9);
   for (int k = 0; k < 81; ++k) {
     const bool on_face = std::abs(point(x, k)[0] + width / 0.2) < 1e-9;
     if (on_face) continue;
@@ -128,6 +132,7 @@ TEST(Blunted, CutsSharpEndsOffAsWideAsItIsTold) {
 
 TEST(Blunted, LeavesRightAnglesAlone) {
   EXPECT_EQ(blunted(sharp(box), 0.1).corners, sharp(box).corners);
+  EXPECT_TRUE(cut_corners(sharp(box), 0.1).empty());
 }
 
 TEST(Outline, ACornerIsNoBend) {

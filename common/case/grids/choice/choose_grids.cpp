@@ -9,6 +9,7 @@
 #include "common/case/document/fluid_sections.hpp"
 #include "common/case/document/reader.hpp"
 #include "common/case/grids/block.hpp"
+#include "common/case/grids/choice/choose_blunt.hpp"
 #include "common/case/grids/choice/choose_corners.hpp"
 #include "common/case/grids/choice/fit_grids.hpp"
 #include "common/case/grids/choice/wall_strips.hpp"
@@ -254,6 +255,7 @@ void choose_for_gas(Node& root, std::size_t index, const Scope& scope, std::vect
 std::vector<std::string> choose_grids(Node& root, const Scope& scope) {
   std::vector<std::string> chosen;
   choose_corners(root, Reader(root, scope), chosen);
+  choose_blunt(root, Reader(root, scope), chosen);
   choose_for_solids(root, Reader(root, scope), chosen);
   add_rings(root);
   const std::size_t gases = fluid_sections(root).size();

@@ -104,6 +104,31 @@ TEST(CaseShape, LinesOfABodyFittedGridMayBeGivenByAFormulaFromTheirCurve) {
   }
 }
 
+/// A dart whose tail at (1, 0) has an angle of 2 atan(0.1).
+std::string dart_case(const std::string& more) {
+  return "time: {end: 1}\ngrid: {factor: 2}\n"
+         "fluid:\n"
+         "  grid: {x: [-2, 3], y: [-2, 2]}\n"
+         "  boundary: {left: outflow, right: outflow, bottom: outflow, top: outflow}\n"
+         "  initial: {rho: 1, v: [0, 0], p: 1}\n"
+         "solids:\n  dart:\n    law: rigid\n    rho: 1\n    motion: fixed\n"
+         "    shape: {kind: polygon, corners: [[1, 0], [0, 0.1], [-0.2, 0], [0, -0.1]], radius: 0" +
+         more + "}\n";
+}
+
+TEST(CaseShape, ATailThatIsCutOffIsToldAndWrittenDown) {
+  const Case problem = load_text(dart_case(""));
+  // Half of h = 0.05 wide, where its sides, 0.2 of their distance from it, are so far apart; of 1.2 in all.
+  const std::string& told = problem.chosen.front();
+  for (const std::string words : {"solids.dart.shape: blunt 0.025", "(1, 0)", " 0.125 is missing", " 10 %"})
+    EXPECT_NE(told.find(words), std::string::npos) << words << " in " << told;
+  EXPECT_TRUE(load_text(problem.resolved).chosen.empty());
+  EXPECT_EQ(load_text(problem.resolved).solids.front().body_fitted.front().curve.x,
+            problem.solids.front().body_fitted.front().curve.x);
+  for (const std::string& line : load_text(dart_case(", blunt: 0.01")).chosen)
+    EXPECT_EQ(line.find("blunt"), std::string::npos) << line;
+}
+
 /// A flap on the lower wall, thick `thick` and 1 high; `more`: keys of its shape.
 std::string flap_case(const std::string& law, double thick, const std::string& more = "") {
   return fmt::format(
