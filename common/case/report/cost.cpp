@@ -214,6 +214,30 @@ double RunCost::seconds_of(const StepCost& program) const {
   return substeps(program) * program.points / (program.is_gas ? gas_speed : solid_speed) + program.grids;
 }
 
+namespace {
+
+/// Steps that all programs take together: as small as the gas needs, or without `multirate` as anybody does.
+void take_steps(RunCost& cost, const TimeSpec& time, bool multirate) {
+  const bool gas_decides = multirate && std::ranges::any_of(cost.programs, &StepCost::is_gas);
+  cost.dt = time.dt.value_or(std::numeric_limits<double>::infinity());
+  for (const StepCost& program : cost.programs) {
+    if (!gas_decides || program.is_gas) cost.dt = std::min(cost.dt, program.dt);
+  }
+  if (!std::isfinite(cost.dt)) return;
+  cost.steps = std::ceil(time.end / cost.dt);
+  double slowest = 0;
+  for (const StepCost& program : cost.programs) slowest = std::max(slowest, cost.seconds_of(program));
+  cost.seconds = cost.steps * (slowest + exchange);
+}
+
+/// Could `time.multirate` be written where it is not?
+bool may_have_substeps(const Case& problem) {
+  return !problem.time.multirate && !problem.fluids.empty() && !problem.time.dt &&
+         problem.interface.projection != Projection::traditional;
+}
+
+}  // namespace
+
 RunCost cost_of(const Case& problem) {
   RunCost cost;
   for (const FluidSpec& fluid : problem.fluids) {
@@ -229,16 +253,13 @@ RunCost cost_of(const Case& problem) {
     program.dt *= problem.time.cfl;
     program.usual_dt *= problem.time.cfl;
   }
-  cost.dt = problem.time.dt.value_or(std::numeric_limits<double>::infinity());
-  const bool gas_decides = !problem.fluids.empty() && problem.time.multirate;
-  for (const StepCost& program : cost.programs) {
-    if (!gas_decides || program.is_gas) cost.dt = std::min(cost.dt, program.dt);
+  take_steps(cost, problem.time, problem.time.multirate);
+  if (may_have_substeps(problem)) {
+    RunCost other = cost;
+    take_steps(other, problem.time, true);
+    cost.multirate_steps = other.steps;
+    cost.multirate_seconds = other.seconds;
   }
-  if (!std::isfinite(cost.dt)) return cost;
-  cost.steps = std::ceil(problem.time.end / cost.dt);
-  double slowest = 0;
-  for (const StepCost& program : cost.programs) slowest = std::max(slowest, cost.seconds_of(program));
-  cost.seconds = cost.steps * (slowest + exchange);
   return cost;
 }
 
@@ -278,6 +299,24 @@ void refuse_endless(const RunCost& cost) {
       cost.steps, cost.dt, most_steps, slowest.program, slowest.cell[0], slowest.cell[1], slowest.grid));
 }
 
+namespace {
+
+/// Where a solid makes the gas take small steps too; "" where it does not.
+std::string multirate_text(const RunCost& cost) {
+  constexpr double worth_it = 1.5;
+  if (!(cost.multirate_steps > 0 && cost.steps > worth_it * cost.multirate_steps)) return "";
+  const StepCost& smallest =
+      *std::ranges::min_element(cost.programs, {}, [](const StepCost& program) { return program.dt; });
+  return fmt::format(
+      "  {}: all programs take its small steps, {:.2g} times as many as the gas needs; with `time.multirate: "
+      "true` it "
+      "alone takes them: about {:.0f} steps, {}\n",
+      smallest.program, cost.steps / cost.multirate_steps, cost.multirate_steps,
+      time_text(cost.multirate_seconds));
+}
+
+}  // namespace
+
 std::string cost_text(const RunCost& cost) {
   if (cost.steps == 0) return "";
   std::string text, warning;
@@ -298,6 +337,7 @@ std::string cost_text(const RunCost& cost) {
               ? ""
               : "round the outline more there, or not at all (`radius: 0` of a polygon), or ");
   }
+  warning += multirate_text(cost);
   const bool levels =
       std::ranges::any_of(cost.programs, [](const StepCost& program) { return program.levels > 1; });
   constexpr double countable = 1e9;  // no run takes more: the digits of such a number say nothing

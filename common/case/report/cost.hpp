@@ -32,6 +32,8 @@ struct RunCost {
   double dt = 0;                   ///< of a step that all take together, safety factor included [time]
   double steps = 0;                ///< to time.end [-]
   double seconds = 0;              ///< about, each program on a core of its own [s]
+  /// The same with `time.multirate`, of a case that could have it and does not; else 0.
+  double multirate_steps = 0, multirate_seconds = 0;
   /// Of a program within a step: 1, or more with `time.multirate`.
   int substeps(const StepCost& program) const;
   /// What a step takes it on one core, about [s].

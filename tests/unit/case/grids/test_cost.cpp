@@ -91,6 +91,27 @@ TEST(CostOfARun, CountsTheSubstepsOfAStiffSolid) {
   EXPECT_NE(cost_text(own).find("substeps"), std::string::npos);
 }
 
+TEST(CostOfARun, OffersSubstepsWhereASolidMakesTheGasTakeSmallSteps) {
+  const std::string text = costly_case({disk_alone});
+  const std::vector<std::string> stiff = {"solids.body_0.lambda=98", "solids.body_0.mu=1",
+                                          "time.multirate=false"};
+  const auto with = [&](const std::string& setting) {
+    std::vector<std::string> settings = stiff;
+    settings.push_back(setting);
+    return cost_of(load_text(text, settings));
+  };
+  const auto offers = [](const RunCost& cost) {
+    return cost_text(cost).find("`time.multirate: true`") != std::string::npos;
+  };
+  const RunCost alike = cost_of(load_text(text, stiff)), own = with("time.multirate=true");
+  EXPECT_TRUE(offers(alike)) << cost_text(alike);
+  EXPECT_EQ(alike.multirate_steps, own.steps);
+  EXPECT_EQ(alike.multirate_seconds, own.seconds);
+  EXPECT_FALSE(offers(own));
+  EXPECT_FALSE(offers(with("interface.projection=traditional")));  // which goes without substeps
+  EXPECT_FALSE(offers(with("solids.body_0.rho=1000")));            // the gas needs the smaller ones
+}
+
 TEST(CostOfARun, GridsThatMoveCostMoreThanThoseThatStay) {
   const std::string thin = costly_case({"{kind: ellipse, semi_axes: [0.5, 0.06]}"});
   const RunCost moves = cost_of(load_text(thin, {}, {"body_0=rigid"})),
