@@ -15,7 +15,7 @@ from pathlib import Path
 
 from PIL import Image
 
-from record_paper import PAPER_DISK, as_in_the_paper
+from record_paper import PAPER_DISK, PAPER_PISTON, as_in_the_paper
 from record_results import anchor
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -132,7 +132,7 @@ FIGURES = (
         Picture((CYLINDERS,), "schlieren", "Numerical schlieren of the gas and the speed of the solids."))),
     Figure("7", "grids of the manufactured piston", (Picture((PISTON,), "grid", "At t = 0.", START),)),
     Figure("8", "errors of the manufactured piston",
-           sections=("Manufactured piston, the paper's Courant number 0.9", "Manufactured piston, saint_venant_kirchhoff",
+           sections=(PAPER_PISTON, "Manufactured piston, the paper's Courant number 0.9", "Manufactured piston, saint_venant_kirchhoff",
                      "Manufactured piston, linear_elastic", "Manufactured piston, neo_hookean", "Manufactured piston, full projection"),
            text="The paper has the Saint Venant-Kirchhoff law and the simplified projection; the others are ours. The pressure of (47) as "
                 "printed lies between -alpha and alpha, which is no gas: the temperature alpha (1 + 0.25 c1 s2 ct) stands in its place, so "
