@@ -26,23 +26,46 @@ namespace {
 using config::fail;
 using config::Node;
 
-/// The cells of a sample have positive area: a map that folds costs one look, not a run.
-void check_grid(const GridSpec& grid, const Node& node, const std::string& path) {
+/// A cell of a grid at t = 0.
+struct SampledCell {
+  int i = 0, j = 0;
+  Vec2 x;  ///< its first corner
+  double area =
+      0;  ///< of what its two edges from there span: positive where the second is to the left of the first
+};
+
+std::vector<SampledCell> sample_cells(const GridSpec& grid) {
   constexpr int samples = 64;  // in each direction
   const int step1 = std::max(1, (grid.n1 - 1) / samples);
   const int step2 = std::max(1, (grid.n2 - 1) / samples);
+  std::vector<SampledCell> cells;
   for (int j = 0; j + 1 < grid.n2; j += step2) {
     for (int i = 0; i + 1 < grid.n1; i += step1) {
-      const Vec2 a = position(grid, i, j, 0);
-      const Vec2 along1 = position(grid, i + 1, j, 0) - a;
-      const Vec2 along2 = position(grid, i, j + 1, 0) - a;
-      const double area = along1[0] * along2[1] - along1[1] * along2[0];
-      if (area > 0 && std::isfinite(area)) continue;
-      fail(node.place, path,
-           fmt::format("the grid folds at point ({}, {}) at t = 0, near ({:.4g}, {:.4g}); change `map`", i, j,
-                       a[0], a[1]));
+      const Vec2 x = position(grid, i, j, 0);
+      const Vec2 along1 = position(grid, i + 1, j, 0) - x;
+      const Vec2 along2 = position(grid, i, j + 1, 0) - x;
+      cells.push_back({.i = i, .j = j, .x = x, .area = along1[0] * along2[1] - along1[1] * along2[0]});
     }
   }
+  return cells;
+}
+
+/// The cells of a sample have positive area: a map that folds costs one look, not a run.
+void check_grid(const GridSpec& grid, const Node& node, const std::string& path) {
+  const std::vector<SampledCell> cells = sample_cells(grid);
+  const auto is_sound = [](const SampledCell& cell) { return cell.area > 0 && std::isfinite(cell.area); };
+  const auto wrong = std::ranges::find_if_not(cells, is_sound);
+  if (wrong == cells.end()) return;
+  if (std::ranges::all_of(
+          cells, [](const SampledCell& cell) { return cell.area < 0 && std::isfinite(cell.area); })) {
+    fail(node.place, path,
+         "`map` is left-handed: where r grows to the right, s grows downwards; write 1 - s in the place of "
+         "s, so that "
+         "bottom and top change places, or 1 - r in that of r, so that left and right do");
+  }
+  fail(node.place, path,
+       fmt::format("the grid folds at point ({}, {}) at t = 0, near ({:.4g}, {:.4g}); change `map`", wrong->i,
+                   wrong->j, wrong->x[0], wrong->x[1]));
 }
 
 /// A sample of points of a grid at t = 0: of all of it, or of one side.
@@ -245,6 +268,15 @@ void check_probes(const Case& problem, const Node& root) {
            fmt::format("{} is neither {} nor a solid{}", in_ticks(probe.in),
                        problem.fluids.size() > 1 ? "one of `fluids`" : "`fluid`",
                        did_you_mean(probe.in, places)));
+    }
+    const auto solid = std::ranges::find(problem.solids, probe.in, &SolidSpec::name);
+    if (solid != problem.solids.end() && !solid->program.empty()) {
+      fail(
+          node.find("in")->place, fmt::format("output.probes[{}].in", k),
+          fmt::format(
+              "{} is a program of its own (`law: external`), and what is inside only it knows; put the probe "
+              "into a gas, or leave it out",
+              in_ticks(probe.in)));
     }
     const auto before = problem.output.probes.begin() + static_cast<std::ptrdiff_t>(k);
     if (std::ranges::find(problem.output.probes.begin(), before, probe.name, &ProbeSpec::name) != before)

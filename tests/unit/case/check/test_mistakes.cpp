@@ -219,8 +219,14 @@ const Mistake formulas[] = {
      "{kind: mapped, map: [x, s], points: [11, 11]}\n  boundary",
      "case.yaml:9:30: fluid.grid.map[0]: `x` uses x, which has no meaning here; it may use r, s and t"},
     {"MapThatFolds", "{x: [0, 1], y: [0, 1], points: [11, 11]}\n  boundary",
+     "{kind: mapped, map: [r * (1 - r), s], points: [11, 11]}\n  boundary",
+     "case.yaml:9:9: fluid.grid: the grid folds at point (5, 0) at t = 0, near (0.25, 0); change `map`"},
+    {"LeftHandedMap", "{x: [0, 1], y: [0, 1], points: [11, 11]}\n  boundary",
      "{kind: mapped, map: [-r, s], points: [11, 11]}\n  boundary",
-     "case.yaml:9:9: fluid.grid: the grid folds at point (0, 0) at t = 0, near (-0, 0); change `map`"},
+     "case.yaml:9:9: fluid.grid: `map` is left-handed: where r grows to the right, s grows downwards; write "
+     "1 - s in "
+     "the place of s, so that bottom and top change places, or 1 - r in that of r, so that left and right "
+     "do"},
     {"GridOfASolidThatMoves", "{x: [-1, 0], y: [0, 1], points: [11, 11]}",
      "{kind: mapped, map: [r - 1 + t, s], points: [11, 11]}",
      "case.yaml:22:31: solids.solid.grid.map: must not depend on t: the grid of a solid is its reference "
@@ -295,6 +301,17 @@ INSTANTIATE_TEST_SUITE_P(Keys, CaseMistake, testing::ValuesIn(keys), name_of_mis
 INSTANTIATE_TEST_SUITE_P(Values, CaseMistake, testing::ValuesIn(values), name_of_mistake);
 INSTANTIATE_TEST_SUITE_P(Formulas, CaseMistake, testing::ValuesIn(formulas), name_of_mistake);
 INSTANTIATE_TEST_SUITE_P(Partners, CaseMistake, testing::ValuesIn(partners), name_of_mistake);
+
+TEST(CaseMistakeOfTwo, AProbeInAProgramOfSomebodyElses) {
+  std::string text = with_change({"", "law: neo_hookean", "law: external\n    program: mine", ""});
+  const std::string times = "times: [0.5]";
+  text.replace(text.find(times), times.size(),
+               "probes: [{name: a, in: fluid, x: 0.5, y: 0}, {name: b, in: solid, x: 0, y: 0}]");
+  EXPECT_EQ(mistake_in(text),
+            "case.yaml:29:66: output.probes[1].in: `solid` is a program of its own (`law: external`), and "
+            "what is inside "
+            "only it knows; put the probe into a gas, or leave it out");
+}
 
 TEST(GoodCase, HasNoMistake) {
   EXPECT_EQ(mistake_in(good), "");
