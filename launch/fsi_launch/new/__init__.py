@@ -78,8 +78,9 @@ def main(options):
         _write(points, f"# points x, y [m] of the outline in {Path(options.outline).name}, its longer side {options.size:g} m\n{lines}")
     file = points.name if own_points else problem.outline.path and os.path.relpath(problem.outline.path, path.parent)
     _write(path, text.write(problem, str(path), file))
-    if problem.outline.points and not problem.straight and outline.sharp_turns(problem.outline)[0]:
-        print(f"the points of {options.outline} turn by more than {outline.SHARP} degrees: if these are corners, add --straight for edges between the points")
+    angle = None if problem.straight or not problem.outline.points else outline.corners(problem.outline)[0]
+    if angle is not None and not text.keeps_corners(problem):
+        print(f"the points of {options.outline} turn by more than {angle} degrees: if these are corners, add --straight for edges between the points")
     print(cases.check(str(path), [], []))
     print(f"next: ./launch/fsi check {path} --plot, ./launch/fsi run {path}")
     return DONE

@@ -10,6 +10,8 @@ from fsi_launch.failure import UserMistake
 FEWEST = 4              # points of a smooth curve
 FEWEST_CORNERS = 3      # of straight edges
 SHARP = 100             # [degree] turns beyond those of a square are meant as corners
+CLEAR = 45              # [degree] so are these, where the points on one side of them turn by less than BESIDE of it: a blunt tail
+BESIDE = 0.1
 
 
 @dataclass(frozen=True)
@@ -111,12 +113,24 @@ def turns(outline):
     return [abs(turn) for turn in _signed_turns(outline)]
 
 
-def sharp_turns(outline):
-    """(are there points at which the lines turn by more than SHARP, is one of these hollow)"""
-    found = _signed_turns(outline)
-    around = math.copysign(1.0, sum(found))
-    sharp = [turn * around for turn in found if abs(turn) > math.radians(SHARP)]
-    return bool(sharp), any(turn < 0 for turn in sharp)
+def _is_corner(before, turn, after):
+    """Is a point meant as a corner, from how far the lines turn there and at its neighbours?"""
+    return turn > math.radians(SHARP) or turn > math.radians(CLEAR) and min(before, after) < BESIDE * turn
+
+
+def corners(outline):
+    """(turn [degree] beyond which points are meant as corners, are some of these hollow); (None, False) where none are."""
+    signed, found = _signed_turns(outline), turns(outline)
+    meant = [_is_corner(*three) for three in zip(found[-1:] + found, found, found[1:] + found[:1])]
+    least = min((turn for turn, is_corner in zip(found, meant) if is_corner), default=math.inf)
+    most = max((turn for turn, is_corner in zip(found, meant) if not is_corner), default=0.0)
+    if most < math.radians(SHARP) < least or least <= most:     # one turn tells them apart, or no turn does
+        angle = SHARP
+    else:
+        angle = round(math.degrees(0.5 * (least + most)))
+    around = math.copysign(1.0, sum(signed))
+    taken = [turn * around for turn in signed if abs(turn) > math.radians(angle)]
+    return (angle, any(turn < 0 for turn in taken)) if taken else (None, False)
 
 
 def shortest_edge(outline):

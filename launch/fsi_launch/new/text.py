@@ -1,6 +1,6 @@
 """The text of a new case: commented, with nothing in it that the programs choose well by themselves."""
 
-from fsi_launch.new.outline import SHARP, is_block, largest_radius, sharp_turns, shortest_edge
+from fsi_launch.new.outline import corners, is_block, largest_radius, shortest_edge
 from fsi_launch.new.problem import OUTPUTS
 from fsi_launch.new.questions import LAWS
 
@@ -96,15 +96,21 @@ def _radius(problem):
     return 0 if rigid and radius < TOO_SMALL * h and shortest >= h else radius
 
 
+def keeps_corners(problem):
+    """Has a body with a smooth outline corners all the same?"""
+    angle, hollow = corners(problem.outline)
+    return problem.law == "rigid" and angle is not None and not hollow
+
+
 def _spline(problem, path):
     """The entry of a curve through points. Around a rigid body grids go on behind sharp corners: such a body gets them. A hollow corner
     folds them, and an elastic body can have none but those of a block: these stay smooth."""
-    sharp, hollow = sharp_turns(problem.outline)
-    if not sharp:
+    angle, _ = corners(problem.outline)
+    if angle is None:
         return f" {{kind: spline, file: {path}}}    # a smooth curve through the points"
-    if problem.law == "rigid" and not hollow:
+    if keeps_corners(problem):
         return (f"\n      kind: spline\n      file: {path}    # a smooth curve through the points (edges between them: fsi new --straight)"
-                f"\n      corner_angle: {SHARP}    # with corners where it turns by more [degree]; leave it out for an elastic body")
+                f"\n      corner_angle: {angle}    # with corners where it turns by more [degree]; leave it out for an elastic body")
     return f" {{kind: spline, file: {path}}}    # a smooth curve through the points (edges between them: fsi new --straight)"
 
 

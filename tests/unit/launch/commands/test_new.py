@@ -180,6 +180,28 @@ class Corners(unittest.TestCase):
         self.assertNotIn("corner_angle", self.shape(self.SQUARE, law="rigid")[1])
         self.assertNotIn("corner_angle", self.shape(self.DART, law="rigid")[1])     # one of its corners is hollow
 
+    def foil(self, tail, near_nose):
+        """A symmetric foil 1 long and 0.1 thick by 20 points on each side, its tail `tail` thick; `near_nose` moves these there."""
+        parts = [near_nose(k / 20) for k in range(21)]
+        above = [(x, 0.26 * math.sqrt(x) * (1 - x) + 0.5 * tail * x) for x in parts]
+        return (*above[::-1], *((x, -y) for x, y in above[1:] if y > 0))
+
+    def test_a_blunt_tail_has_two_corners_and_the_nose_none(self):
+        for tail, number in ((0.01, 2), (0.0, 1)):
+            points = self.foil(tail, lambda part: part * part)
+            for given in (points, points[::-1], points[7:] + points[:7]):
+                angle = self.shape(given, law="rigid")[1]["corner_angle"]
+                found = outline.turns(outline.Outline(points=given))
+                self.assertEqual([given[k][0] for k, turn in enumerate(found) if turn > math.radians(angle)], [1.0] * number)
+                self.assertNotIn("corner_angle", self.shape(given)[1])
+        # By so few points at its nose that it turns more there than at the corners of its tail: no angle tells them apart.
+        self.assertNotIn("corner_angle", self.shape(self.foil(0.01, lambda part: part), law="rigid")[1])
+
+    def test_a_rectangle_by_many_points_has_its_four_corners(self):
+        along = [k / 10 for k in range(10)]
+        points = (*((x, 0) for x in along), *((1, y) for y in along), *((1 - x, 1) for x in along), *((0, 1 - y) for y in along))
+        self.assertEqual(self.shape(points, law="rigid")[1]["corner_angle"], 45)
+
     def test_points_that_turn_sharply_are_told_how_to_become_corners(self):
         for points, told in ((self.DART, True), (self.SQUARE, False)):
             one, _ = self.shape(points)
