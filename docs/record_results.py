@@ -249,6 +249,19 @@ def profile(name):
     return text
 
 
+def bus_profile(name):
+    """Where an exchange of 1000 points spends its processor time: by library, of all three processes."""
+    directory = fresh(name)
+    directory.mkdir(parents=True)
+    text = ""
+    for kind in ("off", "sign"):
+        samples = directory / f"{kind}.data"
+        words = ["./build/release/bin/bench_bus", f"--benchmark_filter=points:1000/protection:{kind}/"]
+        subprocess.run(["perf", "record", "-q", "-F", "1999", "-o", str(samples), *words], cwd=ROOT, capture_output=True, check=True)
+        text += f"`perf record -F 1999 {shlex.join(words)}`\n\n```\n" + "\n".join(shares(samples, "--sort", "dso")) + "\n```\n\n"
+    return text
+
+
 def bench(name):
     """All benchmarks: the table the command itself prints."""
     directory = fresh(name)
@@ -537,6 +550,7 @@ def all_studies():
             ("What watching costs", lambda: watched("watched")), ("What live pictures cost", lambda: looked_at(15)),
             ("Signals to every program at random moments", lambda: faults(1000)), *of(record_faults, record_builds),
             ("What protecting the bus costs", lambda: protection("protection")),
+            ("Benchmarks, where the time of an exchange goes", lambda: bus_profile("bus-profile")),
             ("Benchmarks", lambda: bench("bench")), ("Benchmarks, where the time goes", lambda: profile("profile"))]
 
 

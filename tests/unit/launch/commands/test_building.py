@@ -24,6 +24,23 @@ printf 'build bin/%s: LINK\\n' fsi_case fluid_solver coupler solid_solver_neo_ho
 NINJA = """#!/bin/bash
 echo "ninja ${*:5}" >>"$CALLS"
 """
+# Every package is there, but those in $MISSING.
+DPKG_QUERY = """#!/bin/bash
+for word in "$@"; do
+  case " $MISSING " in
+    *" $word "*) echo "dpkg-query: no packages found matching $word" >&2; code=1 ;;
+    *) [[ $word == -* ]] || echo "$word installed" ;;
+  esac
+done
+exit "${code:-0}"
+"""
+# Nobody is root, and nothing is installed.
+ID = """#!/bin/bash
+echo 1000
+"""
+APT_GET = """#!/bin/bash
+echo "apt-get $*" >>"$CALLS"
+"""
 CASE = """#!/bin/bash
 echo '{"name": "piston", "resolved": "", "participants": [{"name": "fluid", "executable": "fluid_solver"},
   {"name": "solid", "executable": "somebody_elses"}, {"name": "coupler", "executable": "coupler"}],
@@ -38,17 +55,16 @@ class Building(InScratch):
         shutil.copytree(ROOT / "launch", self.folder / "launch")
         self.tools = self.folder / "tools"
         self.tools.mkdir()
-        # dpkg-query: every package is there; ccache: none of this machine's is asked.
-        for name, text in {"cmake": CMAKE, "ninja": NINJA, "dpkg-query": "#!/bin/bash\necho -n installed\n"}.items():
+        for name, text in {"cmake": CMAKE, "ninja": NINJA, "dpkg-query": DPKG_QUERY, "id": ID, "apt-get": APT_GET}.items():
             (self.tools / name).write_text(text)
             (self.tools / name).chmod(0o755)
         self.calls = self.folder / "calls"
 
-    def build(self, march=None, verb="check"):
+    def build(self, march=None, verb="check", missing=""):
         """(how cmake and ninja were called, what the command said)"""
         self.calls.write_text("")
         environment = {key: value for key, value in os.environ.items() if key not in ("FSI_BIN", "FSI_MARCH")}
-        environment |= {"PATH": f"{self.tools}:{os.environ['PATH']}", "CALLS": str(self.calls)}
+        environment |= {"PATH": f"{self.tools}:{os.environ['PATH']}", "CALLS": str(self.calls), "MISSING": missing}
         if march is not None:
             environment["FSI_MARCH"] = march
         answer = subprocess.run([self.folder / "launch" / "fsi", verb, "nothing"], env=environment, capture_output=True,
@@ -91,6 +107,14 @@ class Building(InScratch):
         calls, said = self.build(verb="run")
         self.assertEqual(calls[1:], ["ninja bin/fsi_case bin/fsi_xdmf", "ninja bin/fluid_solver bin/coupler bin/reference_piston"])
         self.assertIn("the program fluid_solver is not in", said)   # the stand-in has built nothing
+
+    def test_missing_packages_are_named_in_one_line_to_type_and_nothing_is_built(self):
+        calls, said = self.build(missing="libeigen3-dev cmake libhdf5-dev")
+        self.assertEqual(calls, [])
+        self.assertEqual(said.splitlines()[-1], "sudo apt-get update && sudo apt-get install -y --no-install-recommends cmake libeigen3-dev libhdf5-dev")
+
+    def test_what_another_verb_needs_is_not_asked_for(self):
+        self.assertEqual(self.build(missing="python3-matplotlib clang-format-16")[0][-1:], ["ninja bin/fsi_case"])
 
     def test_a_check_builds_the_checker(self):
         self.assertEqual(self.build()[0][1:], ["ninja bin/fsi_case"])
