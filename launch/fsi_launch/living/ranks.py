@@ -2,7 +2,7 @@
 
 Each such participant has an mpirun of its own, in a session of its own as every program; its ranks are in that session too. Only
 rank 0 speaks with the other programs. mpirun passes SIGUSR1 on, which a rank takes for SIGTERM; a SIGTERM it would answer by killing
-them. On this machine only.
+them. On this machine only: nothing listens on a network, since LOOPBACK is preloaded into mpirun.
 """
 
 import contextlib
@@ -39,7 +39,6 @@ class Told:
 
     options: dict       # {word of its command: {name: value}}
     folders: tuple      # of its environment: where it and its ranks leave files
-    loopback: bool      # LOOPBACK is preloaded
 
 
 # By major version of Open MPI. Nothing leaves this machine; what wants the right to look into other processes is left out; and inside a
@@ -48,12 +47,12 @@ TOLD = {
     "4": Told({"mca": {
         "btl": "self,vader", "pml": "ob1", "oob_tcp_if_include": "lo", "btl_vader_single_copy_mechanism": "none",
         "mpi_yield_when_idle": "1", "odls_base_sigkill_timeout": "1", "ras": "^slurm", "plm": "^slurm", "ess": "^slurm"}},
-        ("OMPI_MCA_btl_vader_backing_directory", "OMPI_MCA_orte_tmpdir_base"), loopback=False),
+        ("OMPI_MCA_btl_vader_backing_directory", "OMPI_MCA_orte_tmpdir_base")),
     "5": Told({
         "mca": {"btl": "self,sm", "pml": "ob1", "smsc": "^cma,xpmem,knem", "mpi_yield_when_idle": "1"},
         "prtemca": {"ras": "^slurm", "plm": "^slurm", "ess": "^slurm"},
         "pmixmca": {"ptl_base_if_include": "lo"}},
-        ("OMPI_MCA_btl_sm_backing_directory", "PRTE_MCA_prte_tmpdir_base"), loopback=True),
+        ("OMPI_MCA_btl_sm_backing_directory", "PRTE_MCA_prte_tmpdir_base")),
 }
 
 
@@ -104,8 +103,7 @@ def expect_mpi(asked):
     """Throws UserMistake where participants shall have ranks, but cannot."""
     if not asked:
         return
-    files = [MODULE, *([LOOPBACK] if (known := told()) and known.loopback else [])]
-    missing = [*(f"{file} in {paths.BIN}" for file in files if not (paths.BIN / file).is_file()),
+    missing = [*(f"{file} in {paths.BIN}" for file in (MODULE, LOOPBACK) if not (paths.BIN / file).is_file()),
                *([] if shutil.which("mpirun") else ["mpirun"])]
     if missing:
         raise UserMistake(f"--ranks: {' and '.join(missing)} is missing; install Open MPI (sudo apt-get install {PACKAGES}) and build "
@@ -152,14 +150,14 @@ def memory(number, mpirun=None, programs=None):
     """Where the ranks of the mpiruns within this context share memory, as their environment; nothing of it is left behind.
     `number`: of ranks; {} for one. `mpirun`, `programs`: it and the folder of our programs, where they are not those of this launcher."""
     known = told(mpirun) if number > 1 else None
-    if known is None or not (known.loopback or os.access(SHARED, os.W_OK)):
+    if known is None:
         yield {}
         return
     where = SHARED if os.access(SHARED, os.W_OK) else Path("/tmp")
     _forget_dead(where)
     with tempfile.TemporaryDirectory(prefix=f"{FOLDER}{os.getpid()}-{processes.start_time(os.getpid())}-", dir=where,
                                      ignore_cleanup_errors=True) as folder:
-        yield dict.fromkeys(known.folders, folder) | (_preloaded(Path(folder), programs or paths.BIN) if known.loopback else {})
+        yield dict.fromkeys(known.folders, folder) | _preloaded(Path(folder), programs or paths.BIN)
 
 
 def _preloaded(folder, programs):
