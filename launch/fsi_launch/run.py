@@ -118,7 +118,7 @@ def _programs(case, directory, entry, checkpoint, reports, memory, request):
     for name, program in case.programs.items():
         command, number = [paths.program(program), *common, "--name", name, *own.get(name, [])], asked.get(name, 1)
         environment = {"AMP_FSI_KEY": entry.key, "AMP_FSI_BIN": str(paths.BIN.resolve())} | (ranks.environment() if number > 1 else {})
-        if name not in far:
+        if number > 1 and name not in far:
             environment |= memory
         if networks:
             environment["AMP_FSI_NETWORK"] = networks[far[name].address if name in far else ""]

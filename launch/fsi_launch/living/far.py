@@ -41,7 +41,8 @@ class Guard:
         self._ranks = order["ranks"]
         self._report = os.memfd_create("report")
         self._memory = contextlib.ExitStack()
-        environment = os.environ | order["environment"] | self._memory.enter_context(ranks.memory(self._ranks))
+        memory = ranks.memory(self._ranks, order["command"][0], Path(order["environment"]["AMP_FSI_BIN"]))
+        environment = os.environ | order["environment"] | self._memory.enter_context(memory)
         # mpirun passes no open files on.
         environment["AMP_FSI_REPORT"] = str(self._report) if self._ranks == 1 else f"/proc/{os.getpid()}/fd/{self._report}"
         os.chdir(order["folder"])

@@ -6,6 +6,8 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
+CALLED = {"prterun": "mpirun"}      # what mpirun of Open MPI 5 goes on as
+
 
 @dataclass
 class Living:
@@ -68,7 +70,8 @@ def programs_of(directory):
             if (folder := _option(words, "--run-dir")) is None:
                 continue
             if state_of(entry.name) not in "ZX" and (Path(os.readlink(entry / "cwd")) / folder).resolve() == wanted:
-                found.append(Living(_option(words, "--name") or "reference", os.path.basename(words[0]), int(entry.name)))
+                program = os.path.basename(words[0])
+                found.append(Living(_option(words, "--name") or "reference", CALLED.get(program, program), int(entry.name)))
         except (OSError, IndexError):  # it has just ended, or is somebody else's
             continue
     return found

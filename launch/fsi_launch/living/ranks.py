@@ -2,16 +2,18 @@
 
 Each such participant has an mpirun of its own, in a session of its own as every program; its ranks are in that session too. Only
 rank 0 speaks with the other programs. mpirun passes SIGUSR1 on, which a rank takes for SIGTERM; a SIGTERM it would answer by killing
-them. On this machine only: nothing listens on a network.
+them. On this machine only: nothing listens on a network, since LOOPBACK is preloaded into mpirun.
 """
 
 import contextlib
+import functools
 import os
 import re
 import shutil
 import signal
 import subprocess
 import tempfile
+from dataclasses import dataclass
 from pathlib import Path
 
 from fsi_launch import paths
@@ -19,6 +21,7 @@ from fsi_launch.failure import UserMistake
 from fsi_launch.living import processes
 
 MODULE = "libfsi_ranks_mpi.so"      # common/ranks/module.hpp
+LOOPBACK = "libfsi_ranks_loopback.so"       # common/ranks/mpi/loopback.cpp
 PACKAGES = "openmpi-bin libopenmpi-dev"
 GAS = "fluid_solver"
 SOLID = "solid_solver_"             # and the name of its law
@@ -28,11 +31,28 @@ FOLDER = "amp-fsi-ranks-"           # and who began with it: pid, its start, som
 MOST = 64
 LEAST_POINTS = 20000                # a rank, where `auto` chooses
 EXTRA = []                          # words for every rank (tests)
-OPTIONS = {
-    "btl": "self,vader", "pml": "ob1", "oob_tcp_if_include": "lo",      # nothing leaves this machine
-    "btl_vader_single_copy_mechanism": "none",      # the other ones want the right to look into other processes
-    "mpi_yield_when_idle": "1", "odls_base_sigkill_timeout": "1",
-    "ras": "^slurm", "plm": "^slurm", "ess": "^slurm",      # inside a job of Slurm too: all ranks are where mpirun is
+
+
+@dataclass(frozen=True)
+class Told:
+    """What an mpirun is told."""
+
+    options: dict       # {word of its command: {name: value}}
+    folders: tuple      # of its environment: where it and its ranks leave files
+
+
+# By major version of Open MPI. Nothing leaves this machine; what wants the right to look into other processes is left out; and inside a
+# job of Slurm, too, all ranks are where mpirun is.
+TOLD = {
+    "4": Told({"mca": {
+        "btl": "self,vader", "pml": "ob1", "oob_tcp_if_include": "lo", "btl_vader_single_copy_mechanism": "none",
+        "mpi_yield_when_idle": "1", "odls_base_sigkill_timeout": "1", "ras": "^slurm", "plm": "^slurm", "ess": "^slurm"}},
+        ("OMPI_MCA_btl_vader_backing_directory", "OMPI_MCA_orte_tmpdir_base")),
+    "5": Told({
+        "mca": {"btl": "self,sm", "pml": "ob1", "smsc": "^cma,xpmem,knem", "mpi_yield_when_idle": "1"},
+        "prtemca": {"ras": "^slurm", "plm": "^slurm", "ess": "^slurm"},
+        "pmixmca": {"ptl_base_if_include": "lo"}},
+        ("OMPI_MCA_btl_sm_backing_directory", "PRTE_MCA_prte_tmpdir_base")),
 }
 
 
@@ -83,28 +103,41 @@ def expect_mpi(asked):
     """Throws UserMistake where participants shall have ranks, but cannot."""
     if not asked:
         return
-    missing = [what for what, there in ((f"{MODULE} in {paths.BIN}", (paths.BIN / MODULE).is_file()),
-                                        ("mpirun", shutil.which("mpirun"))) if not there]
+    missing = [*(f"{file} in {paths.BIN}" for file in (MODULE, LOOPBACK) if not (paths.BIN / file).is_file()),
+               *([] if shutil.which("mpirun") else ["mpirun"])]
     if missing:
         raise UserMistake(f"--ranks: {' and '.join(missing)} is missing; install Open MPI (sudo apt-get install {PACKAGES}) and build "
                           "again, or leave --ranks away")
     if other := other_mpi():
-        raise UserMistake(f"--ranks: mpirun is of {other}, and ranks go with Open MPI 4 (of Debian 12) alone: its successor takes other options and "
-                          "finds no network on the loopback interface; leave --ranks away")
+        raise UserMistake(f"--ranks: mpirun is of {other}, and ranks go with Open MPI 4 and 5 (of Debian 12 and 13) alone; put the mpirun "
+                          "of one of these first in PATH and build again, or leave --ranks away")
+
+
+def told(mpirun=None):
+    """What an mpirun, that in PATH or another one, is told; None where it is none that is known here."""
+    return TOLD.get(_version(mpirun or shutil.which("mpirun"))[0])
 
 
 def other_mpi():
-    """What mpirun says it is, where that is not Open MPI 4; nothing where it is."""
-    said = subprocess.run(["mpirun", "--version"], capture_output=True, text=True, check=False).stdout.partition("\n")[0]
+    """What mpirun says it is, where that is no Open MPI that is known here; nothing where it is."""
+    version, name = _version(shutil.which("mpirun"))
+    return "" if version in TOLD else name
+
+
+@functools.cache
+def _version(mpirun):
+    """(major version of Open MPI, all of what that mpirun calls itself); both are empty where there is none."""
+    if mpirun is None:
+        return "", ""
+    said = subprocess.run([mpirun, "--version"], capture_output=True, text=True, check=False).stdout.partition("\n")[0]
     found = re.search(r"Open MPI\) ((\d+)\S*)", said)
-    return "" if found and found[2] == "4" else f"Open MPI {found[1]}" if found else said or "an unknown kind"
+    return (found[2], f"Open MPI {found[1]}") if found else ("", said or "an unknown kind")
 
 
 def command(words, number):
     """The command of a program that `number` ranks compute."""
-    options = [word for name, value in OPTIONS.items() for word in ("--mca", name, value)]
-    return [shutil.which("mpirun"), "-n", str(number), "--oversubscribe", "--bind-to", "none", *options, *words,
-            "--ranks", str(number), *EXTRA]
+    options = [word for option, values in told().options.items() for name, value in values.items() for word in (f"--{option}", name, value)]
+    return [shutil.which("mpirun"), "-n", str(number), "--oversubscribe", "--bind-to", "none", *options, *words, "--ranks", str(number), *EXTRA]
 
 
 def environment():
@@ -113,21 +146,30 @@ def environment():
 
 
 @contextlib.contextmanager
-def memory(number):
+def memory(number, mpirun=None, programs=None):
     """Where the ranks of the mpiruns within this context share memory, as their environment; nothing of it is left behind.
-    `number`: of ranks; {} for one."""
-    if number == 1 or not os.access(SHARED, os.W_OK):
+    `number`: of ranks; {} for one. `mpirun`, `programs`: it and the folder of our programs, where they are not those of this launcher."""
+    known = told(mpirun) if number > 1 else None
+    if known is None:
         yield {}
         return
-    _forget_dead()
-    with tempfile.TemporaryDirectory(prefix=f"{FOLDER}{os.getpid()}-{processes.start_time(os.getpid())}-", dir=SHARED,
+    where = SHARED if os.access(SHARED, os.W_OK) else Path("/tmp")
+    _forget_dead(where)
+    with tempfile.TemporaryDirectory(prefix=f"{FOLDER}{os.getpid()}-{processes.start_time(os.getpid())}-", dir=where,
                                      ignore_cleanup_errors=True) as folder:
-        yield {"OMPI_MCA_btl_vader_backing_directory": folder, "OMPI_MCA_orte_tmpdir_base": folder}
+        yield dict.fromkeys(known.folders, folder) | _preloaded(Path(folder), programs or paths.BIN)
 
 
-def _forget_dead():
+def _preloaded(folder, programs):
+    """What loads LOOPBACK into an mpirun. A list of such files has no way to write a space or a colon, so it is found in `folder`."""
+    link = folder / LOOPBACK
+    link.symlink_to((programs / LOOPBACK).resolve())
+    return {"LD_PRELOAD": ":".join([str(link), *filter(None, [os.environ.get("LD_PRELOAD")])])}
+
+
+def _forget_dead(where):
     """Removes what is left of launchers of this user's that were killed with SIGKILL."""
-    for folder in SHARED.glob(f"{FOLDER}*"):
+    for folder in where.glob(f"{FOLDER}*"):
         with contextlib.suppress(OSError, ValueError):      # gone meanwhile; a name of somebody else's
             pid, born = map(int, folder.name.removeprefix(FOLDER).split("-")[:2])
             if folder.lstat().st_uid == os.getuid() and processes.start_time(pid) != born:

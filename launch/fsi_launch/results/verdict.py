@@ -49,7 +49,10 @@ def _last_line(directory, name):
     except OSError:
         return ""
     told = [line.strip() for line in lines if line.strip("- ")]
-    return next((line for line in reversed(told) if line.startswith("mpirun noticed")), told[-1] if told else "")
+    for k in reversed(range(len(told))):
+        if told[k].startswith(("mpirun noticed", "prterun noticed")):
+            return told[k] if told[k].endswith(".") else " ".join(told[k:k + 2])    # Open MPI 5 breaks it in two
+    return told[-1] if told else ""
 
 
 def _last_words(directory, name):

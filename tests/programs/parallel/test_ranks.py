@@ -9,10 +9,12 @@ test_ranks.py --restarts [RANKS..] [CASE..]  the same, from a checkpoint of the 
                                         (default: 3 2 4)
 """
 
+import contextlib
 import os
 import re
 import shutil
 import signal
+import socket
 import subprocess
 import sys
 import unittest
@@ -27,7 +29,7 @@ from many_on_ranks import LASTING, RECUT, compare_all, compare_in_turn, kill_aga
 MISSING = [what for what, there in (("libfsi_ranks_mpi.so", (BIN / "libfsi_ranks_mpi.so").is_file()),
                                     ("mpirun", shutil.which("mpirun"))) if not there]
 if not MISSING and ranks.other_mpi():
-    MISSING.append("Open MPI 4")
+    MISSING.append("Open MPI 4 or 5")
 
 def memory_of(run):
     """The folder in memory that the ranks of a run share; None when there is none."""
@@ -239,7 +241,7 @@ class Faults(OnRanks):
     def lose(self, rank, number):
         run = self.launch(*self.lasting, script=PATIENT)
         ranks, mpirun = self.ranks_of(run)
-        self.assertEqual(len(list(memory_of(run).rglob("vader_segment.*"))), 2)
+        self.assertEqual(len(list(memory_of(run).rglob("*_segment.*"))), 2)
         os.kill(mpirun if rank is None else ranks[rank], number)
         self.assertEqual(run.wait(), 4, run.stderr)
         self.assertEqual(run.summary()["status"], "failed")
@@ -285,6 +287,37 @@ class Faults(OnRanks):
         self.assertEqual(run.wait(), 143, run.stderr)
         self.assertEqual(len(run.checkpoints()), 1)
         self.assert_nothing_left(run)
+
+
+class Network(OnRanks):
+    """Of what several ranks bring with them; the bus has tests of its own."""
+
+    def listening(self, pids):
+        """Addresses where these processes listen by TCP."""
+        sockets = set()
+        for pid in pids:
+            for descriptor in Path(f"/proc/{pid}/fd").iterdir():
+                with contextlib.suppress(OSError):
+                    sockets.add(os.readlink(descriptor))
+        found = set()
+        for family, table in ((socket.AF_INET, "tcp"), (socket.AF_INET6, "tcp6")):
+            for line in Path(f"/proc/net/{table}").read_text(encoding="ascii").splitlines()[1:]:
+                words = line.split()
+                if words[3] == "0A" and f"socket:[{words[9]}]" in sockets:
+                    number = bytes.fromhex(words[1].partition(":")[0])
+                    native = b"".join(number[k:k + 4][::-1] for k in range(0, len(number), 4))
+                    found.add(socket.inet_ntop(family, native))
+        return found
+
+    def test_nobody_listens_beyond_this_machine(self):
+        run = self.launch(*LASTING)
+        run.until_stepping()
+        mpirun = next(one.pid for one in processes.programs_of(run.directory) if one.program == "mpirun")
+        self.assertIn("127.0.0.1", self.listening([mpirun]))
+        self.assertLessEqual(self.listening([mpirun, *ranks.members(mpirun)]), {"127.0.0.1", "::1"})
+        run.process.send_signal(signal.SIGTERM)
+        self.assertEqual(run.wait(), 143, run.stderr)
+        self.assertIsNone(memory_of(run))
 
 
 class FaultsOfSolids(Faults):

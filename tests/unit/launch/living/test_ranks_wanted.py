@@ -83,6 +83,41 @@ class Wanted(InScratch):
                 ranks.expect_mpi({"fluid": 2})
         self.assertIn("sudo apt-get install openmpi-bin libopenmpi-dev", str(caught.exception))
 
+    def mpirun(self, words):
+        """One that says so of itself is first in PATH."""
+        path = self.folder / str(len(list(self.folder.iterdir()))) / "mpirun"
+        path.parent.mkdir()
+        path.write_text(f"#!/bin/sh\necho '{words}'\n", encoding="utf-8")
+        path.chmod(0o755)
+        return mock.patch.dict("os.environ", PATH=f"{path.parent}:/usr/bin:/bin")
+
+    def test_each_open_mpi_is_told_in_its_own_words(self):
+        for words, known in (("mpirun (Open MPI) 4.1.4", "--mca btl self,vader"), ("mpirun (Open MPI) 5.0.7", "--pmixmca ptl_base_if_include lo")):
+            with self.mpirun(words):
+                self.assertEqual(ranks.other_mpi(), "")
+                command = " ".join(ranks.command(["program", "--name", "fluid"], 3))
+                self.assertIn(known, command)
+                self.assertTrue(command.endswith(" program --name fluid --ranks 3"), command)
+                with ranks.memory(3) as memory:
+                    folder, _, file = memory.pop("LD_PRELOAD").partition(":")[0].rpartition("/")
+                    self.assertEqual((set(memory.values()), file), ({folder}, ranks.LOOPBACK))
+                self.assertFalse(any(Path(one).exists() for one in memory.values()))
+
+    def test_other_kinds_are_refused_by_name(self):
+        for file in (ranks.MODULE, ranks.LOOPBACK):
+            (self.folder / file).touch()
+        for words, name in (("mpirun (Open MPI) 6.0.1", "Open MPI 6.0.1"), ("HYDRA build details:", "HYDRA build details:"), ("", "an unknown kind")):
+            with self.mpirun(words), mock.patch.object(paths, "BIN", self.folder), self.assertRaises(UserMistake) as caught:
+                ranks.expect_mpi({"fluid": 2})
+            self.assertRegex(str(caught.exception), f"mpirun is of {name}, and ranks go with Open MPI 4 and 5 .* leave --ranks away")
+
+    def test_nobody_begins_whose_mpirun_would_listen_on_the_network(self):
+        (self.folder / ranks.MODULE).touch()
+        for words in ("mpirun (Open MPI) 4.1.4", "mpirun (Open MPI) 5.0.7"):
+            with self.mpirun(words), mock.patch.object(paths, "BIN", self.folder), self.assertRaises(UserMistake) as caught:
+                ranks.expect_mpi({"fluid": 2})
+            self.assertIn(f"{ranks.LOOPBACK} in {self.folder} is missing", str(caught.exception))
+
     def test_who_is_to_blame_is_who_was_lost_first(self):
         (self.folder / "parts").mkdir()
         told = {1: "lost rank 2 of fluid (process 12): it has ended", 3: "lost rank 3 of gas (process 1): it has ended"}
@@ -91,6 +126,13 @@ class Wanted(InScratch):
         first = "fluid: lost rank 1 of fluid (process 11): it has ended"
         self.assertEqual(verdict._of_ranks("fluid", self.folder, first), told[1])
         self.assertEqual(verdict._of_ranks("fluid", self.folder, "the disk is full"), "the disk is full")
+
+    def test_what_mpirun_noticed_is_said_in_one_piece(self):
+        (self.folder / "log").mkdir()
+        for told in ("mpirun noticed that process rank 1 with PID 0 on node a exited on signal 9 (Killed).",
+                     "prterun noticed that process rank 1 with PID 0 on node a exited on\nsignal 9 (Killed)."):
+            (self.folder / "log" / "fluid.out").write_text(f"begun\n---\n{told}\n---\nbye\n", encoding="utf-8")
+            self.assertEqual(verdict._last_line(self.folder, "fluid"), told.replace("\n", " "))
 
     def test_who_goes_on_after_a_stop_does_not_blame_those_who_left_because_of_it(self):
         (self.folder / "parts").mkdir()
