@@ -22,6 +22,7 @@ namespace {
 /// A process as the system shows it.
 struct Process {
   char state = 'X';   ///< R, S, D, T (stopped), Z (ended), X (there is none)
+  bool ends = false;  ///< it is on its way out, though it may still look alive and have its children
   double work_s = 0;  ///< processor time so far [s]
 };
 
@@ -33,8 +34,18 @@ Process process_of(int pid) {
   std::istringstream words(text.substr(name_end + 1));
   Process process;
   words >> process.state;
-  std::string skipped;
-  for (int k = 0; k < 10; ++k) words >> skipped;
+  const auto skip = [&words](int fields) {
+    std::string skipped;
+    for (int k = 0; k < fields; ++k) words >> skipped;
+  };
+  constexpr int before_flags = 5, before_times = 4;
+  constexpr unsigned long exiting =
+      4;  // PF_EXITING of the kernel: set before its files and connections are closed
+  unsigned long flags = 0;
+  skip(before_flags);
+  words >> flags;
+  process.ends = (flags & exiting) != 0;
+  skip(before_times);
   double user = 0, system = 0;
   words >> user >> system;
   process.work_s = (user + system) / static_cast<double>(sysconf(_SC_CLK_TCK));
@@ -68,8 +79,9 @@ void RankPeers::look(bool begins) {
   for (Peer& peer : peers_) look_at(peer, begins);
 }
 
+/// A rank may end with its mpirun before the others have another parent.
 void RankPeers::check_parent() const {
-  if (getppid() != parent_)
+  if (getppid() != parent_ || process_of(parent_).ends)
     throw PeerLost(fmt::format("lost mpirun (process {}), which started the ranks of {}", parent_, name_));
 }
 
@@ -77,7 +89,7 @@ void RankPeers::look_at(Peer& peer, bool begins) const {
   const Process now = process_of(peer.pid);
   if (begins) peer.work_s = now.work_s;
   if (now.state == 'X' || now.state == 'Z') {
-    check_parent();  // a rank ends with its mpirun
+    check_parent();
     throw PeerLost(fmt::format("lost {}: it has ended", called(peer)));
   }
   const bool stopped = now.state == 'T' || now.state == 't';
