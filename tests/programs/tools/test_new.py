@@ -69,7 +69,8 @@ class New(InFolder):
         points = [(0.5 + 0.5 * np.cos(a), 0.1 * np.sin(a) * (1 - np.cos(a)) / 2) for a in np.arange(24) * np.pi / 12]
         np.savetxt(self.folder / "fin.csv", points, delimiter=",")
         said = self.fsi("new", "fin", "--outline", "fin.csv", "--size", "0.1", "--law", "rigid", "--defaults").stdout
-        self.assertIn("--straight", said)
+        self.assertIn("is cut off where its sides are so far apart", said)
+        self.assertNotIn("--straight", said)    # it has its corner
 
     def test_straight_edges_fixed_in_a_stream(self):
         self.begin("--outline", "corners.csv", "--straight", "--flow", "stream", "--mach", "2", "--law", "rigid", "--fixed")

@@ -308,7 +308,7 @@ TEST(CaseMistakeOfTwo, AProbeInAProgramOfSomebodyElses) {
   text.replace(text.find(times), times.size(),
                "probes: [{name: a, in: fluid, x: 0.5, y: 0}, {name: b, in: solid, x: 0, y: 0}]");
   EXPECT_EQ(mistake_in(text),
-            "case.yaml:29:66: output.probes[1].in: `solid` is a program of its own (`law: external`), and "
+            "case.yaml:29:69: output.probes[1].in: `solid` is a program of its own (`law: external`), and "
             "what is inside "
             "only it knows; put the probe into a gas, or leave it out");
 }
