@@ -259,8 +259,8 @@ def bus_profile(name):
         words = ["./build/release/bin/bench_bus", f"--benchmark_filter=points:1000/protection:{kind}/"]
         subprocess.run(["perf", "record", "-q", "-F", "1999", "-o", str(samples), *words], cwd=ROOT, capture_output=True, check=True)
         text += f"`perf record -F 1999 {shlex.join(words)}`\n\n```\n" + "\n".join(shares(samples, "--sort", "dso")) + "\n```\n\n"
-    return text + ("Who takes less than 2 % is not listed. The kernel sends, copies and wakes who waits; libc copies; libcrypto signs and checks. How much of it the "
-                   "kernel takes differs with the machine: most in a virtual one.\n")
+    return text + ("Who takes less than 2 % is not listed. The kernel sends, copies and wakes who waits; libc copies; "
+                   "libcrypto signs and checks.\n")
 
 
 def bench(name):
