@@ -39,8 +39,8 @@ Process process_of(int pid) {
     for (int k = 0; k < fields; ++k) words >> skipped;
   };
   constexpr int before_flags = 5, before_times = 4;
-  constexpr unsigned long exiting =
-      4;  // PF_EXITING of the kernel: set before its files and connections are closed
+  // PF_EXITING of the kernel, set before the files and connections of a process are closed.
+  constexpr unsigned long exiting = 4;
   unsigned long flags = 0;
   skip(before_flags);
   words >> flags;

@@ -26,12 +26,12 @@ namespace {
 using config::fail;
 using config::Node;
 
-/// A cell of a grid at t = 0.
+/// A cell of a grid at t = 0: what its two edges from the first corner span has a positive area where the second
+/// is to the left of the first.
 struct SampledCell {
   int i = 0, j = 0;
   Vec2 x;  ///< its first corner
-  double area =
-      0;  ///< of what its two edges from there span: positive where the second is to the left of the first
+  double area = 0;
 };
 
 std::vector<SampledCell> sample_cells(const GridSpec& grid) {
@@ -60,8 +60,7 @@ void check_grid(const GridSpec& grid, const Node& node, const std::string& path)
           cells, [](const SampledCell& cell) { return cell.area < 0 && std::isfinite(cell.area); })) {
     fail(node.place, path,
          "`map` is left-handed: where r grows to the right, s grows downwards; write 1 - s in the place of "
-         "s, so that "
-         "bottom and top change places, or 1 - r in that of r, so that left and right do");
+         "s, so that bottom and top change places, or 1 - r in that of r, so that left and right do");
   }
   fail(node.place, path,
        fmt::format("the grid folds at point ({}, {}) at t = 0, near ({:.4g}, {:.4g}); change `map`", wrong->i,
@@ -271,12 +270,10 @@ void check_probes(const Case& problem, const Node& root) {
     }
     const auto solid = std::ranges::find(problem.solids, probe.in, &SolidSpec::name);
     if (solid != problem.solids.end() && !solid->program.empty()) {
-      fail(
-          node.find("in")->place, fmt::format("output.probes[{}].in", k),
-          fmt::format(
-              "{} is a program of its own (`law: external`), and what is inside only it knows; put the probe "
-              "into a gas, or leave it out",
-              in_ticks(probe.in)));
+      fail(node.find("in")->place, fmt::format("output.probes[{}].in", k),
+           fmt::format("{} is a program of its own (`law: external`), and what is inside only it knows; "
+                       "put the probe into a gas, or leave it out",
+                       in_ticks(probe.in)));
     }
     const auto before = problem.output.probes.begin() + static_cast<std::ptrdiff_t>(k);
     if (std::ranges::find(problem.output.probes.begin(), before, probe.name, &ProbeSpec::name) != before)

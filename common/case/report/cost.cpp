@@ -308,9 +308,8 @@ std::string multirate_text(const RunCost& cost) {
   const StepCost& smallest =
       *std::ranges::min_element(cost.programs, {}, [](const StepCost& program) { return program.dt; });
   return fmt::format(
-      "  {}: all programs take its small steps, {:.2g} times as many as the gas needs; with `time.multirate: "
-      "true` it "
-      "alone takes them: about {:.0f} steps, {}\n",
+      "  {}: all programs take its small steps, {:.2g} times as many as the gas needs; with "
+      "`time.multirate: true` it alone takes them: about {:.0f} steps, {}\n",
       smallest.program, cost.steps / cost.multirate_steps, cost.multirate_steps,
       time_text(cost.multirate_seconds));
 }
