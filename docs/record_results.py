@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Makes docs/results.md: runs every study below by ./launch/fsi and writes down what came out, with the command.
 
-    docs/record_results.py [WORD ...]             all studies, or those whose title contains one of the words
+    docs/record_results.py [WORD ...]             all studies, or those whose title contains one of the words; prints which numbers are new
     docs/record_results.py --check [WORD ...]     runs them and writes nothing, but says which recorded numbers do not repeat
     docs/record_results.py --list [WORD ...]      their titles
 
@@ -588,7 +588,9 @@ def record(words):
     sections, order = kept_sections(), [title for title, _ in all_studies()]
     for title, study in chosen_studies(words):
         print(title, flush=True)
-        sections[title] = "\n" + study().strip() + "\n\n" + recorded_with()
+        former, sections[title] = sections.get(title), "\n" + study().strip() + "\n\n" + recorded_with()
+        if former:
+            print("\n".join(record_check.differences(title, former, sections[title]) or [f"{title}: repeats"]), flush=True)
         write(sections, [name for name in order if name in sections])
     return 0
 
