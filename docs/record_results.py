@@ -308,6 +308,17 @@ PISTON = [("steps", "steps"), ("v_bar", "errors.v_bar"), ("P_bar", "errors.P_bar
 LAWS = ["linear_elastic", "saint_venant_kirchhoff", "neo_hookean"]
 
 
+def chosen_sides():
+    """Three sides of given displacement, four, and one that is loaded in their place, with every law; fields that are there at once."""
+    key = "solids.solid.boundary"
+    for law in LAWS:
+        for label, settings in (("three held", []), ("four held", [f"{key}.right=displacement"]), ("top traction", [f"{key}.top=traction"])):
+            yield f"{law}, {label}", settings, [f"solid={law}"]
+    exact = [f"{key}.{side}={{kind: dirichlet, state: reference}}" for side in ("left", "bottom", "top")]
+    for label, settings in (("three held", []), ("all exact", exact)):
+        yield f"neo_hookean, not from rest, {label}", [*settings, "definitions.beat=amplitude * cos(3 * t)"], []
+
+
 def ratios(projection, extra=()):
     return [(f"R = {r}", [f"parameters.density_ratio={r}", f"interface.projection={projection}", *extra], []) for r in RATIOS]
 
@@ -434,6 +445,8 @@ def other_studies():
                lambda l=law: converge(f"manufactured-{l}", "solid_manufactured", "2,4,8,16", solids=[f"solid={l}"]))
     yield ("Solid: manufactured solution, every law and kind of side, h = 1/80",
            lambda: rates("manufactured-sides", "solid_manufactured", "2,4,8", sides(), ["u_bar", "v_bar", "P_bar"]))
+    yield ("Solid: u, v and P that do not belong together, every law and some sides, h = 1/80",
+           lambda: rates("chosen-fields", "solid_chosen_fields", "2,4,8", chosen_sides(), ["u_bar", "v_bar", "P_bar"]))
     yield ("Solid: spinning block",
            lambda: sweep("block", "spinning_block",
                          [(f"h = 1/{10 * j}, {turns} turn{'s' if turns > 1 else ''}",
