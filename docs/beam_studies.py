@@ -63,22 +63,23 @@ def _order(coarse, fine):
     return f"{np.log2(coarse / fine):.2f}" if coarse > 0 and fine > 0 else "-"
 
 
-def _centrelines(tools, beam, name="beam", settings=()):
-    """Largest distance between the centrelines of two grids, and the order it falls with."""
+def _centrelines(tools, beam, name="beam", settings=(), factors=(8, 16, 32)):
+    """Largest distance between the centrelines of two grids, and the orders it falls with."""
     from fsi_launch.plot.one_run import beams
     from fsi_launch.plot.reading import data
     runs, kept, typed = [], [], ""
-    for factor in (8, 16, 32):
+    for factor in factors:
         directory, _, typed = _run(tools, f"{name}-{factor}-{beam[0]}-{beam[1]}", "beam",
                                    [f"grid.factor={factor}", *_parameters(beam), *settings])
         kept.append((f"j = {factor}", directory))
         runs.append(beams.run_of(data.all_series(directory), (directory / "case.yaml").read_text(encoding="utf-8")))
     pairs = [beams.distances(coarse.beams[0], fine.beams[0]) for coarse, fine in zip(runs, runs[1:])]
     ends = runs[-1].beams[0].lines
-    rows = [[f"{t:g}", *(f"{pair[t]:.1e}" for pair in pairs), _order(*(pair[t] for pair in pairs)),
+    rows = [[f"{t:g}", *(f"{pair[t]:.1e}" for pair in pairs), *(_order(a[t], b[t]) for a, b in zip(pairs, pairs[1:])),
              f"({ends[t][-1][0]:.3f}, {ends[t][-1][1]:.3f})"]
             for t in sorted(ends) if t > 0 and all(t in pair for pair in pairs)]
-    heading = ["t", "j = 8 against 16", "j = 16 against 32", "order", "the end of the beam, j = 32"]
+    heading = ["t", *(f"j = {a} against {b}" for a, b in zip(factors, factors[1:])), *["order"] * (len(pairs) - 1),
+               f"the end of the beam, j = {factors[-1]}"]
     return f"`{typed}`\n\n" + _table(heading, rows) + ("" if settings else "\n" + tools.costs(kept))
 
 
@@ -198,9 +199,9 @@ def _variants(tools):
 def studies(tools):
     """(title, function) of each study; `tools`: the functions of record_results."""
     yield "Beam: the four of the paper, h = 1/160", lambda: _beams(tools, 16)
-    for beam in (("100", "100"), ("10", "10")):
+    for beam, factors in ((("100", "100"), (8, 16, 32, 64)), (("10", "10"), (8, 16, 32))):
         yield (f"Beam ({beam[0]}, {beam[1]}): largest distance between the centrelines of two grids",
-               lambda b=beam: _centrelines(tools, b))
+               lambda b=beam, f=factors: _centrelines(tools, b, factors=f))
         yield (f"Beam ({beam[0]}, {beam[1]}): centrelines, grids of the beam as fine as the gas's",
                lambda b=beam: _centrelines(tools, b, "fine-beam", REFINED))
     yield "Beam: variants, h = 1/80", lambda: _variants(tools)
