@@ -64,6 +64,7 @@ struct Counters {
   double first_order_outside_shocks = 0;  ///< of these, those without a shock near them [-]
   double positive_fluxes = 0;             ///< points advanced with positive first-order fluxes [-]
   double positive_values = 0;             ///< interpolated points that got their smallest donor's value [-]
+  double bounded_side_points = 0;         ///< points of sides at which a bound acted [-]
   double floors = 0;                      ///< points whose pressure was lifted to the floor [-]
   double steps = 0;                       ///< [-]
 };
@@ -112,6 +113,10 @@ class Component {
   const Counters& counters() const { return counters_; }
   /// Of points that are not advanced by the sweep but interpolated.
   void count_positive_values(std::size_t points) { counters_.positive_values += static_cast<double>(points); }
+  /// Of points that a side gives its values or its ghosts.
+  void count_bounded_side_points(std::uint64_t points) {
+    counters_.bounded_side_points += static_cast<double>(points);
+  }
   /// From now on each step notes what it carries through the faces half a cell and so many lines inside the sides.
   void note_edges(int lines);
   /// Of the last step through the faces inside a side; see EdgeFluxes. Empty where they are not noted.

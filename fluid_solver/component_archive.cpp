@@ -108,6 +108,7 @@ void Component::archive(Archive& archive) {
   archive.number("first_order_outside_shocks", counters_.first_order_outside_shocks);
   archive.number("positive_fluxes", counters_.positive_fluxes);
   archive.number("positive_values", counters_.positive_values);
+  archive.number("bounded_side_points", counters_.bounded_side_points);
   archive.number("floors", counters_.floors);
   archive.number("steps", counters_.steps);
   for (const Side side : all_sides) {

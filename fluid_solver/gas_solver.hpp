@@ -55,7 +55,8 @@ struct Health {
   std::uint64_t first_order_outside_shocks = 0;  ///< of these, those without a shock near them
   std::uint64_t positive_fluxes = 0;  ///< points advanced with positive first-order fluxes, since the start
   std::uint64_t positive_values = 0;  ///< interpolated points that got their smallest donor's value
-  std::uint64_t floors = 0;           ///< points whose pressure was lifted to the floor, since the start
+  std::uint64_t bounded_side_points = 0;  ///< points of sides at which a bound acted
+  std::uint64_t floors = 0;               ///< points whose pressure was lifted to the floor, since the start
 };
 
 /// Largest errors over all grid points; T = p / rho.

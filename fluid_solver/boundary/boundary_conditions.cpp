@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <variant>
 
@@ -52,6 +53,9 @@ class BoundaryConditions {
     mirror(Layout::ghosts);
   }
 
+  /// How often a bound acted, at the points of the sides.
+  std::uint64_t bounded() const { return bounded_; }
+
   /// Ghosts of the mirror sides, `reach` points beyond the ends of each side.
   void mirror(int reach) {
     for (const Side side : by_precedence_) {
@@ -68,9 +72,10 @@ class BoundaryConditions {
   ConstFieldView x_;
   Layout layout_;
   std::array<Side, 4> by_precedence_{};
+  std::uint64_t bounded_ = 0;
 
   template <class Action>
-  void visit(Side side, const Action& action) const {
+  void visit(Side side, const Action& action) {
     const GasSide at = seen(side);
     std::visit([&](const auto& kind) { action(kind, at); }, component_.boundary(side));
   }
@@ -96,8 +101,8 @@ class BoundaryConditions {
     return Vec2(values->n[k], values->n[n + k]);
   }
 
-  GasSide seen(Side side) const {
-    const SidePoints points(layout_, side, component_.live(side), &component_.rows());
+  GasSide seen(Side side) {
+    const SidePoints points(layout_, side, component_.live(side), component_.rows(), component_.valid());
     const auto [first, last] = points.neighbours();
     return {.q = q_,
             .x = x_,
@@ -112,7 +117,8 @@ class BoundaryConditions {
             .mirrored_last = is_mirror(last),
             .held = {is_foot(first, side), is_foot(last, side)},
             .crossing = {normal_at_end(first, side), normal_at_end(last, side)},
-            .grid = component_.grid().name()};
+            .grid = component_.grid().name(),
+            .bounded = bounded_};
   }
 
   /// Where two sides meet that are no mirrors: q(-a, -b) = q(-a, 0) + q(0, -b) - q(0, 0).
@@ -123,24 +129,32 @@ class BoundaryConditions {
     const int i0 = at_upper_end(side) ? layout_.n1 - 1 : 0, j0 = at_upper_end(other) ? layout_.n2 - 1 : 0;
     const int out1 = at_upper_end(side) ? 1 : -1, out2 = at_upper_end(other) ? 1 : -1;
     const StateVector q0 = load(q_, {i0, j0});
+    bool bounded = false;
     for (int a = 1; a <= Layout::ghosts; ++a) {
       for (int b = 1; b <= Layout::ghosts; ++b) {
         const int i = i0 + a * out1, j = j0 + b * out2;
         const StateVector value = load(q_, {i, j0}) + load(q_, {i0, j}) - q0;
-        store(q_, {i, j}, value[0] > 0 && value[3] > 0 ? value : q0);
+        const BoundedState ghost = positive_or(value, q0);
+        bounded |= ghost.bounded;
+        store(q_, {i, j}, ghost.q);
       }
     }
+    bounded_ += bounded && seen(side).points.counts(j0);
   }
 };
 
 }  // namespace
 
 void set_boundary_points(Component& component, const BoundaryTask& task) {
-  BoundaryConditions(component, task).set_points();
+  BoundaryConditions conditions(component, task);
+  conditions.set_points();
+  component.count_bounded_side_points(conditions.bounded());
 }
 
 void set_ghosts(Component& component, const BoundaryTask& task) {
-  BoundaryConditions(component, task).set_ghosts();
+  BoundaryConditions conditions(component, task);
+  conditions.set_ghosts();
+  component.count_bounded_side_points(conditions.bounded());
 }
 
 void close_periods(Component& component) {

@@ -7,16 +7,13 @@ namespace fsi::fluid {
 
 namespace {
 
-/// The speed of sound is not led below this part of that inside: two states that would tear the gas apart.
-constexpr double least_part = 0.1;
-
 double sound(const StateVector& q, double gamma) {
   return std::sqrt(gamma * q[3] / q[0]);
 }
 
 }  // namespace
 
-StateVector between(const StateVector& inside, const StateVector& beyond, const OpenSide& side) {
+BoundedState between(const StateVector& inside, const StateVector& beyond, const OpenSide& side) {
   const double gamma = side.gamma, per_a = 2 / (gamma - 1);
   const Vec2 v(inside[1], inside[2]);
   const double a = sound(inside, gamma), u = side.n.dot(v), through = u - side.speed;
@@ -26,12 +23,13 @@ StateVector between(const StateVector& inside, const StateVector& beyond, const 
   const double minus = through - a > 0 ? 0 : change_u - per_a * change_a;
   const bool leaves = through > 0;
   const StateVector& source = leaves ? inside : beyond;
-  const double a_side = std::max(a + (plus - minus) / (2 * per_a), least_part * a);
+  const double of_waves = a + (plus - minus) / (2 * per_a), a_side = std::max(of_waves, least_sound * a);
   const Vec2 v_source(source[1], source[2]);
   const Vec2 v_side = v_source + (u + 0.5 * (plus + minus) - side.n.dot(v_source)) * side.n;
   const double ratio = a_side / sound(source, gamma);  // at the entropy of the source
   const double rho = source[0] * std::pow(ratio, per_a);
-  return {rho, v_side[0], v_side[1], source[3] * std::pow(ratio, gamma * per_a)};
+  return {.q = {rho, v_side[0], v_side[1], source[3] * std::pow(ratio, gamma * per_a)},
+          .bounded = of_waves < least_sound * a};
 }
 
 }  // namespace fsi::fluid

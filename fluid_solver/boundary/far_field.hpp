@@ -24,7 +24,7 @@ struct OpenSide {
 
 /// The state on a side between that inside and a given one beyond it. Simple waves that leave, of any
 /// strength, meet no resistance; shocks leave up to the third power of their strength.
-StateVector between(const StateVector& inside, const StateVector& beyond, const OpenSide& side);
+BoundedState between(const StateVector& inside, const StateVector& beyond, const OpenSide& side);
 
 /// The points of a side between the gas inside and a given state beyond.
 inline void let_waves_through(const GasSide& side, const StateField& given) {
@@ -38,7 +38,9 @@ inline void let_waves_through(const GasSide& side, const StateField& given) {
     const StateVector beyond = to_vector(given(place[0], place[1], side.t));
     const OpenSide open{
         .n = outward, .speed = outward.dot(Vec2(velocity[k], velocity[n + k])), .gamma = side.options.gamma};
-    store(side.q, side.points.at(point, 0), between(load(side.q, side.points.at(point, 0)), beyond, open));
+    const BoundedState state = between(load(side.q, side.points.at(point, 0)), beyond, open);
+    side.bounded += state.bounded && side.points.counts(point);
+    store(side.q, side.points.at(point, 0), state.q);
   }
 }
 

@@ -10,6 +10,7 @@
 ///     set_after_corners(GasSide)         what holds in the corners of the ghost frame, too
 
 #include <array>
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <optional>
@@ -51,6 +52,8 @@ struct GasSide {
   /// Normals, there, of the interfaces that cross it at its first and last point.
   std::array<std::optional<Vec2>, 2> crossing;
   const std::string& grid;  ///< its name
+  std::uint64_t&
+      bounded;  ///< points of the side at which a bound acted, each time it did (docs/output.md, "Fallbacks")
 
   bool limited() const { return options.limiter != Limiter::none; }
   /// Of the chosen solution.
@@ -69,12 +72,17 @@ struct GasSide {
   }
 };
 
+/// Ghosts that continue the gas.
+inline void extrapolate_ghosts(const GasSide& side) {
+  side.bounded += extrapolated_ghosts(side.q, side.points, side.limited());
+}
+
 /// Ghosts at a wall. Gas with a chosen solution may cross it: the momentum equation on it does not hold then.
 inline void set_wall_ghosts(const GasSide& side, const Wall& wall) {
   if (side.forcing != nullptr) {
-    extrapolated_ghosts(side.q, side.points, side.limited());
+    extrapolate_ghosts(side);
   } else {
-    wall_ghosts(side.q, side.x, side.points, wall, side.limited());
+    side.bounded += wall_ghosts(side.q, side.x, side.points, wall, side.limited());
   }
 }
 

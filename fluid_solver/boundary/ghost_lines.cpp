@@ -42,14 +42,19 @@ StateVector leaving(const StateVector& q, const StateVector& increment, const Ve
 
 }  // namespace
 
-StateVector extrapolated(const StateVector& q0, const StateVector& q1, const StateVector& q2, bool limited) {
+BoundedState positive_or(const StateVector& q, const StateVector& fallback) {
+  if (positive(q)) return {.q = q};
+  return {.q = fallback, .bounded = true};
+}
+
+BoundedState extrapolated(const StateVector& q0, const StateVector& q1, const StateVector& q2, bool limited) {
   StateVector result;
   for (int c = 0; c < 4; ++c) {
     const double last = q0[c] - q1[c], before = q1[c] - q2[c];
     const double third_order = 2 * last - before;
     result[c] = q0[c] + (limited ? nearest_to_zero(third_order, 2 * last, 2 * before) : third_order);
   }
-  return positive(result) ? result : q0;
+  return positive_or(result, q0);
 }
 
 Vec2 inward_normal(ConstFieldView x, const SidePoints& side, int k) {
@@ -62,8 +67,9 @@ Vec2 straight_normal(ConstFieldView x, const SidePoints& side) {
                         position(x, side, 0, 1) - position(x, side, 0, 0));
 }
 
-void outflow_ghosts(FieldView q, ConstFieldView x, const SidePoints& side, std::span<const double> v,
-                    const GasOptions& options) {
+std::uint64_t outflow_ghosts(FieldView q, ConstFieldView x, const SidePoints& side, std::span<const double> v,
+                             const GasOptions& options) {
+  std::uint64_t count = 0;
   const bool limited = options.limiter != Limiter::none;
   const auto n = static_cast<std::size_t>(side.n());
   for (int k = 0; k < side.n(); ++k) {
@@ -71,25 +77,34 @@ void outflow_ghosts(FieldView q, ConstFieldView x, const SidePoints& side, std::
     const Vec2 outward = -inward_normal(x, side, k);
     const auto point = static_cast<std::size_t>(k);
     const double g_n = outward.dot(Vec2(v[point], v[n + point]));
+    bool bounded = false;
     for (int m = 1; m <= Layout::ghosts; ++m) {
       const StateVector q0 = load(q, side.at(k, 1 - m)), q1 = load(q, side.at(k, 2 - m)),
                         q2 = load(q, side.at(k, 3 - m));
-      const StateVector increment = extrapolated(q0, q1, q2, limited) - q0;
-      const StateVector value = q0 + leaving(q0, increment, outward, g_n, options.gamma);
-      store(q, side.at(k, -m), positive(value) ? value : q0);
+      const BoundedState whole = extrapolated(q0, q1, q2, limited);
+      const BoundedState value = positive_or(q0 + leaving(q0, whole.q - q0, outward, g_n, options.gamma), q0);
+      bounded |= whole.bounded || value.bounded;
+      store(q, side.at(k, -m), value.q);
     }
+    count += bounded && side.counts(k);
   }
+  return count;
 }
 
-void extrapolated_ghosts(FieldView q, const SidePoints& side, bool limited) {
+std::uint64_t extrapolated_ghosts(FieldView q, const SidePoints& side, bool limited) {
+  std::uint64_t count = 0;
   for (int k = 0; k < side.n(); ++k) {
     if (!side.live(k)) continue;
+    bool bounded = false;
     for (int m = 1; m <= Layout::ghosts; ++m) {
-      store(q, side.at(k, -m),
-            extrapolated(load(q, side.at(k, 1 - m)), load(q, side.at(k, 2 - m)), load(q, side.at(k, 3 - m)),
-                         limited));
+      const BoundedState value = extrapolated(load(q, side.at(k, 1 - m)), load(q, side.at(k, 2 - m)),
+                                              load(q, side.at(k, 3 - m)), limited);
+      bounded |= value.bounded;
+      store(q, side.at(k, -m), value.q);
     }
+    count += bounded && side.counts(k);
   }
+  return count;
 }
 
 void given_lines(FieldView q, ConstFieldView x, const SidePoints& side, const StateField& state, double t) {

@@ -1,6 +1,8 @@
 #pragma once
-/// Ways to fill ghost lines, of which the kinds of boundaries choose.
+/// Ways to fill ghost lines, of which the kinds of boundaries choose. Those that return a number count the points of the
+/// side beside whose ghosts a bound acted, once each (docs/output.md, "Fallbacks").
 
+#include <cstdint>
 #include <span>
 
 #include "common/core/types.hpp"
@@ -10,9 +12,21 @@
 
 namespace fsi::fluid {
 
+/// No side leads the gas's speed of sound below this part of that inside: its wall runs away from the gas, or the states on its
+/// two sides would tear the gas apart.
+inline constexpr double least_sound = 0.1;
+
+/// A state, and whether a bound acted on its way.
+struct BoundedState {
+  StateVector q;
+  bool bounded = false;
+};
+/// `q` itself, or `fallback` where it has no positive density or pressure.
+BoundedState positive_or(const StateVector& q, const StateVector& fallback);
+
 /// Value one line outside q0, from q0, q1, q2 further in: third order; with `limited` never beyond twice the
 /// last differences, and q0 where the result would have no positive density or pressure.
-StateVector extrapolated(const StateVector& q0, const StateVector& q1, const StateVector& q2, bool limited);
+BoundedState extrapolated(const StateVector& q0, const StateVector& q1, const StateVector& q2, bool limited);
 
 /// A wall along a side, n points, vectors component-major.
 struct Wall {
@@ -34,15 +48,16 @@ struct Wall {
 /// written out; the derivative across the side is split into normal and tangential parts so that skewed grids
 /// keep second order. Where another wall holds the gas, too, it goes with the corner: grad p = -rho g_tt. A one-sided
 /// derivative along the side grows there once the two walls are far from a right angle, by what it makes of p itself.
-void wall_ghosts(FieldView q, ConstFieldView x, const SidePoints& side, const Wall& wall, bool limited);
+std::uint64_t wall_ghosts(FieldView q, ConstFieldView x, const SidePoints& side, const Wall& wall,
+                          bool limited);
 
 /// Behind an outflow: what leaves along characteristics is extrapolated, what would enter stays as it is on
 /// the boundary. `v` is the velocity of the side's points.
-void outflow_ghosts(FieldView q, ConstFieldView x, const SidePoints& side, std::span<const double> v,
-                    const GasOptions& options);
+std::uint64_t outflow_ghosts(FieldView q, ConstFieldView x, const SidePoints& side, std::span<const double> v,
+                             const GasOptions& options);
 
 /// All variables extrapolated.
-void extrapolated_ghosts(FieldView q, const SidePoints& side, bool limited);
+std::uint64_t extrapolated_ghosts(FieldView q, const SidePoints& side, bool limited);
 
 /// Values of a given state on the lines -2 <= m <= 0 of points first <= k < last.
 void given_lines(FieldView q, ConstFieldView x, const SidePoints& side, const StateField& state, double t);

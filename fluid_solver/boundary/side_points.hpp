@@ -8,6 +8,7 @@
 
 #include "common/core/field.hpp"
 #include "common/core/types.hpp"
+#include "common/grid/intervals.hpp"
 #include "common/ranks/rows/rank_rows.hpp"
 
 namespace fsi::fluid {
@@ -23,11 +24,13 @@ class SidePoints {
   SidePoints(const Layout& layout, Side side)
       : layout_(layout), side_(side), n_(direction_of(side) == 0 ? layout.n2 : layout.n1) {}
   /// `live` says of each point whether its values and ghosts are needed; empty: all are. `rows`: those that this
-  /// rank has; null: all.
-  SidePoints(const Layout& layout, Side side, std::span<const std::uint8_t> live, const RankRows* rows)
+  /// rank has. `valid`: points that have a value of their own.
+  SidePoints(const Layout& layout, Side side, std::span<const std::uint8_t> live, const RankRows& rows,
+             const grid::RowSets& valid)
       : SidePoints(layout, side) {
     live_ = live;
-    rows_ = rows;
+    rows_ = &rows;
+    valid_ = &valid;
   }
 
   /// Of points beyond the ends that of the end.
@@ -55,6 +58,12 @@ class SidePoints {
   int n() const { return n_; }
   /// Whether point k is in a row that another rank has.
   bool elsewhere(int k) const { return rows_ != nullptr && !rows_->has(row(k)); }
+  /// Whether what happens at point k is to be counted: it has a value of its own, and of all ranks that have it this
+  /// one owns it.
+  bool counts(int k) const {
+    const auto [i, j] = at(k, 0);
+    return (rows_ == nullptr || rows_->owns(row(k))) && (valid_ == nullptr || valid_->contains(i, j));
+  }
   Side side() const { return side_; }
   /// Number of the last line away from the side.
   int depth() const { return (direction_of(side_) == 0 ? layout_.n1 : layout_.n2) - 1; }
@@ -70,6 +79,7 @@ class SidePoints {
   int n_;
   std::span<const std::uint8_t> live_;
   const RankRows* rows_ = nullptr;
+  const grid::RowSets* valid_ = nullptr;
 
   int row(int k) const { return direction_of(side_) == 0 ? k : side_ == Side::bottom ? 0 : layout_.n2 - 1; }
 };

@@ -51,38 +51,48 @@ double pressure_slope(ConstFieldView q, ConstFieldView x, const SidePoints& side
   return p_n * across.dot(n) + p_r * across.dot(g_r) / g_r.squaredNorm();
 }
 
-/// How far the density behind a wall may be from that of its mirror image, `change` as extrapolated: whole up to half of the
-/// density, then less and less, and not at all where it would be all of it. There a shock stands between the wall and the
+/// How much of `change`, by which the extrapolated density behind a wall differs from that of its mirror image, is left: all up to
+/// half of the density, then less and less, and not at all where it would be all of it. There a shock stands between the wall and the
 /// first line, which is its own mirror image: ghosts with the gas's density at the wall and its speed before the shock
 /// would push the wall's gas away as fast as it comes, and the shock would stay for ever.
-double change_of_density(double change, double inside) {
-  return change * std::clamp(2 * (1 - std::fabs(change) / inside), 0.0, 1.0);
+double part_of_change(double change, double inside) {
+  return std::clamp(2 * (1 - std::fabs(change) / inside), 0.0, 1.0);
 }
 
 }  // namespace
 
-void wall_ghosts(FieldView q, ConstFieldView x, const SidePoints& side, const Wall& wall, bool limited) {
+std::uint64_t wall_ghosts(FieldView q, ConstFieldView x, const SidePoints& side, const Wall& wall,
+                          bool limited) {
   const WallVectors normals(wall.n, wall.closed);
+  std::uint64_t count = 0;
   for (int k = 0; k < side.n(); ++k) {
     if (!side.live(k)) continue;
     const Vec2 n = normals(k);
     const double slope = pressure_slope(q, x, side, wall, k);
     const double v_n = n.dot(Vec2(load(q, side.at(k, 0)).segment<2>(1)));
+    bool bounded = false;
     for (int m = 1; m <= Layout::ghosts; ++m) {
       const StateVector inside = load(q, side.at(k, m));
-      StateVector ghost = extrapolated(load(q, side.at(k, 1 - m)), load(q, side.at(k, 2 - m)),
-                                       load(q, side.at(k, 3 - m)), limited);
-      const double largest_change = limited ? 0.5 * inside[3] : (1 - 1e-3) * inside[3];
-      ghost[3] = inside[3] - std::clamp(2 * m * slope, -largest_change, largest_change);
+      const BoundedState beyond = extrapolated(load(q, side.at(k, 1 - m)), load(q, side.at(k, 2 - m)),
+                                               load(q, side.at(k, 3 - m)), limited);
+      StateVector ghost = beyond.q;
+      const double change = 2 * m * slope, largest = limited ? 0.5 * inside[3] : (1 - 1e-3) * inside[3];
+      ghost[3] = inside[3] - std::clamp(change, -largest, largest);
+      bounded |= beyond.bounded || std::fabs(change) > largest;
       if (limited) {  // odd reflection: the wall stays where it is when a shock meets it
-        ghost[0] = inside[0] + change_of_density(ghost[0] - inside[0], inside[0]);
+        const double change_of_density = ghost[0] - inside[0],
+                     part = part_of_change(change_of_density, inside[0]);
+        ghost[0] = inside[0] + part * change_of_density;
+        bounded |= part < 1;
         Vec2 v = ghost.segment<2>(1);
         v += (2 * v_n - n.dot(Vec2(inside.segment<2>(1))) - n.dot(v)) * n;
         ghost.segment<2>(1) = v;
       }
       store(q, side.at(k, -m), ghost);
     }
+    count += bounded && side.counts(k);
   }
+  return count;
 }
 
 }  // namespace fsi::fluid

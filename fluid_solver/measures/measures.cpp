@@ -214,6 +214,7 @@ void GasSolver::add_health(const Component& component, const Smallest& smallest,
   health.first_order_outside_shocks += static_cast<std::uint64_t>(counters.first_order_outside_shocks);
   health.positive_fluxes += static_cast<std::uint64_t>(counters.positive_fluxes);
   health.positive_values += static_cast<std::uint64_t>(counters.positive_values);
+  health.bounded_side_points += static_cast<std::uint64_t>(counters.bounded_side_points);
   health.floors += static_cast<std::uint64_t>(counters.floors);
 }
 

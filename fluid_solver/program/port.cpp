@@ -291,6 +291,7 @@ void FluidParticipant::report(double t, io::Part& part) const {
       static_cast<double>(health.first_order_outside_shocks);
   part.counters["positive_fluxes"] = static_cast<double>(health.positive_fluxes);
   part.counters["positive_values"] = static_cast<double>(health.positive_values);
+  part.counters["bounded_side_points"] = static_cast<double>(health.bounded_side_points);
   part.counters["floors"] = static_cast<double>(health.floors);
   part.overlap = overlap_of(solver_.composite());
   part.health["min_rho"] = health.min_rho;

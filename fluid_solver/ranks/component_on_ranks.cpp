@@ -24,8 +24,9 @@ std::vector<FieldView> Component::moving_fields() {
 
 /// What is not one's own is zero.
 std::vector<double> Component::scattered() const {
-  std::vector<double> values{counters_.first_order, counters_.first_order_outside_shocks,
-                             counters_.positive_fluxes, counters_.positive_values, counters_.floors};
+  std::vector<double> values{counters_.first_order,         counters_.first_order_outside_shocks,
+                             counters_.positive_fluxes,     counters_.positive_values,
+                             counters_.bounded_side_points, counters_.floors};
   for (int j = 0; j < grid_.layout().n2; ++j)
     values.push_back(rows_.owns(j) ? row_rates_[static_cast<std::size_t>(j)] : 0);
   return values;
@@ -39,8 +40,9 @@ void Component::gather_scattered(std::span<const double> all_ranks) {
   counters_.first_order_outside_shocks = sums[1];
   counters_.positive_fluxes = sums[2];
   counters_.positive_values = sums[3];
-  counters_.floors = sums[4];
-  std::copy(sums.begin() + 5, sums.end(), row_rates_.begin());
+  counters_.bounded_side_points = sums[4];
+  counters_.floors = sums[5];
+  std::copy(sums.begin() + 6, sums.end(), row_rates_.begin());
 }
 
 /// All ranks look around the points in their own rows.

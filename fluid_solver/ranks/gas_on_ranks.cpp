@@ -117,20 +117,22 @@ struct Candidates {
   const Candidate& best() const { return rest.point.rate > inner.point.rate ? rest : inner; }
 };
 
-constexpr std::size_t health_numbers = 7;
+constexpr std::size_t health_numbers = 8;
 
 void write(const Health& health, std::vector<double>& to) {
-  to.insert(to.end(), {health.min_rho, health.min_p, static_cast<double>(health.first_order_fallbacks),
-                       static_cast<double>(health.first_order_outside_shocks),
-                       static_cast<double>(health.positive_fluxes),
-                       static_cast<double>(health.positive_values), static_cast<double>(health.floors)});
+  to.insert(to.end(),
+            {health.min_rho, health.min_p, static_cast<double>(health.first_order_fallbacks),
+             static_cast<double>(health.first_order_outside_shocks),
+             static_cast<double>(health.positive_fluxes), static_cast<double>(health.positive_values),
+             static_cast<double>(health.bounded_side_points), static_cast<double>(health.floors)});
 }
 
 void join(Health& health, const double* other) {
   health.min_rho = std::min(health.min_rho, other[0]);
   health.min_p = std::min(health.min_p, other[1]);
   std::uint64_t* const counts[] = {&health.first_order_fallbacks, &health.first_order_outside_shocks,
-                                   &health.positive_fluxes, &health.positive_values, &health.floors};
+                                   &health.positive_fluxes,       &health.positive_values,
+                                   &health.bounded_side_points,   &health.floors};
   for (std::size_t k = 0; k < std::size(counts); ++k) *counts[k] += static_cast<std::uint64_t>(other[2 + k]);
 }
 

@@ -23,7 +23,7 @@ struct Imposed {
       store(side.q, side.points.at(k, 0), to_vector(state(place[0], place[1], side.t)));
     }
   }
-  static void set_ghosts(const GasSide& side) { extrapolated_ghosts(side.q, side.points, side.limited()); }
+  static void set_ghosts(const GasSide& side) { extrapolate_ghosts(side); }
 };
 
 }  // namespace fsi::fluid

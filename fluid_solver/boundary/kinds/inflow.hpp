@@ -19,7 +19,7 @@ struct Inflow {
   static Inflow from(const BoundaryData& data) { return {data.state}; }
 
   void set_points(const GasSide& side) const { let_waves_through(side, state); }
-  static void set_ghosts(const GasSide& side) { extrapolated_ghosts(side.q, side.points, side.limited()); }
+  static void set_ghosts(const GasSide& side) { extrapolate_ghosts(side); }
 };
 
 }  // namespace fsi::fluid

@@ -11,7 +11,7 @@ struct Outflow {
   static Outflow from(const BoundaryData& /*data*/) { return {}; }
 
   static void set_ghosts(const GasSide& side) {
-    outflow_ghosts(side.q, side.x, side.points, side.motion.velocity, side.options);
+    side.bounded += outflow_ghosts(side.q, side.x, side.points, side.motion.velocity, side.options);
   }
 };
 

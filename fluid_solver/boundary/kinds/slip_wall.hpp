@@ -35,7 +35,8 @@ struct SlipWall {
       const double slant = normal.dot(along);
       const double of_wave = is_narrow(side, static_cast<int>(k), along) ? change / slant : change;
       const double a = std::sqrt(gamma * state[3] / state[0]);
-      const double a_ratio = std::max(1 + 0.5 * (gamma - 1) * of_wave / a, 0.1);
+      const double ratio = 1 + 0.5 * (gamma - 1) * of_wave / a, a_ratio = std::max(ratio, least_sound);
+      side.bounded += ratio < least_sound && side.points.counts(static_cast<int>(k));
       state.segment<2>(1) += change / slant * along;
       state[0] *= std::pow(a_ratio, 2 / (gamma - 1));
       state[3] *= std::pow(a_ratio, 2 * gamma / (gamma - 1));

@@ -14,6 +14,8 @@ ERROR_ORDER = ("rho", "v1", "v2", "T", "p", "u_bar", "v_bar", "P_bar")
 PARTICIPANT_KEYS = ("role", "status", "points", "substeps", "compute_s", "wait_s", "time_s", "point_updates_per_s",
                     "peak_memory_mib")
 
+ROUTINE = ("bounded_side_points",)  # counters that any strong shock at a wall makes: they are written, not printed
+
 
 def read_parts(directory, participants, copies=None):
     """{participant: part}; a program that left no part is not in it. `copies`: texts of parts that a full disk may lack."""
@@ -294,9 +296,8 @@ def describe(summary, directory, width=None):
         lines.append(f"  no errors: {summary['errors_missing']}")
     if interface := summary["interface"]:
         lines += _interface_lines(interface)
-    if any(summary["counters"].values()):
-        lines.append("  counters: " + ", ".join(f"{key.replace('_', ' ')} {value:g}"
-                                                for key, value in summary["counters"].items()))
+    if counted := {key: value for key, value in summary["counters"].items() if value and key not in ROUTINE}:
+        lines.append("  counters: " + ", ".join(f"{key.replace('_', ' ')} {value:g}" for key, value in counted.items()))
     lines += overlap_lines(summary)
     if noise := noise_in_words(summary):
         lines.append(f"  warning: {noise}")

@@ -16,13 +16,13 @@ double sound(const StateVector& q) {
 
 TEST(FarFieldState, IsTheStateOfBothSidesWhereTheyAreEqual) {
   const StateVector q(0.7, 0.3, -0.4, 1.3);
-  EXPECT_EQ(between(q, q, {.n = Vec2(0.6, 0.8), .speed = 0.1, .gamma = gamma}), q);
+  EXPECT_EQ(between(q, q, {.n = Vec2(0.6, 0.8), .speed = 0.1, .gamma = gamma}).q, q);
 }
 
 TEST(FarFieldState, IsThatInsideOrThatBeyondWhereTheGasIsFasterThanSound) {
   const StateVector inside(1, 3, 0.2, 1), beyond(1.1, 2.8, 0.1, 1.2);
-  EXPECT_EQ(between(inside, beyond, {.n = Vec2(1, 0), .gamma = gamma}), inside);
-  EXPECT_LT((between(inside, beyond, {.n = Vec2(-1, 0), .gamma = gamma}) - beyond).norm(), 1e-14);
+  EXPECT_EQ(between(inside, beyond, {.n = Vec2(1, 0), .gamma = gamma}).q, inside);
+  EXPECT_LT((between(inside, beyond, {.n = Vec2(-1, 0), .gamma = gamma}).q - beyond).norm(), 1e-14);
 }
 
 TEST(FarFieldState, TakesEntropyShearAndOneInvariantFromWhereTheyComeFrom) {
@@ -32,13 +32,28 @@ TEST(FarFieldState, TakesEntropyShearAndOneInvariantFromWhereTheyComeFrom) {
     return q[1] + sign * 2 / (gamma - 1) * sound(q);
   };
   for (const double out : {1.0, -1.0}) {  // the gas leaves through the side, or comes in
-    const StateVector q = between(inside, beyond, {.n = Vec2(out, 0), .gamma = gamma});
+    const StateVector q = between(inside, beyond, {.n = Vec2(out, 0), .gamma = gamma}).q;
     const StateVector& carried = out > 0 ? inside : beyond;
     EXPECT_NEAR(invariant(q, out), invariant(inside, out), 1e-14);
     EXPECT_NEAR(invariant(q, -out), invariant(beyond, -out), 1e-14);
     EXPECT_NEAR(entropy(q), entropy(carried), 1e-14);
     EXPECT_NEAR(q[2], carried[2], 1e-15);
   }
+}
+
+/// Streams that part leave nothing between them from a difference of 4 / (gamma - 1) speeds of sound on, and on the side the speed
+/// of sound is (1 - (gamma - 1) / 4 times that difference) of that inside, but not less than a tenth.
+TEST(FarFieldState, OfStreamsThatTearTheGasApartIsBounded) {
+  const auto side_between = [](double apart) {
+    const double a = std::sqrt(gamma);
+    return between({1, 0, 0, 1}, {1, apart * a, 0, 1}, {.n = Vec2(1, 0), .gamma = gamma});
+  };
+  for (const double apart : {-2.0, 0.0, 2.0, 8.9}) {
+    EXPECT_FALSE(side_between(apart).bounded) << apart;
+    EXPECT_NEAR(sound(side_between(apart).q), (1 - 0.1 * apart) * std::sqrt(gamma), 1e-12) << apart;
+  }
+  EXPECT_TRUE(side_between(9.1).bounded);
+  EXPECT_NEAR(sound(side_between(12).q), 0.1 * std::sqrt(gamma), 1e-12);
 }
 
 TEST(FarField, KeepsUniformFlowOfAnyDirectionAndSpeed) {

@@ -46,6 +46,7 @@ TEST_P(Eq31FreeStream, StaysUniformOnAShakenSwingingGrid) {
   test::run(gas, 0.5);
   EXPECT_LT(test::largest_error(gas.errors(field(setting.state), 0)), round_off);
   EXPECT_EQ(gas.health().first_order_fallbacks, 0U);
+  EXPECT_EQ(gas.health().bounded_side_points, 0U);
 }
 
 INSTANTIATE_TEST_SUITE_P(AllBoundaries, Eq31FreeStream,

@@ -222,6 +222,12 @@ class ForPeople(unittest.TestCase):
         for words in ("updates", "waiting", "computing", "points", "memory", "20 % of the gas's pressure"):
             self.assertIn(words, text)
 
+    def test_counters_that_are_not_zero_and_not_routine_are_told(self):
+        self.summary["counters"] |= {"first_order_fallbacks": 0.0, "bounded_side_points": 7.0}
+        self.assertEqual([line for line in self.lines(None) if "counters" in line], ["  counters: floors 3"])
+        self.summary["counters"]["floors"] = 0.0
+        self.assertNotIn("counters", "\n".join(self.lines(None)))
+
     def test_a_body_without_stress_has_no_jump_of_it(self):
         self.summary["interface"]["max_traction_jump"] = 0.0
         self.assertNotIn("traction", "\n".join(self.lines(None)))
