@@ -83,7 +83,7 @@ struct BackPressure {
       store(side.q, side.points.at(k, 0), state);
     }
   }
-  static void set_ghosts(const GasSide& side) { extrapolated_ghosts(side.q, side.points, side.limited()); }
+  static void set_ghosts(const GasSide& side) { extrapolate_ghosts(side); }
 };
 }  // namespace fsi::fluid
 """
