@@ -2,6 +2,7 @@
 """Makes docs/results.md: runs every study below by ./launch/fsi and writes down what came out, with the command.
 
     docs/record_results.py [WORD ...]             all studies, or those whose title contains one of the words; prints which numbers are new
+    docs/record_results.py --busy [WORD ...]      the same on a machine that does other work: tables of times stay those of the quiet one
     docs/record_results.py --check [WORD ...]     runs them and writes nothing, but says which recorded numbers do not repeat
     docs/record_results.py --list [WORD ...]      their titles
 
@@ -596,12 +597,28 @@ def recorded_with():
     return f"Recorded with{said.splitlines()[0].partition(',')[2]}.\n\n"
 
 
-def record(words):
+TIMES = re.compile(r"(?:^\|[^\n]*(?:updates/s|ms/step)[^\n]*\n(?:^\|[^\n]*\n)+)", re.MULTILINE)   # a table of times
+RECORDED = re.compile(r"^Recorded with (commit \w+)(?:, tables of times with (commit \w+))?\.$", re.MULTILINE)
+
+
+def with_times_of(former, section):
+    """The section with the tables of times of the former one, if that has as many and tells its commit, which is told then."""
+    tables, commits = TIMES.findall(former), RECORDED.search(former)
+    if not tables or not commits or len(tables) != len(TIMES.findall(section)):
+        return section
+    kept = iter(tables)
+    return RECORDED.sub(lambda found: f"Recorded with {found[1]}, tables of times with {commits[2] or commits[1]}.",
+                        TIMES.sub(lambda _: next(kept), section))
+
+
+def record(words, busy):
     """Runs the studies whose title has one of the words, all without any, and writes each as soon as it is there; the exit code."""
     sections, order = kept_sections(), [title for title, _ in all_studies()]
     for title, study in chosen_studies(words):
         print(title, flush=True)
         former, sections[title] = sections.get(title), "\n" + study().strip() + "\n\n" + recorded_with()
+        if former and busy:
+            sections[title] = with_times_of(former, sections[title])
         if former:
             print("\n".join(record_check.differences(title, former, sections[title]) or [f"{title}: repeats"]), flush=True)
         write(sections, [name for name in order if name in sections])
@@ -615,7 +632,10 @@ def main(words):
     if words[:1] == ["--list"]:
         print("\n".join(title for title, _ in chosen_studies(words[1:])))
         return 0
-    return check(words[1:]) if words[:1] == ["--check"] else record(words)
+    if words[:1] == ["--check"]:
+        return check(words[1:])
+    busy = words[:1] == ["--busy"]
+    return record(words[busy:], busy)
 
 
 if __name__ == "__main__":
