@@ -529,8 +529,7 @@ How to read it:
 - Without a reference, grids are compared with each other: a negative order means that the difference grew. The elastic ellipse sheds vortices that
   differ from grid to grid from about t = 2 on, so its later differences have no order.
 - Defects of mass, momentum and energy: [what they hold](output.md#budgets).
-- A section ends with the commit of the programs that gave it. Those without one are older than 23 November 2026; where a deforming solid is loaded or held, the
-  present programs give errors that differ by some per cent. The commands are the same.
+- A section ends with the commit of the programs that gave it. Those without one hold times and counts alone, and are older than 23 November 2026.
 - Times in seconds come from machines with two cores. Those in tables of errors were taken beside other work and tell no more than the order of magnitude; those of
   "time of each program" and of the benchmarks come from a quiet machine and vary by some per cent.
 
