@@ -3,6 +3,7 @@
 /// notice; without protection a lost message is sent again, or the run ends and says which it was.
 
 #include <dlfcn.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <atomic>
@@ -261,7 +262,8 @@ TEST(Overheard, PacketsSentAgainChangeNothing) {
 }
 
 /// Nothing is falsified. Cyclone DDS 0.10.2 itself may die of a damaged handshake (a null pointer, seen in
-/// one of ten times 20,000 packets); then the others name who is gone, or is missing where the run had not begun.
+/// one of ten times 20,000 packets; once in two of the three programs); then the others name one who is gone, or is missing
+/// where the run had not begun.
 TEST(Overheard, DamagedPacketsFalsifyNothing) {
   const BusOptions options = attacked(test_key);
   OverheardTrio run(options, record_file(), 1000);
@@ -269,14 +271,12 @@ TEST(Overheard, DamagedPacketsFalsifyNothing) {
     for (int k = 0; k < 3; ++k)
       bytes[random() % bytes.size()] ^= static_cast<unsigned char>(1 + random() % 255);
   });
-  std::string dead;
-  std::vector<std::string> reasons;
+  std::vector<std::string> dead, reasons;
   for (const auto& [name, process] :
        {std::pair{"fluid", &run.fluid}, std::pair{"beam", &run.beam}, std::pair{"coupler", &run.coupler}}) {
     const int code = process->end();
     if (code == 128 + SIGSEGV) {
-      EXPECT_EQ(dead, "") << name;
-      dead = name;
+      dead.emplace_back(name);
     } else if (code != 0) {
       EXPECT_EQ(code, 4) << name;
       std::string& reason = reasons.emplace_back();
@@ -284,9 +284,12 @@ TEST(Overheard, DamagedPacketsFalsifyNothing) {
     }
   }
   EXPECT_TRUE(!dead.empty() || reasons.empty());
+  EXPECT_LE(dead.size(), 2U);
   for (const std::string& reason : reasons) {
-    EXPECT_TRUE(says(reason, dead) && (says(reason, "has died") || says(reason, "is missing")))
-        << dead << ": " << reason;
+    const bool names_one =
+        std::ranges::any_of(dead, [&](const std::string& name) { return says(reason, name); });
+    EXPECT_TRUE(names_one && (says(reason, "has died") || says(reason, "is missing")))
+        << fmt::format("{}: {}", fmt::join(dead, ", "), reason);
   }
 }
 
