@@ -596,7 +596,7 @@ def recorded_with():
     return f"Recorded with{said.splitlines()[0].partition(',')[2]}.\n\n"
 
 
-TIMES = re.compile(r"(?:^\|[^\n]*(?:updates/s|ms/step)[^\n]*\n(?:^\|[^\n]*\n)+)", re.MULTILINE)   # a table of times
+TIMES = re.compile(r"(?:^\|[^\n]*(?:updates/s|ms/step|processor time)[^\n]*\n(?:^\|[^\n]*\n)+)", re.MULTILINE)   # a table of times
 RECORDED = re.compile(r"^Recorded with (commit \w+)(?:, tables of times with (commit \w+))?\.$", re.MULTILINE)
 
 
@@ -614,6 +614,9 @@ def record(words, busy):
     """Runs the studies whose title has one of the words, all without any, and writes each as soon as it is there; the exit code."""
     sections, order = kept_sections(), [title for title, _ in all_studies()]
     for title, study in chosen_studies(words):
+        if busy and record_check.is_of_the_machine(title):
+            print(f"{title}: left as it is, for a quiet machine", flush=True)
+            continue
         print(title, flush=True)
         former, sections[title] = sections.get(title), "\n" + study().strip() + "\n\n" + recorded_with()
         if former and busy:
