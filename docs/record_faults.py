@@ -6,7 +6,7 @@ import subprocess
 
 DAMAGES = 10000
 PRESETS = {"tsan": "thread", "sanitize": "address and undefined behaviour"}
-NEEDED = ["coupler", "fluid_solver", "solid_solver_linear_elastic", "monitor", "fsi_case_program", "fsi_xdmf", "reference_disk"]
+NEEDED = ["coupler", "fluid_solver", "solid_solver_linear_elastic", "monitor", "fsi_case_program", "fsi_start", "fsi_xdmf", "reference_disk"]
 
 
 def built(root, preset, *targets):

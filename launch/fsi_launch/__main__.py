@@ -3,7 +3,7 @@
 import sys
 
 from fsi_launch.living import interrupts
-from fsi_launch.cli import main
+from fsi_launch.command.cli import main
 from fsi_launch.failure import INTERRUPTED, TERMINATED
 
 try:

@@ -216,7 +216,7 @@ def needed(case):
     others = [cases.REFERENCE_PROGRAMS.get(case.reference),
               "reference_exact" if case.reference in cases.EXACT_KINDS else None,
               "fsi_credentials" if any("/" in program for program in case.programs.values()) else None]
-    return [*case.programs.values(), *filter(None, others)]
+    return [*case.programs.values(), "fsi_start", *filter(None, others)]
 
 
 def _resolved(request, path, former=None):

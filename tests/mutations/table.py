@@ -48,6 +48,15 @@ MUTATIONS = [
      "test_gas_kernels", "Eq31Faces*"),
     ("metric term: corner of a volume", f"{GAS}/geometry_rows.cpp",
      "0.5 * ((b.x[i] - a.x[i - 1])", "0.5 * ((b.x[i] - a.x[i])", "test_gas_kernels", "Eq31Faces*"),
+    # --- gas: what acts at its sides, and counts of it
+    ("open side: sound speed that counts as bounded", "fluid_solver/boundary/far_field.cpp",
+     ".bounded = of_waves < least_sound * a", ".bounded = of_waves > least_sound * a", "test_fluid", "FarField*"),
+    ("bounds at sides: counted by every rank that sees them", "fluid_solver/boundary/side_points.hpp",
+     "rows_->owns(row(k))", "rows_->has(row(k))", "test_fluid", "GasOnRanks*"),
+    ("bounds at sides: density behind a wall", "fluid_solver/boundary/wall_ghosts.cpp",
+     "bounded |= part < 1;", "bounded |= part > 1;", "test_fluid", "*Wall*:GasOnRanks*"),
+    ("wall: density of the ghosts for a shock that stands before it", "fluid_solver/boundary/wall_ghosts.cpp",
+     "2 * (1 - std::fabs(change) / inside)", "2 * (1 + std::fabs(change) / inside)", "test_fluid", "*Wall*"),
     # --- gas: prediction, update, viscosity
     ("prediction: compression of the pressure", f"{GAS}/flow_rows.hpp",
      "(c1 * p_1 + c2 * p_2) + gamma * p * divergence", "(c1 * p_1 + c2 * p_2) - gamma * p * divergence",

@@ -49,7 +49,7 @@ class Launched:
         self.directory = folder / (out or "")
         self.runtime = folder / "runtime"
         self.runtime.mkdir(exist_ok=True)
-        main = "import sys\nfrom fsi_launch import cli\nsys.exit(cli.main(sys.argv[1:]))"
+        main = "import sys\nfrom fsi_launch.command import cli\nsys.exit(cli.main(sys.argv[1:]))"
         begin = [str(FSI)] if script is None else ["/usr/bin/python3", "-s", "-B", "-c", f"{script}\n{main}"]
         command = [*before, *begin, "run", *arguments, *(["--out", str(self.directory)] if out else [])]
         environment = os.environ | {"FSI_BIN": str(BIN), "XDG_RUNTIME_DIR": str(self.runtime), "PYTHONPATH": str(ROOT / "launch")}

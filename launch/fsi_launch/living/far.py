@@ -18,7 +18,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
 from fsi_launch.living import processes, ranks  # noqa: E402
-from fsi_launch.living.supervise import child_setup  # noqa: E402
+from fsi_launch.living.supervise import leashed  # noqa: E402
 
 ALONE = 60.0    # [s] from the end of the connection to SIGKILL: a checkpoint may be written
 
@@ -41,15 +41,16 @@ class Guard:
         self._ranks = order["ranks"]
         self._report = os.memfd_create("report")
         self._memory = contextlib.ExitStack()
-        memory = ranks.memory(self._ranks, order["command"][0], Path(order["environment"]["AMP_FSI_BIN"]))
+        programs = Path(order["environment"]["AMP_FSI_BIN"])
+        memory = ranks.memory(self._ranks, order["command"][0], programs)
         environment = os.environ | order["environment"] | self._memory.enter_context(memory)
         # mpirun passes no open files on.
         environment["AMP_FSI_REPORT"] = str(self._report) if self._ranks == 1 else f"/proc/{os.getpid()}/fd/{self._report}"
         os.chdir(order["folder"])
         with open(order["log"], "ab") as log:
             self._process = subprocess.Popen(
-                order["command"], stdin=subprocess.DEVNULL, stdout=log, stderr=log, start_new_session=True, env=environment,
-                pass_fds=(self._report,), preexec_fn=child_setup(os.getpid(), None))
+                leashed(order["command"], programs=programs), stdin=subprocess.DEVNULL, stdout=log, stderr=log, start_new_session=True,
+                env=environment, pass_fds=(self._report,))
         self._kill_at = float("inf")
 
     def _send(self, number):

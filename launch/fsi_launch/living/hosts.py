@@ -8,7 +8,6 @@ all see at the same place, which is looked at before anything starts. The connec
 ends, the program is asked to end. A program that hears nothing of the coupler any more ends by itself, as on one machine.
 """
 
-import concurrent.futures
 import contextlib
 import json
 import os
@@ -151,7 +150,8 @@ def expect_all(asked, shell, directory, programs):
         if not told.get("writable"):
             raise UserMistake(f"--hosts: {host.name} may not write into {directory.resolve()}")
 
-    with concurrent.futures.ThreadPoolExecutor() as pool:
+    from concurrent.futures import ThreadPoolExecutor   # slow to load, and of no use on one machine
+    with ThreadPoolExecutor() as pool:
         for _ in pool.map(look, dict.fromkeys(asked.values())):
             pass
 
@@ -170,13 +170,14 @@ class Place:
 class Far:
     """A program on another machine, as the supervisor sees a process: what it waits for and sends signals to is the connection."""
 
-    def __init__(self, program, command, log):
+    def __init__(self, program, command, log, leashed):
+        """`leashed`: what makes of a command one that dies with the launcher."""
         place = program.place
         self._host = place.host
         self._killed_at = None
         self._process = subprocess.Popen(
-            _command(place.shell, place.host, "run"), stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=log,
-            start_new_session=True, preexec_fn=program.child_setup)
+            leashed(_command(place.shell, place.host, "run")), stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=log,
+            start_new_session=True)
         self.pid, self.stdout = self._process.pid, self._process.stdout
         order = {"folder": os.getcwd(), "command": command, "environment": program.environment, "log": os.path.abspath(log.name),
                  "ranks": program.ranks}

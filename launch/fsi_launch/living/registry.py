@@ -3,7 +3,6 @@ of the run: who has it takes part in the run on the bus. So nobody but its user 
 
 import json
 import os
-import secrets
 import socket
 import stat
 from pathlib import Path
@@ -51,7 +50,7 @@ class Entry:
     def __init__(self, run, directory, case, protection, participants, network=""):
         self.path = folder() / f"{run}.json"
         self.run = run
-        self.key = "" if protection == "off" else f"{protection}:{secrets.token_hex(KEY_BYTES)}"
+        self.key = "" if protection == "off" else f"{protection}:{os.urandom(KEY_BYTES).hex()}"
         self.content = {"run": run, "dir": str(directory), "case": case, "pid": os.getpid(),
                         "born": processes.start_time(os.getpid()), "key": self.key, "participants": list(participants)} | ({"network": network} if network else {})
 

@@ -6,7 +6,6 @@ anything, and there is nothing to save: then all end at once. Ctrl-C and SIGTERM
 """
 
 import contextlib
-import ctypes
 import fcntl
 import os
 import selectors
@@ -15,6 +14,7 @@ import subprocess
 import time
 from dataclasses import dataclass, field
 
+from fsi_launch import paths
 from fsi_launch.failure import INTERRUPTED, PEER_LOST, TERMINATED
 from fsi_launch.living import hosts, interrupts, processes, ranks
 
@@ -28,10 +28,7 @@ AFTER_STOP = 5.0    # [s] from the first end after that to SIGTERM for the other
 LAST_GRACE = 60.0   # [s] from the first program's good end to SIGTERM for the others: results may be written
 STOPPED = 4.0       # [s] that a program may be stopped after such an end, before it is asked to go on and end
 PIPE_SIZE = 1 << 20
-PR_SET_PDEATHSIG = 1
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
-
-_libc = ctypes.CDLL(None, use_errno=True)
 
 
 @dataclass
@@ -47,11 +44,6 @@ class Program:
     ranks: int = 1      # more: the command is an mpirun
     cores: set = None   # on which it may run; None: on all
     place: hosts.Place = None   # another machine
-
-    @property
-    def child_setup(self):
-        """For the process that is started for it here."""
-        return child_setup(os.getpid(), self.cores)
 
 
 @dataclass
@@ -79,18 +71,10 @@ class Outcome:
     signal: int = 0
 
 
-def child_setup(parent, cores):
-    """Runs in the child: it dies with its launcher, even if that is killed with SIGKILL."""
-
-    def prepare():
-        if cores:
-            os.sched_setaffinity(0, cores)
-        _libc.prctl(PR_SET_PDEATHSIG, signal.SIGKILL)
-        if os.getppid() != parent:
-            os._exit(1)
-        signal.pthread_sigmask(signal.SIG_UNBLOCK, SIGNALS)
-
-    return prepare
+def leashed(command, cores=None, programs=paths.BIN):
+    """The command of a program that dies with this process, even if that is killed with SIGKILL (launch/start.cpp)."""
+    on = ",".join(str(core) for core in sorted(cores)) if cores else "-"
+    return [str(programs / "fsi_start"), str(os.getpid()), on, *command]
 
 
 class Supervisor:
@@ -147,12 +131,12 @@ class Supervisor:
                                            if name not in self._ranked and name not in self._far)]
         with open(self._log_dir / f"{program.name}.out", "ab") as log:
             if program.place:
-                process = hosts.Far(program, command, log)
+                process = hosts.Far(program, command, log, leashed)
                 self._far[program.name] = []
             else:
                 process = subprocess.Popen(
-                    command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE if program.listen else log,
-                    stderr=log, start_new_session=True, preexec_fn=program.child_setup, env=environment,
+                    leashed(command, program.cores), stdin=subprocess.DEVNULL, stdout=subprocess.PIPE if program.listen else log,
+                    stderr=log, start_new_session=True, env=environment,
                     pass_fds=() if program.report is None else (program.report,))
         self._processes[program.name] = process
         if program.ranks > 1:

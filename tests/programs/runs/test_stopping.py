@@ -44,7 +44,7 @@ class AtTheWorstMoment(EndToEnd):
     def ask(self, number, trap):
         """Exit code of a launcher with `trap` in it, a few lines of Python that have `strike()` called."""
         environment = os.environ | {"FSI_BIN": str(BIN), "XDG_RUNTIME_DIR": str(self.folder), "PYTHONPATH": str(ROOT / "launch")}
-        script = "\n".join(("import os, sys", "from fsi_launch import cli, run", "from fsi_launch.living import registry",
+        script = "\n".join(("import os, sys", "from fsi_launch import run", "from fsi_launch.command import cli", "from fsi_launch.living import registry",
                             f"strike = lambda: os.kill(os.getpid(), {int(number)})", trap, "sys.exit(cli.main(sys.argv[1:]))"))
         return subprocess.run(["/usr/bin/python3", "-c", script, "run", *LONG, "--out", "run"], cwd=self.folder,
                               env=environment, capture_output=True, check=False, timeout=WATCHDOG)

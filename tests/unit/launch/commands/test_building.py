@@ -19,7 +19,7 @@ build=$PWD/build/release march=native
 for word in "$@"; do [[ $word != FSI_MARCH=* ]] || march=${word#*=}; done
 printf 'CMAKE_HOME_DIRECTORY:INTERNAL=%s\\nFSI_MARCH:STRING=%s\\n' "$PWD" "$march" >"$build/CMakeCache.txt"
 if [[ $march == nonsense ]]; then echo "Error: nonsense"; exit 1; fi
-printf 'build bin/%s: LINK\\n' fsi_case fluid_solver coupler solid_solver_neo_hookean reference_piston >"$build/build.ninja"
+printf 'build bin/%s: LINK\\n' fsi_case fsi_start fluid_solver coupler solid_solver_neo_hookean reference_piston >"$build/build.ninja"
 """
 NINJA = """#!/bin/bash
 echo "ninja ${*:5}" >>"$CALLS"
@@ -105,7 +105,7 @@ class Building(InScratch):
         (programs / "fsi_case").write_text(CASE)
         (programs / "fsi_case").chmod(0o755)
         calls, said = self.build(verb="run")
-        self.assertEqual(calls[1:], ["ninja bin/fsi_case bin/fsi_xdmf", "ninja bin/fluid_solver bin/coupler bin/reference_piston"])
+        self.assertEqual(calls[1:], ["ninja bin/fsi_case bin/fsi_xdmf", "ninja bin/fluid_solver bin/coupler bin/fsi_start bin/reference_piston"])
         self.assertIn("the program fluid_solver is not in", said)   # the stand-in has built nothing
 
     def test_missing_packages_are_named_in_one_line_to_type_and_nothing_is_built(self):

@@ -9,14 +9,14 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 import launcher  # noqa: E402,F401  the path of the launcher's modules
-from fsi_launch import cli, completion  # noqa: E402
+from fsi_launch.command import completion, verbs  # noqa: E402
 
 
 class Completion(unittest.TestCase):
     def offered(self, *words):
         ask = f'COMP_WORDS=({" ".join(words)} "$1"); COMP_CWORD={len(words)}; _fsi; printf "%s\\n" "${{COMPREPLY[@]}}"'
         with tempfile.TemporaryDirectory() as empty:  # names of files are offered too
-            answer = subprocess.run(["bash", "-c", completion.script(cli._parser()) + ask, "bash", self.begun], cwd=empty,
+            answer = subprocess.run(["bash", "-c", completion.script(verbs.parser()) + ask, "bash", self.begun], cwd=empty,
                                     capture_output=True, text=True, check=True)
         return set(answer.stdout.split())
 

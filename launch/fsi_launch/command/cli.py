@@ -1,0 +1,157 @@
+"""The command line: verbs and their exit codes."""
+
+import os
+import sys
+
+from fsi_launch import paths, version
+from fsi_launch.command import verbs
+from fsi_launch.living import interrupts
+from fsi_launch.failure import DONE, Failure, INTERRUPTED, NOBODY_READS, OUTPUT_FAILED, TERMINATED, UserMistake
+
+USAGE = (paths.ROOT / "launch" / "usage.txt").read_text(encoding="utf-8")
+
+
+def _run(options):
+    from fsi_launch.run import Request, run
+    result = run(Request(case=options.case, overrides=options.overrides, laws=options.laws, out=options.out,
+                         overwrite=options.overwrite, restart=options.restart, progress=options.progress, pause_at=options.pause_at,
+                         monitor=options.monitor, protection=options.protection, frames=options.movie,
+                         ranks=options.ranks, hosts=options.hosts, remote_shell=options.remote_shell))
+    if options.movie and result.code == DONE:
+        from fsi_launch import plot
+        plot.draw_movie(result.directory)
+    return result.code
+
+
+def _submit(options):
+    from fsi_launch import submit
+    return submit.main(options)
+
+
+def _check(options):
+    from fsi_launch import check
+    return check.main(options)
+
+
+def _new(options):
+    from fsi_launch import new
+    return new.main(options)
+
+
+def _gallery(options):
+    from fsi_launch import gallery
+    return gallery.main(options)
+
+
+def _converge(options):
+    from fsi_launch.studies import converge
+    return converge.main(options)
+
+
+def _study(options):
+    from fsi_launch.studies import study
+    return study.main(options)
+
+
+def _test(options):
+    from fsi_launch.trials import testing
+    return testing.main(options)
+
+
+def _bench(options):
+    from fsi_launch.trials import bench
+    return bench.main(options)
+
+
+def _faults(options):
+    from fsi_launch.trials import faults
+    return faults.main(options)
+
+
+def _plot(options):
+    from fsi_launch import plot
+    return plot.main(options)
+
+
+def _monitor(options):
+    """Becomes the monitor program."""
+    words = [f"--{name}" for name in ("once", "json", "plain") if getattr(options, name)]
+    for name in ("wait", "record", "replay", "speed", "web", "host"):
+        if (value := getattr(options, name)) is not None:
+            words += [f"--{name}", str(value)]
+    return _become("monitor", *words, *([options.run] if options.run else []))
+
+
+def _ctl(options):
+    *run, request = options.words
+    if len(run) > 1 or request not in verbs.REQUESTS:
+        raise UserMistake(f"ctl: write [RUN] and one of {', '.join(verbs.REQUESTS)}")
+    return _become("monitor", *run, "--send", request)
+
+
+def _docs(options):
+    from fsi_launch import site
+    return site.main(options)
+
+
+def _schema(_):
+    return _become("fsi_case", "schema")
+
+
+def _completion(_):
+    from fsi_launch.command import completion
+    print(completion.script(verbs.parser()), end="")
+    return DONE
+
+
+def _become(name, *words):
+    program = paths.program(name)
+    sys.stdout.flush()
+    os.execv(program, [program, *words])
+
+
+ACTS = {"run": _run, "new": _new, "check": _check, "converge": _converge, "study": _study, "gallery": _gallery, "submit": _submit,
+        "test": _test, "monitor": _monitor, "ctl": _ctl, "plot": _plot, "faults": _faults, "bench": _bench, "docs": _docs,
+        "schema": _schema, "completion": _completion}
+
+
+def _nobody_reads():
+    """Whoever read the output, as `head`, has gone: that is no failure to be told of. What is still to be written goes nowhere."""
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    os.dup2(nowhere, sys.stdout.fileno())
+    os.close(nowhere)
+    return NOBODY_READS
+
+
+def _act(arguments):
+    if not arguments or arguments[0] in ("-h", "--help", "help"):
+        print(USAGE, end="")
+        return DONE
+    if arguments == ["--version"]:
+        print(version.describe())
+        return DONE
+    interrupts.listen()
+    options = verbs.parser(arguments[0]).parse_args(arguments)
+    return ACTS[options.verb](options)
+
+
+def main(arguments):
+    """Returns the exit code."""
+    try:
+        code = _act(arguments)
+        sys.stdout.flush()
+        return code
+    except BrokenPipeError:
+        return _nobody_reads()
+    except Failure as failure:
+        print(f"fsi: {failure}", file=sys.stderr)
+        return failure.code
+    except KeyboardInterrupt:
+        print("fsi: interrupted (Ctrl-C)", file=sys.stderr)
+        return INTERRUPTED
+    except interrupts.Terminated:
+        print("fsi: ended on request (SIGTERM)", file=sys.stderr)
+        return TERMINATED
+    except OSError as error:
+        print(f"fsi: {error.filename or 'output'}: {error.strerror}", file=sys.stderr)
+        return OUTPUT_FAILED
