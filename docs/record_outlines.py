@@ -39,7 +39,8 @@ def whole(root):
     return (f"`{shlex.join(WHOLE)}`, exit code {answer.returncode}\n\n"
             "Cases `own/..` lie beside the script. In `two` a soft disk is pushed against a stiff one: contact is not computed, and the run ends when half a "
             "cell is left between them. In `ramp` the stream pushes a soft panel down to the wall on which it begins; `elastic_ramp` is ten times as stiff. "
-            "The least pressure of `wedge` is that behind it at t = 0, a one-dimensional expansion to the fluid at rest there, p_0 (1 - (gamma - 1) / 2 M)^7 = 0.0200. "
+            "The least pressure of `wedge` is that behind it at t = 0, a one-dimensional expansion to the fluid at rest there, p_0 (1 - (gamma - 1) / 2 M)^7 = 0.0200; the values that were made "
+            "positive there are all of its beginning, before t = 0.05. "
             "Counted are floors of the gas, fluxes and values that were made positive, and points near vacuum; in runs that ended before their time floors and vacuum alone. Seconds beside other work.\n\n"
             + answer.stdout)
 
