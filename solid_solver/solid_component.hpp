@@ -65,6 +65,8 @@ class SolidComponent {
   const SweepResult& measured() const { return measured_; }
   /// Ghost points of all steps so far that took the acoustic matrix of the body beside them.
   double settled() const { return settled_; }
+  /// Side points of all steps so far that kept their prediction, since the body carries no waves there.
+  double waveless() const { return boundary_.waveless(); }
   /// F at a point by central differences of u inside, one-sided
   /// ones of second order at the sides (no ghost points).
   Tensor2 deformation_gradient(int i, int j) const;
@@ -85,6 +87,7 @@ class SolidComponent {
   /// Conditions on the sides, of which a rank knows those in its rows.
   SolidBoundary<L>& boundary() { return boundary_; }
   void set_settled(double settled) { settled_ = settled; }
+  void set_waveless(double waveless) { boundary_.set_waveless(waveless); }
 
  private:
   std::string breakdown_at(int i, int j, double dt) const;

@@ -46,6 +46,8 @@ struct Health {
   double min_phi_s = 0;
   /// Ghost points of all steps that took the acoustic matrix of the body beside them [-]
   double settled = 0;
+  /// Points of sides of all steps that kept their prediction, since the body carries no waves there [-]
+  double waveless = 0;
 };
 
 template <Law L>
@@ -168,7 +170,10 @@ class SolidSolver {
   Health health() const {
     const SweepResult met = measured();
     Health health = {.min_det_F = met.min_det_F, .min_phi_s = met.min_phi_s};
-    for (const SolidComponent<L>& component : components_) health.settled += component.settled();
+    for (const SolidComponent<L>& component : components_) {
+      health.settled += component.settled();
+      health.waveless += component.waveless();
+    }
     return health;
   }
   /// Overlaps of grids count once.

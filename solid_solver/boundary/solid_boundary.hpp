@@ -54,8 +54,15 @@ class SolidBoundary {
   /// Ghost points beside interpolated points, by extrapolation, reflection or repetition.
   void refresh_ghosts(FieldView q, double t) const { frame().refresh(q, t); }
 
-  /// Tractions and their rates, and what motion that is given changed.
-  void archive(Archive& archive) { memory_.archive(archive); }
+  /// How often a point kept its prediction, since waves that could leave through the side are none there.
+  double waveless() const { return waveless_; }
+  void set_waveless(double waveless) { waveless_ = waveless; }
+
+  /// Tractions and their rates, what motion that is given changed, and that count.
+  void archive(Archive& archive) {
+    memory_.archive(archive);
+    archive.number("waveless", waveless_);
+  }
   /// From now on conditions are set in these rows only, and numbers that break elsewhere than in the own ones are
   /// left to their owner.
   void take_rows(const RankRows& rows) {
@@ -90,6 +97,7 @@ class SolidBoundary {
   L law_;
   double rho_;
   double time_scale_;
+  double waveless_ = 0;
 };
 
 template <Law L>
@@ -139,18 +147,18 @@ void SolidBoundary<L>::set_tractions(FieldView q, double t, std::span<const Inte
   for (const InterfaceValues& values : projected) {
     if (values.grid != sides_.grid().index) continue;
     tractions.find_projected(q, t, values, memory_);
-    characteristics.slide(q, values, memory_, rows_);
+    waveless_ += characteristics.slide(q, values, memory_, rows_);
   }
   for (const Side side : all_sides) {
     const Condition& condition = sides_.condition(side);
     if (condition.knows_rate() || condition.moved() || condition.slips())
-      characteristics.follow(q, side, t, memory_);
+      waveless_ += characteristics.follow(q, side, t, memory_);
   }
   for (const Side side : all_sides) {
     if (sides_.loaded(side) || sides_.condition(side).walled())
       tractions.set_normal_stress(q, side, t, memory_);
   }
-  characteristics.set_corner_stress(q, memory_);
+  waveless_ += characteristics.set_corner_stress(q, memory_);
   set_states(q, t);
 }
 

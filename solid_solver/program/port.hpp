@@ -153,6 +153,7 @@ class SolidParticipant final : public Participant {
     part.overlap = overlap_of(solver_.composite());
     part.health["min_det_F"] = health.min_det_F;
     if (health.settled > 0) part.counters["settled_ghost_points"] = health.settled;
+    if (health.waveless > 0) part.counters["waveless_side_points"] = health.waveless;
     const Totals now = solver_.totals();
     part.conservation["mass"] = now.mass - initial_totals_.mass;
     part.conservation["energy"] = now.energy() - initial_totals_.energy();

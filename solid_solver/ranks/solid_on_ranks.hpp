@@ -221,18 +221,26 @@ void SolidSolver<L>::collect_all() {
   }
   gather_scattered();
   for (SolidComponent<L>& component : components_) {
-    const std::vector<double> all = early_.ranks().together(std::vector{component.settled()});
-    double sum = 0;
-    for (const double one : all) sum += one;
-    component.set_settled(early_.ranks().first() ? sum : 0);
+    const std::vector<double> all =
+        early_.ranks().together(std::vector{component.settled(), component.waveless()});
+    double settled = 0, waveless = 0;
+    for (std::size_t k = 0; k < all.size(); k += 2) {
+      settled += all[k];
+      waveless += all[k + 1];
+    }
+    component.set_settled(early_.ranks().first() ? settled : 0);
+    component.set_waveless(early_.ranks().first() ? waveless : 0);
   }
 }
 
 template <Law L>
 void SolidSolver<L>::loaded() {
   if (alone()) return;
-  if (!early_.ranks().first())
-    for (SolidComponent<L>& component : components_) component.set_settled(0);
+  if (early_.ranks().first()) return;
+  for (SolidComponent<L>& component : components_) {
+    component.set_settled(0);
+    component.set_waveless(0);
+  }
 }
 
 template <Law L>

@@ -1,5 +1,6 @@
 #pragma once
-/// What waves that leave through a side change of stress and velocity there.
+/// What waves that leave through a side change of stress and velocity there. Where the body carries none, its impedance is not a number
+/// and a point keeps what was predicted: each function returns how many of the rank's own points do.
 
 #include <Eigen/LU>
 #include <span>
@@ -20,14 +21,14 @@ class Characteristics {
   Characteristics(const Sides& sides, const ChosenValues& chosen, const L& law, double rho)
       : sides_(sides), chosen_(chosen), law_(law), rho_(rho) {}
 
-  void follow(FieldView q, Side side, double t, const SideMemory& memory) const;
-  void slide(FieldView q, const InterfaceValues& values, const SideMemory& memory, LoadedRows& rows) const;
-  void set_corner_stress(FieldView q, const SideMemory& memory) const;
+  int follow(FieldView q, Side side, double t, const SideMemory& memory) const;
+  int slide(FieldView q, const InterfaceValues& values, const SideMemory& memory, LoadedRows& rows) const;
+  int set_corner_stress(FieldView q, const SideMemory& memory) const;
 
  private:
   Stiffness stiffness(ConstFieldView q, const SidePoint& p) const;
   Mat2 impedance(const Stiffness& K, const SidePoint& p) const;
-  void share_change(ConstFieldView q, SolidState& s, const SidePoint& one, const SideMemory& memory) const;
+  int share_change(ConstFieldView q, SolidState& s, const SidePoint& one, const SideMemory& memory) const;
 
   const Sides& sides_;
   const ChosenValues& chosen_;
@@ -54,9 +55,10 @@ Mat2 Characteristics<L>::impedance(const Stiffness& K, const SidePoint& p) const
 /// waves carry: a traction that changes alone leaves tangential stress of its own behind, which grows. Slip sides
 /// change the traction alone: with the rest, ripples grow where they meet an interface behind a strong shock.
 template <Law L>
-void Characteristics<L>::follow(FieldView q, Side side, double t, const SideMemory& memory) const {
+int Characteristics<L>::follow(FieldView q, Side side, double t, const SideMemory& memory) const {
   const SideIndex& line = sides_.line(side);
   const Condition& condition = sides_.condition(side);
+  int waveless = 0;
   for (const int k : sides_.points(side)) {
     if (!sides_.inner(side, k)) continue;
     const std::ptrdiff_t a = line.at(k, 0);
@@ -64,7 +66,10 @@ void Characteristics<L>::follow(FieldView q, Side side, double t, const SideMemo
     SolidState s = load(q, a);
     const Stiffness K = stiffness(q, {side, k});
     const Mat2 Z = impedance(K, {side, k});
-    if (!Z.allFinite()) continue;
+    if (!Z.allFinite()) {
+      waveless += sides_.owns(side, k);
+      continue;
+    }
     const Vec2 w = traction_of(s.P, m.n0);
     const Vec2& dv = memory.v_change(side, k);
     if (condition.loaded()) {
@@ -84,25 +89,27 @@ void Characteristics<L>::follow(FieldView q, Side side, double t, const SideMemo
     }
     store(q, a, s);
   }
+  return waveless;
 }
 
 /// What w - Z v = w0 - Z v0 says along the tangent of an interface, whose gas takes no shear: the projection
 /// gives n . v, and the shear that the prediction left changes t . v. Differs from the paper, which leaves t
 /// . v as predicted; nothing damps it then, and with the relaxation (41) ripples of it grow from round-off.
 template <Law L>
-void Characteristics<L>::slide(FieldView q, const InterfaceValues& values, const SideMemory& memory,
-                               LoadedRows& loaded) const {
+int Characteristics<L>::slide(FieldView q, const InterfaceValues& values, const SideMemory& memory,
+                              LoadedRows& loaded) const {
   const Side side = values.side;
   const std::span<const int> points = sides_.points(side);
   const SideRows rows = loaded.of(side);
   const auto n = static_cast<std::size_t>(sides_.line(side).n);
-  if (points.empty()) return;
+  if (points.empty()) return 0;
   for (const int k : points) {
     const Tensor2 F = plus(identity, gradient(sides_, q, {side, k}, plane::u1));
     rows.F().set(static_cast<int>(loaded.slot(side, k)), F.a11, F.a12, F.a21, F.a22);
   }
   find_impedances(law_, rows, rho_);
   const double *Z11 = rows[SideRows::B11], *Z12 = rows[SideRows::B12], *Z22 = rows[SideRows::B22];
+  int waveless = 0;
   for (const int point : points) {
     if (sides_.at_end(side, point) && !sides_.condition_beyond(side, point).repeated()) continue;
     const auto k = static_cast<std::size_t>(point);
@@ -110,19 +117,24 @@ void Characteristics<L>::slide(FieldView q, const InterfaceValues& values, const
     const std::ptrdiff_t a = sides_.line(side).at(point, 0);
     SolidState s = load(q, a);
     const Mat2 Z = matrix({Z11[m], Z12[m], Z22[m]});
-    if (!Z.allFinite()) continue;
+    if (!Z.allFinite()) {
+      waveless += sides_.owns(side, point);
+      continue;
+    }
     const Vec2 t(-values.n[n + k], values.n[k]);
     const Vec2 missing = memory.T(side, point) - traction_of(s.P, sides_.at(side, point).n0) -
                          Z * memory.v_change(side, point);
     s.v += t * (t.dot(missing) / t.dot(Z * t));
     store(q, a, s);
   }
+  return waveless;
 }
 
 /// Two loaded sides: both tractions hold. Two sides with given displacement: the change of the velocity goes
 /// out along the characteristics of both.
 template <Law L>
-void Characteristics<L>::set_corner_stress(FieldView q, const SideMemory& memory) const {
+int Characteristics<L>::set_corner_stress(FieldView q, const SideMemory& memory) const {
+  int waveless = 0;
   for (const Side side : {Side::left, Side::right}) {
     const SideIndex& line = sides_.line(side);
     for (const int k : {0, line.n - 1}) {
@@ -134,11 +146,12 @@ void Characteristics<L>::set_corner_stress(FieldView q, const SideMemory& memory
         s.P = stress_of_tractions(sides_.at(side, k).n0, memory.T(side, k), sides_.at(other.side, other.k).n0,
                                   memory.T(other.side, other.k));
       } else if (sides_.condition(side).moved() && sides_.condition(other.side).moved()) {
-        share_change(q, s, {side, k}, memory);
+        waveless += share_change(q, s, {side, k}, memory);
       }
       store(q, a, s);
     }
   }
+  return waveless;
 }
 
 /// The given velocity of a corner of two sides changes its stress as on either of them, each with a share of the
@@ -146,17 +159,23 @@ void Characteristics<L>::set_corner_stress(FieldView q, const SideMemory& memory
 /// |grad r|. P(F) here, whose one-sided differences of u answer to P again, makes waves grow beside the corner,
 /// and equal shares do on long cells.
 template <Law L>
-void Characteristics<L>::share_change(ConstFieldView q, SolidState& s, const SidePoint& one,
-                                      const SideMemory& memory) const {
+int Characteristics<L>::share_change(ConstFieldView q, SolidState& s, const SidePoint& one,
+                                     const SideMemory& memory) const {
   const Stiffness K = stiffness(q, one);
   const SidePoint other = sides_.around_corner(one.side, one.k);
   const auto change = [&](const SidePoint& p) { return memory.v_change(p.side, p.k); };
   const auto rate = [&](const SidePoint& p) { return sides_.at(p.side, p.k).across.norm(); };
   const Vec2 dv = (change(one) + change(other)) / (rate(one) + rate(other));
+  int waveless = 0;
   for (const SidePoint& p : {one, other}) {
     const Mat2 Z = impedance(K, p);
-    if (Z.allFinite()) s.P = behind_waves(s.P, K, sides_.at(p.side, p.k).n0, rate(p) * (Z * dv));
+    if (Z.allFinite()) {
+      s.P = behind_waves(s.P, K, sides_.at(p.side, p.k).n0, rate(p) * (Z * dv));
+    } else {
+      waveless += sides_.owns(p.side, p.k);
+    }
   }
+  return waveless;
 }
 
 }  // namespace fsi::solid

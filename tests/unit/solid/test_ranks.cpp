@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -207,6 +208,26 @@ TEST(SolidOnSeveralRanks, AChosenSolution) {
     return solver;
   };
   expect_same_on_ranks(make, 8);
+}
+
+TEST(SolidOnSeveralRanks, SidePointsWithoutWavesAreCountedOnce) {
+  const MakeSolid make = [] {
+    auto solver = block(
+        {Displacement::condition, Displacement::condition, Displacement::condition, Displacement::condition},
+        15, 23);
+    solver->assign_initial_conditions(
+        [](double x, double y, double) -> Vec2 {
+          return {y < 0.6 ? -1.5 * x : 0, 0};
+        },  // inside out below
+        [](double, double, double) { return Vec2(0, 0); });
+    return solver;
+  };
+  expect_same_on_ranks(make, 0);
+  const Archive::Entries entries = after_steps(make, 3, 0);
+  const auto count = std::ranges::find_if(
+      entries, [](const auto& entry) { return entry.first.ends_with("boundary.waveless"); });
+  ASSERT_NE(count, entries.end());
+  EXPECT_GT(count->second.front(), 20);
 }
 
 TEST(SolidOnSeveralRanks, NumbersBreakOnAllOfThemAlike) {

@@ -216,6 +216,29 @@ TEST(Symmetry, HalfABodyMovesAsTheWholeOne) {
   }
 }
 
+// In uniaxial strain Saint Venant-Kirchhoff's stress has a minimum at F = 1 / sqrt(3): below, no p-waves.
+TEST(SidePoints, WithoutWavesKeepTheirPredictionAndAreCounted) {
+  const auto counted = [](double stretch) {
+    Boundaries boundaries;
+    for (Boundary& side : boundaries) {
+      side.condition = Displacement::condition;
+      side.vector = [stretch](double x, double, double) { return Vec2((stretch - 1) * x, 0); };
+    }
+    SolidSolver<SaintVenantKirchhoff> solver(test::unit_square(8), {.lambda = 1.1, .mu = 0.7}, {}, boundaries,
+                                             0);
+    solver.assign_initial_conditions(
+        [stretch](double x, double, double) { return Vec2((stretch - 1) * x, 0); },
+        [](double, double, double) { return Vec2(0.1, 0.2); });
+    const double before = solver.health().waveless;
+    solver.apply_solid_bcs(0);
+    return solver.health().waveless - before;
+  };
+  EXPECT_EQ(counted(1), 0);
+  EXPECT_EQ(counted(0.65), 0);
+  EXPECT_EQ(counted(0.5),
+            18);  // left and right with their corners: along the others shear waves go on, and p-waves
+}
+
 // Their displacement is extrapolated; beside a singular corner it may be anything.
 TEST(GhostPoints, ThatAreInsideOutDoNotBreakTheBodyBesideThem) {
   for (const double pushed : {0.0, -0.5}) {
