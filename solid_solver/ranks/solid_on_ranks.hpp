@@ -32,6 +32,7 @@ void SolidSolver<L>::share(std::shared_ptr<Ranks> ranks, const RecutOptions& opt
   together_ = Together(early_.ranks());
   recut_every_ = options.every;
   take_rows();
+  loaded();  // what all have counted so far, in all rows, the first rank keeps
 }
 
 template <Law L>
