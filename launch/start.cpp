@@ -1,6 +1,6 @@
 /// fsi_start PARENT CORES PROGRAM [WORD ...]: becomes PROGRAM, which dies with the process PARENT, even if that is killed, and runs on
 /// CORES ("0,2"; "-": on all). The launcher starts its programs by it: a step of its own between fork and exec would cost a copy of
-/// all its memory, 30 ms of each program's start.
+/// its memory, and ten times the time.
 
 #include <sched.h>
 #include <sys/prctl.h>

@@ -265,7 +265,7 @@ def _begin(request, say):
 def _look_around(far, case, directory, request):
     """All machines see what the programs need. Throws UserMistake, and leaves no new folder then."""
     ranked = ranks.wanted(request.ranks, case)
-    programs = {name: [paths.program(program), *([shutil.which("mpirun")] if name in ranked else [])]
+    programs = {name: [paths.program(program), paths.program("fsi_start"), *([shutil.which("mpirun")] if name in ranked else [])]
                 for name, program in case.programs.items()}
     try:
         hosts.expect_all(far, request.remote_shell, directory, programs)

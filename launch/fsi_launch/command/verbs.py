@@ -261,7 +261,7 @@ VERBS = {"run": _add_run, "new": _add_new, "check": _add_check, "converge": _add
 
 
 def parser(verb=None):
-    """The parser of one verb, which is read in a tenth of the time of all; of all where there is none of that name."""
+    """The parser of one verb, which is there sooner than that of all; of all where there is none of that name."""
     one = _Parser(prog="fsi", add_help=False)
     verbs = one.add_subparsers(dest="verb", required=True, parser_class=_Parser)
     for add in [VERBS[verb]] if verb in VERBS else VERBS.values():

@@ -49,8 +49,8 @@ class Guard:
         os.chdir(order["folder"])
         with open(order["log"], "ab") as log:
             self._process = subprocess.Popen(
-                leashed(order["command"], programs=programs), stdin=subprocess.DEVNULL, stdout=log, stderr=log, start_new_session=True,
-                env=environment, pass_fds=(self._report,))
+                leashed(order["command"], start=str(programs / "fsi_start")), stdin=subprocess.DEVNULL, stdout=log, stderr=log,
+                start_new_session=True, env=environment, pass_fds=(self._report,))
         self._kill_at = float("inf")
 
     def _send(self, number):

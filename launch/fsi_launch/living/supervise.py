@@ -71,10 +71,11 @@ class Outcome:
     signal: int = 0
 
 
-def leashed(command, cores=None, programs=paths.BIN):
-    """The command of a program that dies with this process, even if that is killed with SIGKILL (launch/start.cpp)."""
+def leashed(command, cores=None, start=None):
+    """The command of a program that dies with this process, even if that is killed with SIGKILL. `start`: the program that sees to it
+    (launch/start.cpp)."""
     on = ",".join(str(core) for core in sorted(cores)) if cores else "-"
-    return [str(programs / "fsi_start"), str(os.getpid()), on, *command]
+    return [start or paths.program("fsi_start"), str(os.getpid()), on, *command]
 
 
 class Supervisor:
