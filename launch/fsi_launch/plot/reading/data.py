@@ -1,6 +1,7 @@
 """Reads what a run wrote (layout: docs/output.md): fields of each program over its output times, and tables."""
 
 import csv
+import functools
 import json
 from dataclasses import dataclass, replace
 
@@ -53,12 +54,17 @@ class Grid:
         return np.median(np.hypot(np.diff(self.x1, axis=1), np.diff(self.x2, axis=1)))
 
 
-@dataclass
 class Output:
-    """All grids of one program at one output time."""
+    """All grids of one program at one output time. `grids`: a list, or the function that reads them when they are first asked for: what
+    compares runs needs few times, and of a gas often nothing."""
 
-    t: float
-    grids: list
+    def __init__(self, t, grids):
+        self.t = t
+        self._grids = grids
+
+    @functools.cached_property
+    def grids(self):
+        return self._grids() if callable(self._grids) else self._grids
 
     def background(self):
         """Of several levels the finest one."""
@@ -140,9 +146,15 @@ def _is_of_gas(path):
     return path.stem == "fluid" or path.stem.startswith("fluid_")
 
 
+def _grids_at(path, key):
+    with _opened(path) as file:
+        return _read_grids(file[key])
+
+
 def _read_series(path, name):
     with _opened(path) as file:
-        return Series(name, [_read_output(file[key]) for key in sorted(file)], _is_of_gas(path))
+        outputs = [Output(float(file[key].attrs["t"]), functools.partial(_grids_at, path, key)) for key in sorted(file)]
+    return Series(name, outputs, _is_of_gas(path))
 
 
 def output_times(path):
@@ -174,8 +186,11 @@ def gas_of(series):
     gases = [one for one in series if one.is_gas()]
     if len(gases) < 2:
         return gases[0] if gases else None
-    together = zip(*(one.outputs for one in gases))
-    outputs = [Output(outputs[0].t, [grid for output in outputs for grid in output.grids]) for outputs in together]
+
+    def grids_of(outputs):
+        return [grid for output in outputs for grid in output.grids]
+
+    outputs = [Output(together[0].t, functools.partial(grids_of, together)) for together in zip(*(one.outputs for one in gases))]
     return Series(" and ".join(one.name for one in gases), outputs, True)
 
 
