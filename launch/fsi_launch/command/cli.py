@@ -131,7 +131,9 @@ def _act(arguments):
         print(version.describe())
         return DONE
     interrupts.listen()
-    options = verbs.parser(arguments[0]).parse_args(arguments)
+    options, unknown = verbs.parser(arguments[0]).parse_known_args(arguments)
+    if unknown:
+        raise UserMistake(f"{options.verb}: it takes no {' '.join(unknown)}; ./launch/fsi {options.verb} --help says what it takes")
     return ACTS[options.verb](options)
 
 

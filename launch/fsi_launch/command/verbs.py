@@ -11,8 +11,8 @@ class _Parser(argparse.ArgumentParser):
     """Reports a mistake in one line; exit code 2."""
 
     def error(self, message):
-        verb = self.prog.split()[1:]
-        raise UserMistake(f"{''.join(f'{word}: ' for word in verb)}{message}; --help says more")
+        verb = "".join(f" {word}" for word in self.prog.split()[1:2])
+        raise UserMistake(f"{verb.strip()}{': ' if verb else ''}{message}; ./launch/fsi{verb} --help says what it takes")
 
 
 def _add_case(parser, **options):
