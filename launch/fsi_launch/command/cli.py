@@ -1,6 +1,7 @@
 """The command line: verbs and their exit codes."""
 
 import os
+import signal
 import sys
 
 from fsi_launch import paths, version
@@ -95,6 +96,7 @@ def _docs(options):
 
 
 def _schema(_):
+    signal.signal(signal.SIGPIPE, signal.SIG_DFL)   # whoever read it, as `head`, may go
     return _become("fsi_case", "schema")
 
 
