@@ -125,5 +125,5 @@ def studies(tools):
     yield "Kernels by instruction set: what a portable build costs", lambda: instruction_sets(tools)
     yield "The two commands on bare Debians", lambda: distributions(tools)
     yield "All tests on each level of x86-64", lambda: levels(tools)
-    yield "The suite again and again", lambda: again(tools, "--times", "10", "--beside", "0")
-    yield "The suite beside busy processes", lambda: again(tools, "--times", "0", "--beside", "3")
+    yield "The suite again and again", lambda: again(tools, "--times", "10", "--beside", "0", "--go-on")
+    yield "The suite beside busy processes", lambda: again(tools, "--times", "0", "--beside", "3", "--go-on")
