@@ -14,95 +14,100 @@ template <>
 struct Members<wire::SparseMatrix> {
   using Sample = amp_fsi_SparseMatrix;
   using Ours = wire::SparseMatrix;
-  static constexpr std::tuple list{Member{&Sample::row, &Ours::row}, Member{&Sample::column, &Ours::column},
-                                   Member{&Sample::value, &Ours::value}};
+  static constexpr std::tuple list{MemberPair{&Sample::row, &Ours::row},
+                                   MemberPair{&Sample::column, &Ours::column},
+                                   MemberPair{&Sample::value, &Ours::value}};
 };
 
 template <>
 struct Members<wire::ModalResponse> {
   using Sample = amp_fsi_ModalResponse;
   using Ours = wire::ModalResponse;
-  static constexpr std::tuple list{Member{&Sample::modes, &Ours::modes}, Member{&Sample::S, &Ours::S},
-                                   Member{&Sample::g, &Ours::g}, Member{&Sample::N, &Ours::N},
-                                   Member{&Sample::q_dot, &Ours::q_dot}};
+  static constexpr std::tuple list{MemberPair{&Sample::modes, &Ours::modes}, MemberPair{&Sample::S, &Ours::S},
+                                   MemberPair{&Sample::g, &Ours::g}, MemberPair{&Sample::N, &Ours::N},
+                                   MemberPair{&Sample::q_dot, &Ours::q_dot}};
 };
 
 template <>
 struct Members<wire::PredictedInterface> {
   using Sample = amp_fsi_PredictedInterface;
   using Ours = wire::PredictedInterface;
-  static constexpr std::tuple list{Member{&Sample::run, &Ours::run},
-                                   Member{&Sample::from, &Ours::from},
-                                   Member{&Sample::interface_name, &Ours::interface},
-                                   Member{&Sample::step, &Ours::step},
-                                   Member{&Sample::t, &Ours::t},
-                                   Member{&Sample::proposed_dt, &Ours::proposed_dt},
-                                   Member{&Sample::dt_reason, &Ours::dt_reason},
-                                   Member{&Sample::x, &Ours::x},
-                                   Member{&Sample::v, &Ours::v},
-                                   Member{&Sample::w, &Ours::w},
-                                   Member{&Sample::p, &Ours::p},
-                                   Member{&Sample::z_f, &Ours::z_f},
-                                   Member{&Sample::rho, &Ours::rho},
-                                   Member{&Sample::gamma, &Ours::gamma},
-                                   Member{&Sample::Z, &Ours::Z},
-                                   Member{&Sample::z_p, &Ours::z_p},
-                                   Member{&Sample::is_fixed, &Ours::fixed},
-                                   Member{&Sample::p_e, &Ours::p_e},
-                                   Member{&Sample::modal, &Ours::modal},
-                                   Member{&Sample::health, &Ours::health},
-                                   Member{&Sample::compute_s, &Ours::compute_s},
-                                   Member{&Sample::wait_s, &Ours::wait_s}};
+  static constexpr std::tuple list{MemberPair{&Sample::run, &Ours::run},
+                                   MemberPair{&Sample::from, &Ours::from},
+                                   MemberPair{&Sample::interface_name, &Ours::interface},
+                                   MemberPair{&Sample::step, &Ours::step},
+                                   MemberPair{&Sample::t, &Ours::t},
+                                   MemberPair{&Sample::proposed_dt, &Ours::proposed_dt},
+                                   MemberPair{&Sample::dt_reason, &Ours::dt_reason},
+                                   MemberPair{&Sample::x, &Ours::x},
+                                   MemberPair{&Sample::v, &Ours::v},
+                                   MemberPair{&Sample::w, &Ours::w},
+                                   MemberPair{&Sample::p, &Ours::p},
+                                   MemberPair{&Sample::z_f, &Ours::z_f},
+                                   MemberPair{&Sample::rho, &Ours::rho},
+                                   MemberPair{&Sample::gamma, &Ours::gamma},
+                                   MemberPair{&Sample::Z, &Ours::Z},
+                                   MemberPair{&Sample::z_p, &Ours::z_p},
+                                   MemberPair{&Sample::is_fixed, &Ours::fixed},
+                                   MemberPair{&Sample::p_e, &Ours::p_e},
+                                   MemberPair{&Sample::modal, &Ours::modal},
+                                   MemberPair{&Sample::health, &Ours::health},
+                                   MemberPair{&Sample::compute_s, &Ours::compute_s},
+                                   MemberPair{&Sample::wait_s, &Ours::wait_s}};
 };
 
 template <>
 struct Members<wire::ProjectedInterface> {
   using Sample = amp_fsi_ProjectedInterface;
   using Ours = wire::ProjectedInterface;
-  static constexpr std::tuple list{Member{&Sample::run, &Ours::run},
-                                   Member{&Sample::to, &Ours::to},
-                                   Member{&Sample::interface_name, &Ours::interface},
-                                   Member{&Sample::step, &Ours::step},
-                                   Member{&Sample::t, &Ours::t},
-                                   Member{&Sample::n, &Ours::n},
-                                   Member{&Sample::v_n, &Ours::v_n},
-                                   Member{&Sample::w_n, &Ours::w_n},
-                                   Member{&Sample::v, &Ours::v},
-                                   Member{&Sample::a, &Ours::a},
-                                   Member{&Sample::q_dot, &Ours::q_dot},
-                                   Member{&Sample::z_f, &Ours::z_f},
-                                   Member{&Sample::robin_t, &Ours::robin_t},
-                                   Member{&Sample::robin_r, &Ours::robin_r},
-                                   Member{&Sample::dt_next, &Ours::dt_next},
-                                   Member{&Sample::t_next, &Ours::t_next},
-                                   Member{&Sample::substeps_next, &Ours::substeps_next},
-                                   Member{&Sample::x_next, &Ours::x_next},
-                                   Member{&Sample::write_output, &Ours::write_output},
-                                   Member{&Sample::write_checkpoint, &Ours::write_checkpoint},
-                                   Member{&Sample::show, &Ours::show},
-                                   Member{&Sample::stop, &Ours::stop},
-                                   Member{&Sample::stop_reason, &Ours::stop_reason}};
+  static constexpr std::tuple list{MemberPair{&Sample::run, &Ours::run},
+                                   MemberPair{&Sample::to, &Ours::to},
+                                   MemberPair{&Sample::interface_name, &Ours::interface},
+                                   MemberPair{&Sample::step, &Ours::step},
+                                   MemberPair{&Sample::t, &Ours::t},
+                                   MemberPair{&Sample::n, &Ours::n},
+                                   MemberPair{&Sample::v_n, &Ours::v_n},
+                                   MemberPair{&Sample::w_n, &Ours::w_n},
+                                   MemberPair{&Sample::v, &Ours::v},
+                                   MemberPair{&Sample::a, &Ours::a},
+                                   MemberPair{&Sample::q_dot, &Ours::q_dot},
+                                   MemberPair{&Sample::z_f, &Ours::z_f},
+                                   MemberPair{&Sample::robin_t, &Ours::robin_t},
+                                   MemberPair{&Sample::robin_r, &Ours::robin_r},
+                                   MemberPair{&Sample::dt_next, &Ours::dt_next},
+                                   MemberPair{&Sample::t_next, &Ours::t_next},
+                                   MemberPair{&Sample::substeps_next, &Ours::substeps_next},
+                                   MemberPair{&Sample::x_next, &Ours::x_next},
+                                   MemberPair{&Sample::write_output, &Ours::write_output},
+                                   MemberPair{&Sample::write_checkpoint, &Ours::write_checkpoint},
+                                   MemberPair{&Sample::show, &Ours::show},
+                                   MemberPair{&Sample::stop, &Ours::stop},
+                                   MemberPair{&Sample::stop_reason, &Ours::stop_reason}};
 };
 
 template <>
 struct Members<wire::InterfaceInfo> {
   using Sample = amp_fsi_InterfaceInfo;
   using Ours = wire::InterfaceInfo;
-  static constexpr std::tuple list{Member{&Sample::name, &Ours::name},
-                                   Member{&Sample::dimension, &Ours::dimension}, Member{&Sample::x, &Ours::x},
-                                   Member{&Sample::n, &Ours::n}};
+  static constexpr std::tuple list{MemberPair{&Sample::name, &Ours::name},
+                                   MemberPair{&Sample::dimension, &Ours::dimension},
+                                   MemberPair{&Sample::x, &Ours::x}, MemberPair{&Sample::n, &Ours::n}};
 };
 
 template <>
 struct Members<wire::Hello> {
   using Sample = amp_fsi_Hello;
   using Ours = wire::Hello;
-  static constexpr std::tuple list{
-      Member{&Sample::protocol, &Ours::protocol}, Member{&Sample::run, &Ours::run},
-      Member{&Sample::role, &Ours::role},         Member{&Sample::name, &Ours::name},
-      Member{&Sample::law, &Ours::law},           Member{&Sample::config_digest, &Ours::config_digest},
-      Member{&Sample::host, &Ours::host},         Member{&Sample::pid, &Ours::pid},
-      Member{&Sample::points, &Ours::points},     Member{&Sample::build, &Ours::build}};
+  static constexpr std::tuple list{MemberPair{&Sample::protocol, &Ours::protocol},
+                                   MemberPair{&Sample::run, &Ours::run},
+                                   MemberPair{&Sample::role, &Ours::role},
+                                   MemberPair{&Sample::name, &Ours::name},
+                                   MemberPair{&Sample::law, &Ours::law},
+                                   MemberPair{&Sample::config_digest, &Ours::config_digest},
+                                   MemberPair{&Sample::host, &Ours::host},
+                                   MemberPair{&Sample::pid, &Ours::pid},
+                                   MemberPair{&Sample::points, &Ours::points},
+                                   MemberPair{&Sample::build, &Ours::build}};
 };
 
 /// But for step and t, which it may lack.
@@ -111,35 +116,36 @@ struct Members<Place> {
   using Sample = amp_fsi_Place;
   using Ours = Place;
   static constexpr std::tuple list{
-      Member{&Sample::program, &Ours::program},   Member{&Sample::interface_name, &Ours::interface},
-      Member{&Sample::grid, &Ours::grid},         Member{&Sample::point, &Ours::point},
-      Member{&Sample::position, &Ours::position}, Member{&Sample::of_reference, &Ours::of_reference}};
+      MemberPair{&Sample::program, &Ours::program},   MemberPair{&Sample::interface_name, &Ours::interface},
+      MemberPair{&Sample::grid, &Ours::grid},         MemberPair{&Sample::point, &Ours::point},
+      MemberPair{&Sample::position, &Ours::position}, MemberPair{&Sample::of_reference, &Ours::of_reference}};
 };
 
 template <>
 struct Members<wire::Abort> {
   using Sample = amp_fsi_Abort;
   using Ours = wire::Abort;
-  static constexpr std::tuple list{Member{&Sample::run, &Ours::run}, Member{&Sample::from, &Ours::from},
-                                   Member{&Sample::exit_code, &Ours::exit_code},
-                                   Member{&Sample::what, &Ours::what}};
+  static constexpr std::tuple list{
+      MemberPair{&Sample::run, &Ours::run}, MemberPair{&Sample::from, &Ours::from},
+      MemberPair{&Sample::exit_code, &Ours::exit_code}, MemberPair{&Sample::what, &Ours::what}};
 };
 
 template <>
 struct Members<wire::Control> {
   using Sample = amp_fsi_Control;
   using Ours = wire::Control;
-  static constexpr std::tuple list{Member{&Sample::run, &Ours::run},
-                                   Member{&Sample::command, &Ours::command}};
+  static constexpr std::tuple list{MemberPair{&Sample::run, &Ours::run},
+                                   MemberPair{&Sample::command, &Ours::command}};
 };
 
 template <>
 struct Members<wire::Waiting> {
   using Sample = amp_fsi_Waiting;
   using Ours = wire::Waiting;
-  static constexpr std::tuple list{Member{&Sample::run, &Ours::run}, Member{&Sample::from, &Ours::from},
-                                   Member{&Sample::to, &Ours::to}, Member{&Sample::topic, &Ours::topic},
-                                   Member{&Sample::step, &Ours::step}};
+  static constexpr std::tuple list{MemberPair{&Sample::run, &Ours::run},
+                                   MemberPair{&Sample::from, &Ours::from}, MemberPair{&Sample::to, &Ours::to},
+                                   MemberPair{&Sample::topic, &Ours::topic},
+                                   MemberPair{&Sample::step, &Ours::step}};
 };
 
 namespace {

@@ -23,14 +23,14 @@ namespace fsi::bus {
 
 /// The same value in both structures.
 template <class Sample, class InSample, class Message, class InMessage>
-struct Member {
+struct MemberPair {
   InSample Sample::*in_sample;
   InMessage Message::*in_message;
 };
 template <class Sample, class InSample, class Message, class InMessage>
-Member(InSample Sample::*, InMessage Message::*) -> Member<Sample, InSample, Message, InMessage>;
+MemberPair(InSample Sample::*, InMessage Message::*) -> MemberPair<Sample, InSample, Message, InMessage>;
 
-/// `list`: the Member pairs of a message; sequences of structures are none of them. `Sample`: its C structure.
+/// `list`: the pairs of a message; sequences of structures are none of them. `Sample`: its C structure.
 template <class Message>
 struct Members;
 
@@ -130,12 +130,12 @@ template <>
 struct Members<wire::Health> {
   using Sample = amp_fsi_Health;
   using Ours = wire::Health;
-  static constexpr std::tuple list{Member{&Sample::min_rho, &Ours::min_rho},
-                                   Member{&Sample::min_p, &Ours::min_p},
-                                   Member{&Sample::min_det_F, &Ours::min_det_F},
-                                   Member{&Sample::min_cell_quality, &Ours::min_cell_quality},
-                                   Member{&Sample::first_order_fallbacks, &Ours::first_order_fallbacks},
-                                   Member{&Sample::floors, &Ours::floors}};
+  static constexpr std::tuple list{MemberPair{&Sample::min_rho, &Ours::min_rho},
+                                   MemberPair{&Sample::min_p, &Ours::min_p},
+                                   MemberPair{&Sample::min_det_F, &Ours::min_det_F},
+                                   MemberPair{&Sample::min_cell_quality, &Ours::min_cell_quality},
+                                   MemberPair{&Sample::first_order_fallbacks, &Ours::first_order_fallbacks},
+                                   MemberPair{&Sample::floors, &Ours::floors}};
 };
 
 }  // namespace fsi::bus

@@ -9,78 +9,79 @@ template <>
 struct Members<wire::Telemetry::Interface> {
   using Sample = amp_fsi_InterfaceTelemetry;
   using Ours = wire::Telemetry::Interface;
-  static constexpr std::tuple list{Member{&Sample::name, &Ours::name},
-                                   Member{&Sample::velocity_jump, &Ours::velocity_jump},
-                                   Member{&Sample::traction_jump, &Ours::traction_jump},
-                                   Member{&Sample::gap, &Ours::gap},
-                                   Member{&Sample::power, &Ours::power},
-                                   Member{&Sample::shear, &Ours::shear},
-                                   Member{&Sample::velocity_scale, &Ours::velocity_scale},
-                                   Member{&Sample::traction_scale, &Ours::traction_scale},
-                                   Member{&Sample::p_min, &Ours::p_min},
-                                   Member{&Sample::p_max, &Ours::p_max},
-                                   Member{&Sample::v_min, &Ours::v_min},
-                                   Member{&Sample::v_max, &Ours::v_max},
-                                   Member{&Sample::closed, &Ours::closed},
-                                   Member{&Sample::s, &Ours::s},
-                                   Member{&Sample::x, &Ours::x},
-                                   Member{&Sample::x_start, &Ours::x_start},
-                                   Member{&Sample::p_predicted, &Ours::p_predicted},
-                                   Member{&Sample::p_predicted_solid, &Ours::p_predicted_solid},
-                                   Member{&Sample::p_projected, &Ours::p_projected},
-                                   Member{&Sample::w_tangential, &Ours::w_tangential},
-                                   Member{&Sample::v_predicted, &Ours::v_predicted},
-                                   Member{&Sample::v_predicted_gas, &Ours::v_predicted_gas},
-                                   Member{&Sample::v_projected, &Ours::v_projected}};
+  static constexpr std::tuple list{MemberPair{&Sample::name, &Ours::name},
+                                   MemberPair{&Sample::velocity_jump, &Ours::velocity_jump},
+                                   MemberPair{&Sample::traction_jump, &Ours::traction_jump},
+                                   MemberPair{&Sample::gap, &Ours::gap},
+                                   MemberPair{&Sample::power, &Ours::power},
+                                   MemberPair{&Sample::shear, &Ours::shear},
+                                   MemberPair{&Sample::velocity_scale, &Ours::velocity_scale},
+                                   MemberPair{&Sample::traction_scale, &Ours::traction_scale},
+                                   MemberPair{&Sample::p_min, &Ours::p_min},
+                                   MemberPair{&Sample::p_max, &Ours::p_max},
+                                   MemberPair{&Sample::v_min, &Ours::v_min},
+                                   MemberPair{&Sample::v_max, &Ours::v_max},
+                                   MemberPair{&Sample::closed, &Ours::closed},
+                                   MemberPair{&Sample::s, &Ours::s},
+                                   MemberPair{&Sample::x, &Ours::x},
+                                   MemberPair{&Sample::x_start, &Ours::x_start},
+                                   MemberPair{&Sample::p_predicted, &Ours::p_predicted},
+                                   MemberPair{&Sample::p_predicted_solid, &Ours::p_predicted_solid},
+                                   MemberPair{&Sample::p_projected, &Ours::p_projected},
+                                   MemberPair{&Sample::w_tangential, &Ours::w_tangential},
+                                   MemberPair{&Sample::v_predicted, &Ours::v_predicted},
+                                   MemberPair{&Sample::v_predicted_gas, &Ours::v_predicted_gas},
+                                   MemberPair{&Sample::v_projected, &Ours::v_projected}};
 };
 
 template <>
 struct Members<wire::Traffic> {
   using Sample = amp_fsi_Traffic;
   using Ours = wire::Traffic;
-  static constexpr std::tuple list{Member{&Sample::interface_name, &Ours::interface},
-                                   Member{&Sample::from, &Ours::from},
-                                   Member{&Sample::messages, &Ours::messages},
-                                   Member{&Sample::bytes, &Ours::bytes},
-                                   Member{&Sample::missing, &Ours::missing},
-                                   Member{&Sample::dropped, &Ours::dropped},
-                                   Member{&Sample::latency_p50_us, &Ours::latency_p50_us},
-                                   Member{&Sample::latency_p99_us, &Ours::latency_p99_us}};
+  static constexpr std::tuple list{MemberPair{&Sample::interface_name, &Ours::interface},
+                                   MemberPair{&Sample::from, &Ours::from},
+                                   MemberPair{&Sample::messages, &Ours::messages},
+                                   MemberPair{&Sample::bytes, &Ours::bytes},
+                                   MemberPair{&Sample::missing, &Ours::missing},
+                                   MemberPair{&Sample::dropped, &Ours::dropped},
+                                   MemberPair{&Sample::latency_p50_us, &Ours::latency_p50_us},
+                                   MemberPair{&Sample::latency_p99_us, &Ours::latency_p99_us}};
 };
 
 template <>
 struct Members<wire::StepsLimited> {
   using Sample = amp_fsi_StepsLimited;
   using Ours = wire::StepsLimited;
-  static constexpr std::tuple list{Member{&Sample::by, &Ours::by}, Member{&Sample::steps, &Ours::steps}};
+  static constexpr std::tuple list{MemberPair{&Sample::by, &Ours::by},
+                                   MemberPair{&Sample::steps, &Ours::steps}};
 };
 
 template <>
 struct Members<wire::Telemetry> {
   using Sample = amp_fsi_Telemetry;
   using Ours = wire::Telemetry;
-  static constexpr std::tuple list{Member{&Sample::run, &Ours::run},
-                                   Member{&Sample::from, &Ours::from},
-                                   Member{&Sample::role, &Ours::role},
-                                   Member{&Sample::state, &Ours::state},
-                                   Member{&Sample::host, &Ours::host},
-                                   Member{&Sample::pid, &Ours::pid},
-                                   Member{&Sample::step, &Ours::step},
-                                   Member{&Sample::t, &Ours::t},
-                                   Member{&Sample::t_end, &Ours::t_end},
-                                   Member{&Sample::dt, &Ours::dt},
-                                   Member{&Sample::dt_reason, &Ours::dt_reason},
-                                   Member{&Sample::proposed_dt, &Ours::proposed_dt},
-                                   Member{&Sample::limited_by, &Ours::limited_by},
-                                   Member{&Sample::compute_s, &Ours::compute_s},
-                                   Member{&Sample::wait_s, &Ours::wait_s},
-                                   Member{&Sample::point_updates_per_s, &Ours::point_updates_per_s},
-                                   Member{&Sample::health, &Ours::health},
-                                   Member{&Sample::noise, &Ours::noise},
-                                   Member{&Sample::messages, &Ours::messages},
-                                   Member{&Sample::bytes, &Ours::bytes},
-                                   Member{&Sample::round_trip_p50_us, &Ours::round_trip_p50_us},
-                                   Member{&Sample::round_trip_p99_us, &Ours::round_trip_p99_us}};
+  static constexpr std::tuple list{MemberPair{&Sample::run, &Ours::run},
+                                   MemberPair{&Sample::from, &Ours::from},
+                                   MemberPair{&Sample::role, &Ours::role},
+                                   MemberPair{&Sample::state, &Ours::state},
+                                   MemberPair{&Sample::host, &Ours::host},
+                                   MemberPair{&Sample::pid, &Ours::pid},
+                                   MemberPair{&Sample::step, &Ours::step},
+                                   MemberPair{&Sample::t, &Ours::t},
+                                   MemberPair{&Sample::t_end, &Ours::t_end},
+                                   MemberPair{&Sample::dt, &Ours::dt},
+                                   MemberPair{&Sample::dt_reason, &Ours::dt_reason},
+                                   MemberPair{&Sample::proposed_dt, &Ours::proposed_dt},
+                                   MemberPair{&Sample::limited_by, &Ours::limited_by},
+                                   MemberPair{&Sample::compute_s, &Ours::compute_s},
+                                   MemberPair{&Sample::wait_s, &Ours::wait_s},
+                                   MemberPair{&Sample::point_updates_per_s, &Ours::point_updates_per_s},
+                                   MemberPair{&Sample::health, &Ours::health},
+                                   MemberPair{&Sample::noise, &Ours::noise},
+                                   MemberPair{&Sample::messages, &Ours::messages},
+                                   MemberPair{&Sample::bytes, &Ours::bytes},
+                                   MemberPair{&Sample::round_trip_p50_us, &Ours::round_trip_p50_us},
+                                   MemberPair{&Sample::round_trip_p99_us, &Ours::round_trip_p99_us}};
 };
 
 template <>
@@ -88,9 +89,9 @@ struct Members<wire::Picture::Grid> {
   using Sample = amp_fsi_PictureGrid;
   using Ours = wire::Picture::Grid;
   static constexpr std::tuple list{
-      Member{&Sample::name, &Ours::name}, Member{&Sample::n1, &Ours::n1},
-      Member{&Sample::n2, &Ours::n2},     Member{&Sample::straight, &Ours::straight},
-      Member{&Sample::x, &Ours::x},       Member{&Sample::level, &Ours::level}};
+      MemberPair{&Sample::name, &Ours::name}, MemberPair{&Sample::n1, &Ours::n1},
+      MemberPair{&Sample::n2, &Ours::n2},     MemberPair{&Sample::straight, &Ours::straight},
+      MemberPair{&Sample::x, &Ours::x},       MemberPair{&Sample::level, &Ours::level}};
 };
 
 template <>
@@ -98,10 +99,10 @@ struct Members<wire::Picture> {
   using Sample = amp_fsi_Picture;
   using Ours = wire::Picture;
   static constexpr std::tuple list{
-      Member{&Sample::run, &Ours::run},           Member{&Sample::from, &Ours::from},
-      Member{&Sample::quantity, &Ours::quantity}, Member{&Sample::role, &Ours::role},
-      Member{&Sample::step, &Ours::step},         Member{&Sample::t, &Ours::t},
-      Member{&Sample::low, &Ours::low},           Member{&Sample::high, &Ours::high}};
+      MemberPair{&Sample::run, &Ours::run},           MemberPair{&Sample::from, &Ours::from},
+      MemberPair{&Sample::quantity, &Ours::quantity}, MemberPair{&Sample::role, &Ours::role},
+      MemberPair{&Sample::step, &Ours::step},         MemberPair{&Sample::t, &Ours::t},
+      MemberPair{&Sample::low, &Ours::low},           MemberPair{&Sample::high, &Ours::high}};
 };
 
 BorrowedTelemetry borrow(const wire::Telemetry& telemetry) {

@@ -9,6 +9,11 @@ using Vec2 = Eigen::Vector2d;
 using Mat2 = Eigen::Matrix2d;
 using Mat3 = Eigen::Matrix3d;
 
+/// Positive where b points to the left of a.
+inline double cross(const Vec2& a, const Vec2& b) {
+  return a[0] * b[1] - a[1] * b[0];
+}
+
 /// The four sides of a logically rectangular component grid: r1 = 0, r1 = 1, r2 = 0, r2 = 1.
 enum class Side { left, right, bottom, top };
 

@@ -12,7 +12,7 @@ namespace fsi::coupler {
 namespace {
 
 /// Places this close to a point of the curve, in parts of its length, are that point.
-constexpr double coincident = 1e-11;
+constexpr double same_place = 1e-11;
 
 /// Steps to the closest place of the curve; each reduces the distance to it by about (h / radius)^2.
 constexpr int most_steps = 50;
@@ -59,7 +59,7 @@ CurveInterpolation::Place CurveInterpolation::locate(std::span<const double> fro
     if (std::abs(change) < 1e-15 * length) break;
   }
   for (const std::size_t end : {cell, cell + 1}) {
-    if (std::abs(s - s_[end]) < coincident * length) s = s_[end];
+    if (std::abs(s - s_[end]) < same_place * length) s = s_[end];
   }
   return {.cubic = weights(cell, widest, s), .linear = weights(cell, 2, s), .distance = (x - curve()).norm()};
 }

@@ -43,10 +43,6 @@ struct SideLoad {
   }
 };
 
-inline double cross(const Vec2& a, const Vec2& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
 /// Areas of the points of a grid that stands alone: trapezoidal rule in index space, second order.
 template <Law L>
 Field trapezoidal_areas(const SolidComponent<L>& component) {

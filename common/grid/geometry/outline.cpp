@@ -23,10 +23,6 @@ struct Segment {
   double high() const { return std::max(from[1], to[1]); }
 };
 
-double cross(const Vec2& a, const Vec2& b) {
-  return a[0] * b[1] - a[1] * b[0];
-}
-
 void append(std::span<const double> x, int curve, std::vector<Segment>& segments) {
   for (std::size_t k = 0; k + 1 < x.size() / 2; ++k)
     segments.push_back({.from = vector_at(x, k), .to = vector_at(x, k + 1), .index = k, .curve = curve});

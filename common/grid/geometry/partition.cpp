@@ -7,17 +7,12 @@
 #include <optional>
 #include <utility>
 
+#include "common/core/component_major.hpp"
 #include "common/grid/overlap/donor_search.hpp"
 
 namespace fsi::grid {
 
 namespace {
-
-constexpr double rounding = 1e-7;  ///< of positions on the edges of cells, in cells
-
-Vec2 point(ConstFieldView x, int i, int j) {
-  return {x(0, i, j), x(1, i, j)};
-}
 
 /// One body-fitted grid as a function of position: its weight before the others are looked at.
 class Ramp {
@@ -31,8 +26,8 @@ class Ramp {
     }
     for (int j = 0; j < body_.n2; ++j) {
       for (int i = 0; i < body_.n1; ++i) {
-        low_ = low_.cwiseMin(point(x, i, j));
-        high_ = high_.cwiseMax(point(x, i, j));
+        low_ = low_.cwiseMin(vector_at(x, i, j));
+        high_ = high_.cwiseMax(vector_at(x, i, j));
       }
     }
   }
@@ -66,7 +61,7 @@ class Ramp {
     int i_start = 0, j_start = 0;
     for (int j = 0; j < body_.n2; ++j) {
       for (int i = 0; i < body_.n1; ++i) {
-        const double distance = (point(cells_.x, i, j) - position).squaredNorm();
+        const double distance = (vector_at(cells_.x, i, j) - position).squaredNorm();
         if (distance < smallest) smallest = distance, i_start = i, j_start = j;
       }
     }
@@ -101,8 +96,8 @@ void for_points_inside(const CartesianGrid& background, const Ramp& ramp, Visit&
   const ConstFieldView x = ramp.cells().x;
   for (int j = 0; j + 1 < x.layout.n2; ++j) {
     for (int i = 0; i + 1 < x.layout.n1; ++i) {
-      const Vec2 a = point(x, i, j), b = point(x, i + 1, j), c = point(x, i, j + 1),
-                 d = point(x, i + 1, j + 1);
+      const Vec2 a = vector_at(x, i, j), b = vector_at(x, i + 1, j), c = vector_at(x, i, j + 1),
+                 d = vector_at(x, i + 1, j + 1);
       const Vec2 low = a.cwiseMin(b).cwiseMin(c).cwiseMin(d), high = a.cwiseMax(b).cwiseMax(c).cwiseMax(d);
       const auto first = [](double from) {
         return std::max(static_cast<int>(std::ceil(from - rounding)), 0);
@@ -162,7 +157,7 @@ Field body_weights(const CompositeGrid& grids, std::span<const Ramp> ramps, int 
     for (const Interval& run : grids.valid(grid).row(j)) {
       for (int i = run.begin; i < run.end; ++i) {
         Shares others;
-        const Vec2 position = point(own.cells().x, i, j);
+        const Vec2 position = vector_at(own.cells().x, i, j);
         for (const Ramp& ramp : ramps) {
           if (&ramp == &own) continue;
           if (const auto other = ramp.weight_at(position)) others.add(*other);
@@ -180,8 +175,8 @@ Field body_weights(const CompositeGrid& grids, std::span<const Ramp> ramps, int 
 }
 
 double jacobian(ConstFieldView x, int i, int j) {
-  const Vec2 along = 0.5 * (point(x, i + 1, j) - point(x, i - 1, j));
-  const Vec2 across = 0.5 * (point(x, i, j + 1) - point(x, i, j - 1));
+  const Vec2 along = 0.5 * (vector_at(x, i + 1, j) - vector_at(x, i - 1, j));
+  const Vec2 across = 0.5 * (vector_at(x, i, j + 1) - vector_at(x, i, j - 1));
   return along[0] * across[1] - along[1] * across[0];
 }
 

@@ -2,15 +2,12 @@
 
 #include <algorithm>
 
+#include "common/core/component_major.hpp"
 #include "common/core/types.hpp"
 
 namespace fsi::grid {
 
 namespace {
-
-Vec2 point(ConstFieldView x, int i, int j) {
-  return {x(0, i, j), x(1, i, j)};
-}
 
 void set(FieldView x, int i, int j, const Vec2& place) {
   x(0, i, j) = place[0];
@@ -34,13 +31,14 @@ void continue_line(FieldView x, int j, Curve lines) {
   const int last = x.layout.n1 - 1;
   for (int g = 1; g <= Layout::ghosts; ++g) {
     if (lines == Curve::closed) {
-      set(x, -g, j, point(x, last - g, j));
-      set(x, last + g, j, point(x, g, j));
+      set(x, -g, j, vector_at(x, last - g, j));
+      set(x, last + g, j, vector_at(x, g, j));
     } else {
-      set(x, -g, j, continued_within_bounds(point(x, 1 - g, j), point(x, 2 - g, j), point(x, 3 - g, j)));
+      set(x, -g, j,
+          continued_within_bounds(vector_at(x, 1 - g, j), vector_at(x, 2 - g, j), vector_at(x, 3 - g, j)));
       set(x, last + g, j,
-          continued_within_bounds(point(x, last - 1 + g, j), point(x, last - 2 + g, j),
-                                  point(x, last - 3 + g, j)));
+          continued_within_bounds(vector_at(x, last - 1 + g, j), vector_at(x, last - 2 + g, j),
+                                  vector_at(x, last - 3 + g, j)));
     }
   }
 }
@@ -55,17 +53,13 @@ void continue_across(FieldView x, int j, int step) {
   }
 }
 
-double cross(const Vec2& a, const Vec2& b) {
-  return a[0] * b[1] - a[1] * b[0];
-}
-
 /// The part of their way behind line j that ghost points go at point i, where the lines across shall keep the distance
 /// `least_ghost_distance`: the whole, but where they come nearer; that distance is linear in the part.
 /// @param out  rows to the first line of ghosts
 double part_of_way(ConstFieldView x, int i, int j, int out) {
-  const Vec2 across = point(x, i, j + 2 * out) - point(x, i, j);
-  const double own = cross(point(x, i + 1, j) - point(x, i - 1, j), across),
-               behind = cross(point(x, i + 1, j + out) - point(x, i - 1, j + out), across);
+  const Vec2 across = vector_at(x, i, j + 2 * out) - vector_at(x, i, j);
+  const double own = cross(vector_at(x, i + 1, j) - vector_at(x, i - 1, j), across),
+               behind = cross(vector_at(x, i + 1, j + out) - vector_at(x, i - 1, j + out), across);
   if ((own - behind) * own <= (1 - least_ghost_distance) * own * own) return 1;
   return (1 - least_ghost_distance) * own / (own - behind);
 }
@@ -80,9 +74,9 @@ void keep_apart(FieldView x, int j, int out, Curve lines) {
     before = here;
     here = next;
     if (part == 1) continue;
-    const Vec2 own = point(x, i, j);
+    const Vec2 own = vector_at(x, i, j);
     for (int g = 1; g <= Layout::ghosts; ++g)
-      set(x, i, j + g * out, own + part * (point(x, i, j + g * out) - own));
+      set(x, i, j + g * out, own + part * (vector_at(x, i, j + g * out) - own));
   }
   for (int g = 1; lines == Curve::closed && g <= Layout::ghosts; ++g) continue_line(x, j + g * out, lines);
 }

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "common/core/component_major.hpp"
 #include "common/core/failure.hpp"
 #include "common/grid/geometry/quality.hpp"
 #include "common/grid/marching/ghost_points.hpp"
@@ -16,10 +17,6 @@
 namespace fsi::grid {
 
 namespace {
-
-Vec2 point(ConstFieldView x, int i, int j) {
-  return {x(0, i, j), x(1, i, j)};
-}
 
 std::size_t unknowns_of(const HyperbolicGrid& grid) {
   if (grid.points < 5 || grid.lines < 3) {
@@ -100,7 +97,7 @@ void HyperbolicMarch::march(std::span<const double> curve, FieldView x, double t
 std::string HyperbolicMarch::flat_on_wall(ConstFieldView x, double t) const {
   for (std::size_t end = 0; end < 2; ++end) {
     if (closed() || !grid_.walls[end]) continue;
-    const auto at = [&](int k) { return point(x, end == 0 ? k : grid_.points - 1 - k, row_of(0)); };
+    const auto at = [&](int k) { return vector_at(x, end == 0 ? k : grid_.points - 1 - k, row_of(0)); };
     const Vec2 across((*grid_.walls[end])[1], -(*grid_.walls[end])[0]);
     double lowest = 0.1;  // height over way
     Vec2 there = at(0);
@@ -149,7 +146,7 @@ double HyperbolicMarch::longest_step() const {
 /// Mean distance of the points along row j.
 double HyperbolicMarch::mean_distance(ConstFieldView x, int j) const {
   double sum = 0;
-  for (int k = 1; k < grid_.points; ++k) sum += (point(x, k, j) - point(x, k - 1, j)).norm();
+  for (int k = 1; k < grid_.points; ++k) sum += (vector_at(x, k, j) - vector_at(x, k - 1, j)).norm();
   return sum / (grid_.points - 1);
 }
 
@@ -173,7 +170,8 @@ void HyperbolicMarch::measure(ConstFieldView x, int j) {
     int before = k - 1, after = k + 1;
     if (closed() && k == 0) before = n - 1;
     if (!closed()) before = std::max(before, 0), after = std::min(after, n - 1);
-    const Vec2 forward = point(x, after, j) - point(x, k, j), backward = point(x, k, j) - point(x, before, j);
+    const Vec2 forward = vector_at(x, after, j) - vector_at(x, k, j),
+               backward = vector_at(x, k, j) - vector_at(x, before, j);
     LinePoint& here = line_[static_cast<std::size_t>(k)];
     here.tangent = (forward + backward).normalized();
     here.normal = towards * Vec2(-here.tangent[1], here.tangent[0]);
@@ -212,8 +210,8 @@ void HyperbolicMarch::find_concave_places(ConstFieldView x, int j) {
     const auto at = static_cast<std::size_t>(k);
     concave_[at + 1] = 0;
     if (!closed() && (k == 0 || k == n - 1)) continue;
-    const Vec2 here = point(x, k, j), before = point(x, k == 0 ? n - 1 : k - 1, j);
-    const Vec2 turn = (point(x, k + 1, j) - here) - (here - before);
+    const Vec2 here = vector_at(x, k, j), before = vector_at(x, k == 0 ? n - 1 : k - 1, j);
+    const Vec2 turn = (vector_at(x, k + 1, j) - here) - (here - before);
     concave_[at + 1] = whole * turn.dot(line_[at].normal) / (arc_[at] * arc_[at]);
   }
   relax(concave_);
@@ -297,7 +295,7 @@ void HyperbolicMarch::keep_off_walls(ConstFieldView x, int j) {
   for (std::size_t end = 0; end < 2; ++end) {
     if (!grid_.walls[end] || grid_.flat_ends[end]) continue;
     const auto index = [&](std::size_t k) { return end == 0 ? k : line_.size() - 1 - k; };
-    const auto position = [&](std::size_t k) { return point(x, static_cast<int>(index(k)), j); };
+    const auto position = [&](std::size_t k) { return vector_at(x, static_cast<int>(index(k)), j); };
     Vec2 up(-(*grid_.walls[end])[1], (*grid_.walls[end])[0]);
     if (up.dot(position(line_.size() / 2) - position(0)) < 0) up = -up;
     for (std::size_t k = 1; k < line_.size() / 2; ++k) {
@@ -332,7 +330,8 @@ void HyperbolicMarch::fill_rows(ConstFieldView x, int j, double d) {
     row.below = -turn - eps * Mat2::Identity();
     row.above = turn - eps * Mat2::Identity();
     row.diagonal = (1 + 2 * eps) * Mat2::Identity();
-    row.right = step * here.normal + eps * (point(x, k + 1, j) - 2 * point(x, k, j) + point(x, before, j));
+    row.right = step * here.normal +
+                eps * (vector_at(x, k + 1, j) - 2 * vector_at(x, k, j) + vector_at(x, before, j));
   }
 }
 

@@ -13,8 +13,6 @@ namespace fsi::grid {
 
 namespace {
 
-constexpr double rounding = 1e-7;  ///< of positions on the boundary of the background, in cells
-
 /// Smallest box around points.
 struct Box {
   double x_a, x_b, y_a, y_b;

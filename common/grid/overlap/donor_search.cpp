@@ -5,16 +5,11 @@
 #include <cmath>
 #include <utility>
 
+#include "common/core/component_major.hpp"
+
 namespace fsi::grid {
 
 namespace {
-
-/// Room for round-off at the ends of a grid, in points.
-constexpr double rounding = 1e-7;
-
-Vec2 point(ConstFieldView x, int i, int j) {
-  return {x(0, i, j), x(1, i, j)};
-}
 
 /// Twice the area of the triangle a, b, p: positive where p lies to the left of a -> b.
 double left_of(const Vec2& a, const Vec2& b, const Vec2& p) {
@@ -43,7 +38,7 @@ struct MapAt {
     for (std::size_t m = 0; m < static_cast<std::size_t>(at.width); ++m) {
       Vec2 row = Vec2::Zero(), row_r = Vec2::Zero();
       for (std::size_t l = 0; l < static_cast<std::size_t>(at.width); ++l) {
-        const Vec2 node = point(grid, at.i + static_cast<int>(l), at.j + static_cast<int>(m));
+        const Vec2 node = vector_at(grid, at.i + static_cast<int>(l), at.j + static_cast<int>(m));
         row += along.value[l] * node;
         row_r += along.slope[l] * node;
       }
@@ -108,7 +103,8 @@ std::optional<CellPosition> CellMap::find(const Vec2& position, int i, int j) co
   j = std::clamp(j, 0, cells2 - 1);
   int i_before = -1, j_before = -1;
   for (int step = 0; step < 2 * (cells1 + cells2); ++step) {
-    const Vec2 a = point(x, i, j), b = point(x, i + 1, j), c = point(x, i, j + 1), d = point(x, i + 1, j + 1);
+    const Vec2 a = vector_at(x, i, j), b = vector_at(x, i + 1, j), c = vector_at(x, i, j + 1),
+               d = vector_at(x, i + 1, j + 1);
     const double below = left_of(a, b, position), above = left_of(c, d, position);
     const double before = -left_of(a, c, position), after = -left_of(b, d, position);
     int i_next = i + (before < 0 ? -1 : after >= 0 ? 1 : 0);

@@ -11,6 +11,9 @@
 
 namespace fsi::grid {
 
+/// Room for the rounding of positions at the edges of cells and the ends of grids, in cells.
+inline constexpr double rounding = 1e-7;
+
 /// Cell between the points (i, j) and (i + 1, j + 1), and about where in it (0 .. 1).
 struct CellPosition {
   int i = 0, j = 0;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double amplitude = 1e-6;  // its square is below the truncation error
 constexpr double wave_number = 6;
-constexpr double rho = 1.3;
+constexpr double density = 1.3;
 constexpr Tensor2 stretched = {1.2, 0.0, 0.0, 0.95};
 
 /// Wave along x with displacement along `axis` (0: p, 1: s) on top of a homogeneous stretch. Its speed
@@ -25,7 +25,7 @@ StateFunction plane_wave(const L& law, int axis) {
   (axis == 0 ? less.a11 : less.a21) -= d;
   const double slope = axis == 0 ? (law.P(more).a11 - law.P(less).a11) / (2 * d)
                                  : (law.P(more).a12 - law.P(less).a12) / (2 * d);
-  const double c = std::sqrt(slope / rho);
+  const double c = std::sqrt(slope / density);
   return [=](double x, double y, double t) {
     const double phase = wave_number * (x - c * t), du = amplitude * wave_number * std::cos(phase);
     SolidState s;
@@ -49,7 +49,7 @@ Errors run(int axis, int cells) {
     boundary.condition = Dirichlet::condition;
     boundary.state = exact;
   }
-  SolidSolver<L> solver(unit_square(cells), law, {.rho = rho}, boundaries, 0);
+  SolidSolver<L> solver(unit_square(cells), law, {.rho = density}, boundaries, 0);
   solver.assign_initial_conditions(exact);
   double t = 0;
   advance_to(solver, t, t_end);

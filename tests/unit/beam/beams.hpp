@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -15,6 +16,9 @@
 namespace fsi::beam::testing {
 
 using std::numbers::pi;
+
+inline constexpr std::array cantilever{End::clamped, End::free}, hinged{End::pinned, End::pinned},
+    guided{End::guided, End::guided}, loose{End::free, End::free};
 
 /// Notes in the test's XML what docs/results.md shows. @param coarse error with half the resolution, where there is an order
 inline void note(const std::string& what, double error, double coarse = 0) {

@@ -16,9 +16,6 @@ namespace {
 
 using namespace testing;
 
-constexpr std::array cantilever{End::clamped, End::free}, hinged{End::pinned, End::pinned};
-constexpr std::array loose{End::free, End::free};
-
 /// Some state far from rest.
 Eigen::VectorXd bent(const BeamModel& model) {
   Eigen::VectorXd u(model.freedoms());

@@ -17,9 +17,6 @@ namespace {
 
 using namespace testing;
 
-constexpr std::array cantilever{End::clamped, End::free}, guided{End::guided, End::guided};
-constexpr std::array loose{End::free, End::free};
-
 Eigen::VectorXd nothing(const BeamModel& model) {
   return Eigen::VectorXd::Zero(model.freedoms());
 }

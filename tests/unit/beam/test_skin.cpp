@@ -17,7 +17,6 @@ namespace {
 
 using namespace testing;
 
-constexpr std::array cantilever{End::clamped, End::free}, loose{End::free, End::free};
 const Section soft{.EA = 3, .GA = 1, .EI = 0.02, .mass = 0.5, .inertia = 0.01};
 
 /// A slab with rounded ends around the line.

@@ -2,6 +2,7 @@
 /// Gas runs of the tests: grids, solutions and a time loop without coupler.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <numbers>
@@ -13,6 +14,8 @@
 namespace fsi::fluid::test {
 
 inline constexpr double pi = std::numbers::pi;
+
+inline const std::array<Boundary, 4> open_sides{Outflow{}, Outflow{}, Outflow{}, Outflow{}};
 
 /// Rectangle [x_a, x_b] x [y_a, y_b], at rest.
 inline grid::GridDescription rectangle(int n1, int n2, const Vec2& low, const Vec2& high) {

@@ -11,7 +11,7 @@
 namespace fsi::fluid {
 namespace {
 
-const std::array<Boundary, 4> open_sides{Outflow{}, Outflow{}, Outflow{}, Outflow{}};
+using test::open_sides;
 
 /// A pulse that runs in a wind towards the right side of a box of n x n points.
 GasSolver with_a_pulse(int n, const std::array<Boundary, 4>& sides, const Refinement& refine = {}) {
@@ -50,10 +50,10 @@ double largest_defect(GasSolver gas) {
   return largest;
 }
 
-constexpr double round_off = 1e-13;  // of totals of up to 3, some 100 steps
+constexpr double round_off_of_totals = 1e-13;  // of totals of up to 3, some 100 steps
 
 TEST(Budget, OfWavesThatLeaveIsClosedToRoundOff) {
-  EXPECT_LT(largest_defect(with_a_pulse(41, open_sides)), round_off);
+  EXPECT_LT(largest_defect(with_a_pulse(41, open_sides)), round_off_of_totals);
 }
 
 /// The pulse leaves the finest level behind, and passes the sides where they are coarse and where they are fine.
@@ -61,7 +61,8 @@ TEST(Budget, OfLevelsIsClosedToRoundOff) {
   for (const int levels : {2, 3}) {
     const GasSolver gas = with_a_pulse(82, open_sides, {.levels = levels, .threshold = 0.02});
     EXPECT_LT(gas.levels()->owned(0).points(), 82U * 82U / 2);
-    EXPECT_LT(largest_defect(with_a_pulse(82, open_sides, {.levels = levels, .threshold = 0.02})), round_off);
+    EXPECT_LT(largest_defect(with_a_pulse(82, open_sides, {.levels = levels, .threshold = 0.02})),
+              round_off_of_totals);
     EXPECT_LT(largest_defect(beside_a_side(82, {Outflow{}, Outflow{}, SlipWall{}, Symmetry{}},
                                            {.levels = levels, .threshold = 0.02})),
               1e-3);
@@ -71,7 +72,7 @@ TEST(Budget, OfLevelsIsClosedToRoundOff) {
 /// A side that imposes all values, those of a gas at rest here, throws the pulse back.
 TEST(Budget, OfASideThatImposesValuesIsClosedToRoundOff) {
   const Imposed rest{[](double, double, double) { return State{1, 0, 0, 1 / 1.4}; }};
-  EXPECT_LT(largest_defect(with_a_pulse(41, {Outflow{}, rest, Outflow{}, Outflow{}})), round_off);
+  EXPECT_LT(largest_defect(with_a_pulse(41, {Outflow{}, rest, Outflow{}, Outflow{}})), round_off_of_totals);
 }
 
 TEST(Budget, OfMirrorsAndWallsIsClosedToSecondOrder) {

@@ -15,7 +15,7 @@
 namespace fsi::fluid {
 namespace {
 
-constexpr double round_off = 1e-12;  // of sums over some ten thousand points after some hundred steps
+constexpr double round_off_of_sums = 1e-12;  // of sums over some ten thousand points after some hundred steps
 
 grid::GridDescription square(int n, bool periodic) {
   grid::GridDescription grid = test::rectangle(n, n, {-1, -1}, {1, 1});
@@ -60,12 +60,13 @@ TEST_P(Levels, FollowADenseBlobAndLeaveVelocityAndPressureUniform) {
   EXPECT_NE(before, gas.levels()->owned(0)) << "the refined part has not moved";
   const State stream = blob(-1, -1, 0);
   const GasErrors errors = gas.errors([&](double, double, double) { return stream; }, 0);
-  EXPECT_LT(errors.v1, round_off);
-  EXPECT_LT(errors.v2, round_off);
+  EXPECT_LT(errors.v1, round_off_of_sums);
+  EXPECT_LT(errors.v2, round_off_of_sums);
   for (int k = 0; k < gas.grids(); ++k) {
     for (int j = 0; j < gas.grid(k).layout().n2; ++j) {
       for (const grid::Interval& run : gas.valid(k).row(j)) {
-        for (int i = run.begin; i < run.end; ++i) ASSERT_NEAR(gas.state(k)(3, i, j), stream.p, round_off);
+        for (int i = run.begin; i < run.end; ++i)
+          ASSERT_NEAR(gas.state(k)(3, i, j), stream.p, round_off_of_sums);
       }
     }
   }
@@ -81,10 +82,10 @@ TEST_P(Levels, ConserveMassMomentumAndEnergyInAPeriod) {
   const Totals before = gas.totals();
   test::run(gas, 0.4);
   const Totals now = gas.totals();
-  EXPECT_NEAR(now.mass, before.mass, round_off * before.mass);
-  EXPECT_NEAR(now.momentum1, before.momentum1, round_off * before.mass);
-  EXPECT_NEAR(now.momentum2, before.momentum2, round_off * before.mass);
-  EXPECT_NEAR(now.energy, before.energy, round_off * before.energy);
+  EXPECT_NEAR(now.mass, before.mass, round_off_of_sums * before.mass);
+  EXPECT_NEAR(now.momentum1, before.momentum1, round_off_of_sums * before.mass);
+  EXPECT_NEAR(now.momentum2, before.momentum2, round_off_of_sums * before.mass);
+  EXPECT_NEAR(now.energy, before.energy, round_off_of_sums * before.energy);
 }
 
 /// Between two adaptations waves go so far that points deep in the refined part are given up.
@@ -96,9 +97,9 @@ TEST_P(Levels, ConserveWhereManyPointsAreGivenUpAtOnce) {
   const Totals before = gas.totals();
   test::run(gas, 0.2);
   const Totals now = gas.totals();
-  EXPECT_NEAR(now.mass, before.mass, round_off * before.mass);
-  EXPECT_NEAR(now.momentum1, before.momentum1, round_off * before.mass);
-  EXPECT_NEAR(now.energy, before.energy, round_off * before.energy);
+  EXPECT_NEAR(now.mass, before.mass, round_off_of_sums * before.mass);
+  EXPECT_NEAR(now.momentum1, before.momentum1, round_off_of_sums * before.mass);
+  EXPECT_NEAR(now.energy, before.energy, round_off_of_sums * before.energy);
 }
 
 TEST_P(Levels, ConserveMassAndEnergyBetweenMirrors) {
@@ -114,8 +115,8 @@ TEST_P(Levels, ConserveMassAndEnergyBetweenMirrors) {
   const Totals before = gas.totals();
   test::run(gas, 0.4);
   const Totals now = gas.totals();
-  EXPECT_NEAR(now.mass, before.mass, round_off * before.mass);
-  EXPECT_NEAR(now.energy, before.energy, round_off * before.energy);
+  EXPECT_NEAR(now.mass, before.mass, round_off_of_sums * before.mass);
+  EXPECT_NEAR(now.energy, before.energy, round_off_of_sums * before.energy);
   EXPECT_EQ(gas.health().floors, 0U);
 }
 
@@ -176,7 +177,7 @@ TEST_P(Levels, AreShownByCellsThatTileTheRectangle) {
     for (int k = 0; k < gas.grids(); ++k) area += shown_area(gas, k);
     EXPECT_GT(shown_area(gas, 0), 0.1);
     EXPECT_GT(shown_area(gas, 1), 0.1);
-    EXPECT_NEAR(area, 4, round_off);
+    EXPECT_NEAR(area, 4, round_off_of_sums);
   }
 }
 
@@ -259,8 +260,8 @@ TEST_P(Levels, HaveCompleteRimsAfterEveryAdaptation) {
     if (before != gas.levels()->owned(0)) ++adapted;
     for (int l = 1; l < gas.levels()->levels(); ++l) {
       const auto [around, averages] = defects_at_rims(gas, l, options.gamma);
-      EXPECT_LT(around, round_off) << "level " << l << ", step " << step;
-      EXPECT_LT(averages, round_off) << "level " << l << ", step " << step;
+      EXPECT_LT(around, round_off_of_sums) << "level " << l << ", step " << step;
+      EXPECT_LT(averages, round_off_of_sums) << "level " << l << ", step " << step;
     }
   }
   EXPECT_GT(adapted, 5);

@@ -14,7 +14,7 @@
 namespace fsi::fluid {
 namespace {
 
-const std::array<Boundary, 4> open_sides{Outflow{}, Outflow{}, Outflow{}, Outflow{}};
+using test::open_sides;
 
 GasSolver box(const GasOptions& options = {}, const std::array<Boundary, 4>& boundaries = open_sides) {
   return {grid::MovingGrid(test::rectangle(11, 9, {0, 0}, {1, 1}), 0), options, boundaries, 0};

@@ -12,7 +12,7 @@ namespace {
 
 using test::Units;
 
-const StateField shock = [](double x, double y, double) {
+const StateField slanted_shock = [](double x, double y, double) {
   return x + 0.2 * y < -1.5 ? State{2, 1.1, 0.1, 3} : State{1, 0.1, -0.2, 0.7};
 };
 
@@ -40,10 +40,10 @@ TEST_P(GasInUnits, AShockMeetsAMovingBody) {
   const Units units = GetParam();
   for (const double viscosity : {0.0, 0.5}) {
     const GasOptions options{.shock_viscosity = viscosity};
-    GasSolver one = test::around_moving_body(options, Dirichlet{shock}),
-              other = test::around_moving_body(options, Dirichlet{in(units, shock)}, units);
-    one.assign_initial_conditions(shock);
-    other.assign_initial_conditions(in(units, shock));
+    GasSolver one = test::around_moving_body(options, Dirichlet{slanted_shock}),
+              other = test::around_moving_body(options, Dirichlet{in(units, slanted_shock)}, units);
+    one.assign_initial_conditions(slanted_shock);
+    other.assign_initial_conditions(in(units, slanted_shock));
     one.apply_fluid_bcs(0);
     other.apply_fluid_bcs(0);
     double t = 0, time = 0;
@@ -65,8 +65,9 @@ TEST_P(GasInUnits, WallsMirrorsAndOpenSides) {
     scaled.mapping = [wavy, in_units](double r, double s, double t) {
       return wavy.mapping(r, s, t / in_units.time);
     };
-    return test::solver(scaled, {}, {SlipWall{}, Outflow{}, Symmetry{}, FarField{in(in_units, shock)}},
-                        in(in_units, shock));
+    return test::solver(scaled, {},
+                        {SlipWall{}, Outflow{}, Symmetry{}, FarField{in(in_units, slanted_shock)}},
+                        in(in_units, slanted_shock));
   };
   GasSolver one = make({}), other = make(units);
   one.apply_fluid_bcs(0);

@@ -17,7 +17,7 @@
 namespace fsi::grid {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// One wave of length 1 between two walls, its trough concave for a grid above it.
 PlaneCurve wave(double amplitude) {

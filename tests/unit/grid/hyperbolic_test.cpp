@@ -22,7 +22,7 @@
 namespace fsi::grid {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 HyperbolicGrid beam_grid(int points, int lines, Side side, double spacing) {
   return {.name = "beam",

@@ -15,7 +15,7 @@
 namespace fsi::grid {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr int lines = 9;
 
 /// A square background and grids marched from closed curves, connected.

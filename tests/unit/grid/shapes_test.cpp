@@ -19,7 +19,7 @@
 namespace fsi::grid {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Largest difference between slope() and centred differences of position(), relative to the slope.
 double slope_error(const PlaneCurve& curve) {

@@ -12,15 +12,15 @@
 namespace fsi::solid {
 namespace {
 
-constexpr SolidOptions full_dissipation = {.rho = 1.4,
-                                           .limiter = Limiter::minmod,
-                                           .tangential_stress = {.rate = 0.5, .scaled = 0.1},
-                                           .displacement = {.rate = 0.5, .scaled = 0.1},
-                                           .relaxation = {.rate = 0.5, .scaled = 0.1},
-                                           .bulk_diffusion = 0.25};
+constexpr SolidOptions full_damping = {.rho = 1.4,
+                                       .limiter = Limiter::minmod,
+                                       .tangential_stress = {.rate = 0.5, .scaled = 0.1},
+                                       .displacement = {.rate = 0.5, .scaled = 0.1},
+                                       .relaxation = {.rate = 0.5, .scaled = 0.1},
+                                       .bulk_diffusion = 0.25};
 
 template <class L>
-SolidSolver<L> disk_solver(int cells, Boundary rim = {}, const SolidOptions& options = full_dissipation) {
+SolidSolver<L> disk_solver(int cells, Boundary rim = {}, const SolidOptions& options = full_damping) {
   test::DiskGrids disk = test::disk_of(cells, std::move(rim));
   return {std::move(disk.parts), disk.bodies, L{.lambda = 1, .mu = 1}, options, 0};
 }
@@ -94,8 +94,7 @@ TYPED_TEST(Eq36RigidTranslationOfADisk, StaysExactWhereBothGridsEndOnASlipWall) 
                    inside});
   parts.push_back({grid::MovingGrid(grid::marched_from(arch, grid::points_on(arc, points)), 0), sides});
   const grid::BodyFittedGrid body{.name = "arch", .n1 = points, .n2 = lines, .ends = grid::Curve::open};
-  SolidSolver<TypeParam> solver(std::move(parts), {body}, TypeParam{.lambda = 1, .mu = 1}, full_dissipation,
-                                0);
+  SolidSolver<TypeParam> solver(std::move(parts), {body}, TypeParam{.lambda = 1, .mu = 1}, full_damping, 0);
   const StateFunction sliding = [](double, double, double t) {
     return SolidState{.u = Vec2(0.6 * t, 0), .v = Vec2(0.6, 0), .P = {}};
   };

@@ -25,13 +25,13 @@ using Kinds = std::array<Condition, 4>;
 using Solver = SolidSolver<NeoHookean>;
 using MakeSolid = std::function<std::unique_ptr<Solver>()>;
 
-const NeoHookean law{.lambda = 1.1, .mu = 0.7};
-constexpr SolidOptions damped = {.rho = 1.3,
-                                 .limiter = Limiter::minmod,
-                                 .tangential_stress = {.rate = 0.5, .scaled = 0.1},
-                                 .displacement = {.rate = 0.5, .scaled = 0.1},
-                                 .relaxation = {.rate = 0.5, .scaled = 0.1},
-                                 .bulk_diffusion = 0.25};
+const NeoHookean soft_law{.lambda = 1.1, .mu = 0.7};
+constexpr SolidOptions fully_damped = {.rho = 1.3,
+                                       .limiter = Limiter::minmod,
+                                       .tangential_stress = {.rate = 0.5, .scaled = 0.1},
+                                       .displacement = {.rate = 0.5, .scaled = 0.1},
+                                       .relaxation = {.rate = 0.5, .scaled = 0.1},
+                                       .bulk_diffusion = 0.25};
 
 /// Every point another motion.
 void shake(Solver& solver, double size) {
@@ -45,7 +45,8 @@ void shake(Solver& solver, double size) {
 }
 
 /// A skewed block of other than as many points one way as the other.
-std::unique_ptr<Solver> block(const Kinds& kinds, int n1, int n2, const SolidOptions& options = damped) {
+std::unique_ptr<Solver> block(const Kinds& kinds, int n1, int n2,
+                              const SolidOptions& options = fully_damped) {
   Boundaries boundaries;
   for (std::size_t side = 0; side < 4; ++side) {
     boundaries[side].condition = kinds[side];
@@ -63,7 +64,8 @@ std::unique_ptr<Solver> block(const Kinds& kinds, int n1, int n2, const SolidOpt
   grid.periodic2 = kinds[2] == Periodic::condition;
   if (grid.periodic1 || grid.periodic2)
     grid.mapping = [](double r, double s, double) -> Vec2 { return {r, s}; };
-  auto solver = std::make_unique<Solver>(grid::MovingGrid(std::move(grid), 0), law, options, boundaries, 0);
+  auto solver =
+      std::make_unique<Solver>(grid::MovingGrid(std::move(grid), 0), soft_law, options, boundaries, 0);
   shake(*solver, 0.02);
   return solver;
 }
@@ -72,7 +74,7 @@ std::unique_ptr<Solver> disk(Condition rim_kind) {
   Boundary rim;
   rim.condition = rim_kind;
   test::DiskGrids grids = test::disk_of(20, std::move(rim));
-  auto solver = std::make_unique<Solver>(std::move(grids.parts), grids.bodies, law, damped, 0);
+  auto solver = std::make_unique<Solver>(std::move(grids.parts), grids.bodies, soft_law, fully_damped, 0);
   shake(*solver, 0.01);
   return solver;
 }

@@ -12,10 +12,10 @@
 namespace fsi::solid::test {
 namespace {
 
-constexpr SolidOptions small_dissipation = {.rho = 1,
-                                            .tangential_stress = {.scaled = 0.1},
-                                            .displacement = {.scaled = 0.1},
-                                            .relaxation = {.scaled = 0.5}};
+constexpr SolidOptions little_dissipation = {.rho = 1,
+                                             .tangential_stress = {.scaled = 0.1},
+                                             .displacement = {.scaled = 0.1},
+                                             .relaxation = {.scaled = 0.5}};
 
 Vec2 turned(double angle, double x, double y) {
   return {std::cos(angle) * x - std::sin(angle) * y, std::sin(angle) * x + std::cos(angle) * y};
@@ -29,7 +29,7 @@ Errors rotate(int cells, double t_end) {
     return SolidState{.u = now - Vec2(x, y), .v = Vec2(-now.y(), now.x()), .P = {}};
   };
   Boundaries all_free;
-  SolidSolver<L> solver(skewed_grid(cells), L{.lambda = 1, .mu = 1}, small_dissipation, all_free, 0);
+  SolidSolver<L> solver(skewed_grid(cells), L{.lambda = 1, .mu = 1}, little_dissipation, all_free, 0);
   solver.set_body_force([](double x, double y, double t) -> Vec2 { return -turned(t, x, y); });
   solver.assign_initial_conditions(exact);
   double t = 0;
@@ -64,7 +64,7 @@ Drift spin(int cells, double turns) {
                                                      return {r - 0.5, s - 0.5};
                                                    }},
                                                   0),
-                                 NeoHookean{.lambda = 1, .mu = 1}, small_dissipation, all_free, 0);
+                                 NeoHookean{.lambda = 1, .mu = 1}, little_dissipation, all_free, 0);
   solver.assign_initial_conditions(
       [](double, double, double) -> Vec2 {
         return {0, 0};

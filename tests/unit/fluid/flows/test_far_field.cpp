@@ -84,16 +84,16 @@ struct Tube {
   double disturbance(int i) const { return std::fabs(gas.state()(3, i, 2) - 1); }
 };
 
-const StateField stream = [](double, double, double) { return State{1, 0.4, 0, 1}; };
+const StateField subsonic = [](double, double, double) { return State{1, 0.4, 0, 1}; };
 
 TEST(FarField, LetsAWaveOutWithoutAnEcho) {
-  Tube tube(FarField{stream});
+  Tube tube(FarField{subsonic});
   test::run(tube.gas, 1.05);  // it left at 0.8; what comes back is twice as fast
   for (int i = 0; i < 201; ++i) EXPECT_LT(tube.disturbance(i), 1e-6);  // 5e-5 of the wave
 }
 
 TEST(FarField, ShowsTheWaveOnTheSideThatAnInflowHides) {
-  Tube tube(FarField{stream}), hidden(Imposed{stream});
+  Tube tube(FarField{subsonic}), hidden(Imposed{subsonic});
   const double crest = 0.4 / (std::sqrt(gamma) - 0.4);  // the time it takes to the side
   test::run(tube.gas, crest);
   test::run(hidden.gas, crest);

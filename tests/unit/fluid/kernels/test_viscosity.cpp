@@ -12,7 +12,7 @@ namespace {
 constexpr int n1 = 17, n2 = 15;
 constexpr double dt = 1e-3, bend = 0.3, turn = 0.4;
 
-const std::array<Boundary, 4> open_sides{Outflow{}, Outflow{}, Outflow{}, Outflow{}};
+using test::open_sides;
 
 /// A Cartesian grid, and a turned and sheared one.
 grid::GridDescription parallelogram(const Vec2& along_r1, const Vec2& along_r2) {

@@ -22,12 +22,12 @@ grid::GridDescription square(int n1, int n2, std::array<bool, 2> periodic) {
   return grid;
 }
 
-GasOptions adaptive(int levels, double viscosity = 0) {
+GasOptions adaptive_gas(int levels, double viscosity = 0) {
   return {.shock_viscosity = viscosity, .refine = {.levels = levels, .buffer = 1, .every = 3}};
 }
 
 /// Dense gas under pressure that a wind carries through the sides.
-State blast(double x, double y, double /*t*/) {
+State small_blast(double x, double y, double /*t*/) {
   const bool inside = std::hypot(x - 0.5, y - 0.6) < 0.25;
   return {.rho = inside ? 3.0 : 1.0, .v1 = 0.8, .v2 = 0.5, .p = inside ? 20.0 : 1.0};
 }
@@ -43,8 +43,8 @@ TEST(LevelsOnRanks, ABlastThroughThePeriods) {
       const MakeGas make = [=] {
         const Boundary along = periodic[0] ? Boundary{Periodic{}} : Boundary{SlipWall{}},
                        across = periodic[1] ? Boundary{Periodic{}} : Boundary{Outflow{}};
-        return test::solver(square(91, 82, periodic), adaptive(levels), {along, along, across, across},
-                            blast);
+        return test::solver(square(91, 82, periodic), adaptive_gas(levels), {along, along, across, across},
+                            small_blast);
       };
       test::expect_same_on_ranks(make, 24);
     }
@@ -53,8 +53,8 @@ TEST(LevelsOnRanks, ABlastThroughThePeriods) {
 
 TEST(LevelsOnRanks, MirrorsOpenSidesAndShockViscosity) {
   const MakeGas make = [] {
-    GasSolver gas = test::solver(square(82, 109, {}), adaptive(3, 0.5),
-                                 {Symmetry{}, FarField{blast}, SlipWall{}, Symmetry{}}, blast);
+    GasSolver gas = test::solver(square(82, 109, {}), adaptive_gas(3, 0.5),
+                                 {Symmetry{}, FarField{small_blast}, SlipWall{}, Symmetry{}}, small_blast);
     gas.note_edges();
     return gas;
   };
@@ -64,7 +64,7 @@ TEST(LevelsOnRanks, MirrorsOpenSidesAndShockViscosity) {
 TEST(LevelsOnRanks, AMovingBodyAndAShock) {
   for (const int levels : {2, 3}) {
     const MakeGas make = [levels] {
-      GasSolver gas = test::around_moving_body(adaptive(levels), Dirichlet{shock}, {}, 109);
+      GasSolver gas = test::around_moving_body(adaptive_gas(levels), Dirichlet{shock}, {}, 109);
       gas.assign_initial_conditions(shock);
       return gas;
     };
@@ -80,7 +80,7 @@ TEST(LevelsOnRanks, RunsThatEndBesideRowsOfOthers) {
     return State{.rho = std::exp(3 * a), .v1 = 0.3 + 3 * b, .v2 = -0.2 + 3 * a * b, .p = std::exp(3 * b)};
   };
   const MakeGas make = [&] {
-    GasOptions options = adaptive(2);
+    GasOptions options = adaptive_gas(2);
     options.limiter = Limiter::none;
     options.refine.threshold = 0.5;
     options.refine.buffer = 0;
@@ -105,7 +105,7 @@ State wild(double x, double y, double /*t*/) {
 /// Gas that second order leaves without density, at rims too.
 TEST(LevelsOnRanks, PositiveFluxesAtRims) {
   const MakeGas make = [] {
-    GasOptions options = adaptive(2);
+    GasOptions options = adaptive_gas(2);
     options.riemann = Riemann::hllc;
     options.refine.threshold = 0.5;
     options.refine.buffer = 0;
@@ -145,7 +145,7 @@ class CountingRanks final : public Ranks {
 /// Four grids: one word about all of them. Averages of two levels come together; then halos; then each rim.
 TEST(LevelsOnRanks, WaitOnceForAllGrids) {
   fsi::test::on_ranks(2, [&](const std::shared_ptr<Ranks>& mine) {
-    GasOptions options = adaptive(3);
+    GasOptions options = adaptive_gas(3);
     options.refine.every = 100;
     GasSolver gas = test::around_moving_body(options, Dirichlet{shock}, {}, 109);
     gas.assign_initial_conditions(shock);
@@ -170,8 +170,8 @@ TEST(LevelsOnRanks, WaitOnceForAllGrids) {
 
 TEST(LevelsOnRanks, EveryLevelIsSharedOut) {
   fsi::test::on_ranks(4, [&](const std::shared_ptr<Ranks>& mine) {
-    GasSolver gas =
-        test::solver(square(163, 163, {}), adaptive(3), {Outflow{}, Outflow{}, Outflow{}, Outflow{}}, blast);
+    GasSolver gas = test::solver(square(163, 163, {}), adaptive_gas(3),
+                                 {Outflow{}, Outflow{}, Outflow{}, Outflow{}}, small_blast);
     gas.share(mine, {});
     for (int k = 0; k < gas.grids(); ++k) {
       const auto [first, end] = gas.shared().rows(k).own;
@@ -188,7 +188,7 @@ TEST(LevelsOnRanks, EveryLevelIsSharedOut) {
 TEST(LevelsAroundABody, HaveNoValuesButThoseOfTheGas) {
   const StateField rest = [](double, double, double) { return State{1, 0, 0, 1}; };
   for (const int levels : {2, 3}) {
-    GasOptions options = adaptive(levels);
+    GasOptions options = adaptive_gas(levels);
     options.refine.threshold = 0.9;  // levels are as far apart as they may be
     GasSolver gas = test::around_moving_body(options, FarField{rest}, {}, 145);
     gas.assign_initial_conditions(rest);

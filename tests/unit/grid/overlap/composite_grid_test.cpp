@@ -16,7 +16,7 @@
 namespace fsi::grid {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// A body-fitted grid with its description.
 struct Strip {

@@ -14,7 +14,7 @@
 namespace fsi::grid {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// A closed body that wanders, turns and deforms at random, with a grid marched from it.
 class Wanderer {
