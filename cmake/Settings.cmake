@@ -10,7 +10,7 @@ if(NOT CMAKE_BUILD_TYPE)
   set(CMAKE_BUILD_TYPE Release CACHE STRING "Release, Debug or RelWithDebInfo" FORCE)
 endif()
 
-# -O3 pays in the kernels alone (fsi_library's KERNELS), which come after these flags; elsewhere it makes compilations longer.
+# Kernels (fsi_library's KERNELS) add -O3, which comes after these flags.
 set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG")
 set(CMAKE_C_FLAGS_RELEASE "-O2 -DNDEBUG")
 
@@ -28,6 +28,7 @@ else()
   set(precompiled ON)
 endif()
 option(FSI_PRECOMPILED "Parse the headers most sources begin with once, before all sources" ${precompiled})
+option(FSI_TOGETHER "Compile the sources of a library a few at a time, but for kernels" ON)
 
 # The kernels need -fno-math-errno -fno-trapping-math to vectorise; never -ffast-math.
 # Contraction is pinned so that vector bodies and their tails round alike.

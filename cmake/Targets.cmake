@@ -1,22 +1,31 @@
-# fsi_library(name [TOGETHER] SOURCES ... KERNELS ... DEPENDS ...)  a static library seen from the repository root: #include
+# fsi_library(name SOURCES ... KERNELS ... DEPENDS ...)  a static library seen from the repository root: #include
 #   "common/core/field.hpp"; KERNELS are the sources with the loops over all points, compiled with -O3
-#   the target `kernels` compiles all of these and nothing else; TOGETHER: fsi_together, below
-# fsi_program(name [TOGETHER] SOURCES ... DEPENDS ...)     an executable in <build>/bin
+#   the target `kernels` compiles all of these and nothing else
+# fsi_program(name SOURCES ... DEPENDS ...)     an executable in <build>/bin
 #   the target `programs` builds all that a run may need, and no tests
-# fsi_test(name [TOGETHER] LABEL unit SOURCES ... DEPENDS ...)  a GoogleTest executable; every TEST becomes one CTest test
+# fsi_test(name LABEL unit SOURCES ... DEPENDS ...)  a GoogleTest executable; every TEST becomes one CTest test
 #   the target `tests_<label>` builds all of one label
 
 # Most of the time of a compilation goes into the headers of the standard library, fmt, Eigen and GoogleTest, so they are
-# parsed once: fsi_precompiled for all sources, fsi_precompiled_tests for those of tests.
+# parsed once: fsi_precompiled for all sources, fsi_precompiled_tests for those of tests, fsi_precompiled_kernels for kernels,
+# since g++ takes the optimisation that precompiled headers were compiled with.
 function(fsi_precompiled name)
   file(CONFIGURE OUTPUT ${name}.cpp CONTENT "")
   add_library(${name} OBJECT ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp)
   target_link_libraries(${name} PRIVATE fsi_settings ${ARGN})
 endfunction()
 
+# -O3 pays in the loops over all points alone; elsewhere it makes compilations longer.
+function(fsi_kernel_options name)
+  target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O3>)
+endfunction()
+
 if(FSI_PRECOMPILED)
   fsi_precompiled(fsi_precompiled)
   target_precompile_headers(fsi_precompiled PRIVATE ${PROJECT_SOURCE_DIR}/cmake/precompiled.hpp)
+  fsi_precompiled(fsi_precompiled_kernels)
+  fsi_kernel_options(fsi_precompiled_kernels)
+  target_precompile_headers(fsi_precompiled_kernels PRIVATE ${PROJECT_SOURCE_DIR}/cmake/precompiled.hpp)
   if(BUILD_TESTING)
     find_package(GTest REQUIRED)
     fsi_precompiled(fsi_precompiled_tests GTest::gtest)
@@ -32,11 +41,11 @@ endfunction()
 
 add_custom_target(kernels)
 
-# Sources compiled together, a few at a time: what their templates have in common is then made once. Not those of the schemes:
-# what is inlined from another source may be rounded otherwise (-ffp-contract). Their anonymous namespaces become one: a name
-# that two sources of a library use for different things does not compile.
+# Sources compiled together, a few at a time: what their templates have in common is then made once, which is half of their
+# time and more. Not kernels: what is inlined from another source may be rounded otherwise (-ffp-contract). Their anonymous
+# namespaces become one: a name that two sources of a library use for different things does not compile.
 function(fsi_together name)
-  if(FSI_PRECOMPILED)
+  if(FSI_TOGETHER)
     set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 13)
     # It warns of types of anonymous namespaces in included files, which the sources are here.
     target_compile_options(${name} PRIVATE $<$<COMPILE_LANGUAGE:CXX>:-Wno-subobject-linkage>)
@@ -52,12 +61,12 @@ function(fsi_false_array_bounds name)
 endfunction()
 
 function(fsi_library name)
-  cmake_parse_arguments(ARG "TOGETHER" "" "SOURCES;KERNELS;DEPENDS" ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;KERNELS;DEPENDS" ${ARGN})
   if(ARG_SOURCES OR ARG_KERNELS)
     if(ARG_KERNELS)
       add_library(${name}_kernels OBJECT ${ARG_KERNELS})
-      # Without precompiled headers: g++ takes the optimisation that they were compiled with, and -O3 would be lost.
-      set_property(SOURCE ${ARG_KERNELS} APPEND PROPERTY COMPILE_OPTIONS $<$<CONFIG:Release>:-O3>)
+      fsi_kernel_options(${name}_kernels)
+      fsi_precompile(${name}_kernels fsi_precompiled_kernels)
       target_include_directories(${name}_kernels PRIVATE ${PROJECT_SOURCE_DIR})
       target_link_libraries(${name}_kernels PRIVATE fsi_settings ${ARG_DEPENDS})
       add_dependencies(kernels ${name}_kernels)
@@ -65,9 +74,7 @@ function(fsi_library name)
     endif()
     add_library(${name} STATIC ${ARG_SOURCES})
     set_target_properties(${name} PROPERTIES LINKER_LANGUAGE CXX)
-    if(ARG_TOGETHER)
-      fsi_together(${name})
-    endif()
+    fsi_together(${name})
     target_include_directories(${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
     target_link_libraries(${name} PUBLIC fsi_settings ${ARG_DEPENDS})
     fsi_precompile(${name} fsi_precompiled)
@@ -81,7 +88,7 @@ endfunction()
 add_custom_target(programs)
 
 function(fsi_program name)
-  cmake_parse_arguments(ARG "TOGETHER" "PRECOMPILED" "SOURCES;DEPENDS" ${ARGN})
+  cmake_parse_arguments(ARG "" "PRECOMPILED" "SOURCES;DEPENDS" ${ARGN})
   if(NOT ARG_PRECOMPILED)
     set(ARG_PRECOMPILED fsi_precompiled)
   endif()
@@ -89,9 +96,7 @@ function(fsi_program name)
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR})
   target_link_libraries(${name} PRIVATE fsi_settings ${ARG_DEPENDS})
   fsi_precompile(${name} ${ARG_PRECOMPILED})
-  if(ARG_TOGETHER)
-    fsi_together(${name})
-  endif()
+  fsi_together(${name})
   add_dependencies(${name} fsi_build_info)
   file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
   if(NOT folder MATCHES "^(tests|bench)")
@@ -111,15 +116,12 @@ function(fsi_test name)
   if(NOT BUILD_TESTING)
     return()
   endif()
-  cmake_parse_arguments(ARG "TOGETHER" "LABEL" "SOURCES;DEPENDS" ${ARGN})
+  cmake_parse_arguments(ARG "" "LABEL" "SOURCES;DEPENDS" ${ARGN})
   find_package(GTest REQUIRED)
   include(GoogleTest)
   fsi_program(${name} SOURCES ${ARG_SOURCES} DEPENDS ${ARG_DEPENDS} GTest::gtest_main PRECOMPILED fsi_precompiled_tests)
-  if(ARG_TOGETHER)
-    fsi_together(${name})
-    # A local name may be that of something in another test.
-    set_target_properties(${name} PROPERTIES UNITY_BUILD_CODE_BEFORE_INCLUDE "#pragma GCC diagnostic ignored \"-Wshadow\"")
-  endif()
+  # A local name may be that of something in another test.
+  set_target_properties(${name} PROPERTIES UNITY_BUILD_CODE_BEFORE_INCLUDE "#pragma GCC diagnostic ignored \"-Wshadow\"")
   add_dependencies(tests_${ARG_LABEL} ${name})
   gtest_discover_tests(${name} PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${fsi_watchdog_s} DISCOVERY_TIMEOUT 600)
 endfunction()

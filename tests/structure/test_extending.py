@@ -213,7 +213,8 @@ class Extending(unittest.TestCase):
         """{file: command that compiles it}"""
         build = self.root / "build"
         cmake = subprocess.run(["cmake", "-S", self.root, "-B", build, "-G", "Ninja", "-D", "BUILD_TESTING=OFF", "-D", "FSI_BENCH=OFF",
-                                "-D", "FSI_PRECOMPILED=OFF", "-D", "CMAKE_BUILD_TYPE=Debug"], capture_output=True, text=True, check=False)
+                                "-D", "FSI_PRECOMPILED=OFF", "-D", "FSI_TOGETHER=OFF", "-D", "CMAKE_BUILD_TYPE=Debug"],
+                               capture_output=True, text=True, check=False)
         self.assertEqual(cmake.returncode, 0, cmake.stderr)
         return {entry["file"]: entry for entry in json.loads((build / "compile_commands.json").read_text(encoding="utf-8"))}
 
