@@ -1,16 +1,16 @@
 #!/usr/bin/python3
-"""Does the suite pass every time? Usage: tests/again/run.py [--times N] [--beside N] [--hogs N] [--go-on]
+"""Does the suite pass every time? Usage: tests/again/run.py [--times N] [--beside N] [--hogs N] [--show]
 
 Runs `./launch/fsi test` N times in a row (default: 10), then --beside times (default: 3) beside --hogs processes (default: 4) that
-do nothing but keep a core each busy. Prints a line for each. By hand, for it takes hours; docs/record_results.py "The suite again
-and again" "The suite beside busy processes" puts the tables into docs/results.md. What a suite with failures printed stays in
-build/again/NUMBER.log. --go-on counts the suites that it has run before, whole, of the same sources: all of them, those with failures
-too, as build/again/suites.json tells. Exit 1 where a test failed.
+do nothing but keep a core each busy, and prints a line for each. By hand, for it takes hours. Every suite that came to its end is
+written down in docs/suites.json, those with failures too, with its commit and the processor; so days on several machines add up.
+--show runs none and prints the last ones there, N and --beside of them: docs/record_results.py "The suite again and again" "The suite
+beside busy processes" puts these tables into docs/results.md. What a suite with failures printed stays in build/again/BEGAN.log.
+Exit 1 where a test failed, or fewer than so many were run.
 """
 
 import argparse
 import contextlib
-import hashlib
 import json
 import os
 import re
@@ -23,8 +23,8 @@ ROOT = Path(__file__).resolve().parents[2]
 FAILED = re.compile(r"^\s*\d+ - (\S+) \(", re.MULTILINE)
 BUSY = "while True: pass"
 LOGS = ROOT / "build" / "again"
-KEPT = LOGS / "suites.json"
-WORDS = ("docs", "*.md")    # no source of what is tested
+KEPT = ROOT / "docs" / "suites.json"
+NO_SOURCES = (":!docs", ":!*.md")   # of what is tested
 
 
 @contextlib.contextmanager
@@ -51,39 +51,64 @@ def suite(log):
     return time.monotonic() - start, passed.group() if passed else f"exit code {done.returncode}: {done.stderr.strip()[-200:]}", FAILED.findall(failed)
 
 
-def sources():
-    """What tells the tested sources from others."""
+def commit():
+    """The commit of what is tested, with + where the sources are not quite those."""
     def git(*words):
-        return subprocess.run(["git", *words, "--", ".", *(f":!{one}" for one in WORDS)], cwd=ROOT, capture_output=True, text=True, check=True).stdout
-    return hashlib.sha256((git("ls-files", "-s") + git("diff", "HEAD")).encode()).hexdigest()
+        return subprocess.run(["git", *words], cwd=ROOT, capture_output=True, text=True, check=True).stdout.strip()
+    return git("rev-parse", "--short=12", "HEAD") + ("+" if git("status", "--porcelain", "--", ".", *NO_SOURCES) else "")
 
 
-def kept(of):
-    """The suites that were run of these sources."""
-    with contextlib.suppress(OSError, ValueError):
-        found = json.loads(KEPT.read_text(encoding="utf-8"))
-        return found["suites"] if found["sources"] == of else []
-    return []
+def processor():
+    found = re.search(r"^model name\s*:\s*(.+)$", Path("/proc/cpuinfo").read_text(encoding="utf-8"), re.MULTILINE)
+    return f"{os.cpu_count()} of {found.group(1).strip() if found else 'unknown'}"
 
 
-def keep(of, suites):
-    LOGS.mkdir(parents=True, exist_ok=True)
-    new = KEPT.with_suffix(".part")
-    new.write_text(json.dumps({"sources": of, "suites": suites}, indent=1), encoding="utf-8")
-    new.replace(KEPT)
+def written_down(path):
+    """The suites that were run before, in their order."""
+    return json.loads(path.read_text(encoding="utf-8")) if path.is_file() else []
+
+
+def write_down(path, one):
+    suites = [*written_down(path), one]
+    new = path.with_suffix(".part")
+    new.write_text("[\n" + ",\n".join(json.dumps(each) for each in suites) + "\n]\n", encoding="utf-8")
+    new.replace(path)
+
+
+def last(suites, busy, count):
+    """The newest `count` of the suites that were run beside so many busy processes."""
+    found = [one for one in suites if one["hogs"] == busy]
+    return found[max(0, len(found) - count):]
 
 
 def row(number, one):
     beside = f"{one['hogs']} busy processes" if one["hogs"] else "-"
-    return f"| {number} | {beside} | {one['began']} | {one['seconds']:.0f} | {one['passed']} | {', '.join(one['failed']) or '-'} |"
+    return (f"| {number} | {beside} | {one['began']} | {one['commit']} | {one['processor']} | {one['seconds']:.0f} | {one['passed']} | "
+            f"{', '.join(one['failed']) or '-'} |")
 
 
-def run(busy, log):
+def run(busy):
     """One suite and how it went."""
-    began = time.strftime("%Y-%m-%d %H:%M")
+    began, of = time.strftime("%Y-%m-%d %H:%M"), commit()
     with hogs(busy):
-        seconds, passed, failed = suite(log)
-    return {"hogs": busy, "began": began, "seconds": seconds, "passed": passed, "failed": failed}
+        seconds, passed, failed = suite(LOGS / f"{began.replace(' ', '_')}.log")
+    return {"hogs": busy, "began": began, "commit": of, "processor": processor(), "seconds": round(seconds), "passed": passed, "failed": failed}
+
+
+def flawless(one):
+    return one["passed"].startswith("100%") and not one["failed"]
+
+
+def suites(chosen):
+    """Those that are asked for, one after the other: run now, or as they were written down."""
+    for busy, count in ((0, chosen.times), (chosen.hogs, chosen.beside)):
+        if chosen.show:
+            yield from last(written_down(KEPT), busy, count)
+            continue
+        for _ in range(count):
+            one = run(busy)
+            write_down(KEPT, one)
+            yield one
 
 
 def main():
@@ -91,25 +116,14 @@ def main():
     arguments.add_argument("--times", type=int, default=10)
     arguments.add_argument("--beside", type=int, default=3)
     arguments.add_argument("--hogs", type=int, default=4)
-    arguments.add_argument("--go-on", action="store_true")
+    arguments.add_argument("--show", action="store_true")
     chosen = arguments.parse_args()
-    of = sources()
-    former = kept(of) if chosen.go_on else []
+    print("| | beside it | began | commit | processors | seconds | tests | failed |\n|---|---|---|---|---|---|---|---|", flush=True)
     told = []
-    print(f"{os.cpu_count()} processors\n\n| | beside it | began | seconds | tests | failed |\n|---|---|---|---|---|---|", flush=True)
-    for busy in [0] * chosen.times + [chosen.hogs] * chosen.beside:
-        one = next((old for old in former if old["hogs"] == busy), None)
-        if one:
-            former.remove(one)
-        else:
-            one = run(busy, LOGS / f"{len(told) + 1}.log")
-            keep(of, [*kept(of), one])
+    for one in suites(chosen):
         told.append(one)
-        line = row(len(told), one)
-        print(line, flush=True)
-        if not sys.stdout.isatty():  # who reads the table later wants to know how far it is
-            print(line, file=sys.stderr, flush=True)
-    return 0 if all(one["passed"].startswith("100%") and not one["failed"] for one in told) else 1
+        print(row(len(told), one), flush=True)
+    return 0 if len(told) == chosen.times + chosen.beside and all(map(flawless, told)) else 1
 
 
 if __name__ == "__main__":
