@@ -16,6 +16,7 @@ from pathlib import Path
 
 from fsi_launch import case as cases, paths
 from fsi_launch.failure import DONE, EXPECTATION_MISSED, UserMistake
+from fsi_launch.living.supervise import leashed
 from fsi_launch.run import needed
 from fsi_launch.results.summary import aligned, value_at
 
@@ -97,7 +98,7 @@ def _finished(trial):
 def _start(trial, options):
     command = [str(paths.ROOT / "launch" / "fsi"), "run", options.case, "--no-progress", "--overwrite", "--out", str(trial.directory)]
     command += [f"--set={override}" for override in _overrides(trial, options)] + [f"--solid={law}" for law in options.laws]
-    return subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
+    return subprocess.Popen(leashed(command), stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
                             env=os.environ | {"FSI_BIN": str(paths.BIN)})
 
 

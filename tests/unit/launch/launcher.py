@@ -1,5 +1,8 @@
 """Makes the launcher's modules importable, and gives tests a folder of their own and programs that wait for each other."""
 
+import os
+import select
+import signal
 import sys
 import tempfile
 import unittest
@@ -24,6 +27,14 @@ def rest():
     while True:
         time.sleep(1)
 """
+
+
+def ended(pidfd):
+    """Waits until a process has ended, and closes what it is known by."""
+    signal.alarm(600)   # a watchdog: it would go on for ever
+    select.select([pidfd], [], [])
+    signal.alarm(0)
+    os.close(pidfd)
 
 
 class InScratch(unittest.TestCase):

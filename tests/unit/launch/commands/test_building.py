@@ -4,13 +4,14 @@ called."""
 
 import os
 import shutil
+import signal
 import subprocess
 import sys
 import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
-from launcher import InScratch, ROOT  # noqa: E402
+from launcher import InScratch, ROOT, ended  # noqa: E402
 
 CMAKE = """#!/bin/bash
 echo "$*" >>"$CALLS"
@@ -21,8 +22,13 @@ printf 'CMAKE_HOME_DIRECTORY:INTERNAL=%s\\nFSI_MARCH:STRING=%s\\n' "$PWD" "$marc
 if [[ $march == nonsense ]]; then echo "Error: nonsense"; exit 1; fi
 printf 'build bin/%s: LINK\\n' fsi_case fsi_start fluid_solver coupler solid_solver_neo_hookean reference_piston >"$build/build.ninja"
 """
+# Builds for ever where it is told, by $BUILDING, whom to tell its pid.
 NINJA = """#!/bin/bash
 echo "ninja ${*:5}" >>"$CALLS"
+if [[ -n ${BUILDING:-} ]]; then
+  echo $$ >"$BUILDING"
+  exec sleep 1000000
+fi
 """
 # Every package is there, but those in $MISSING.
 DPKG_QUERY = """#!/bin/bash
@@ -60,11 +66,14 @@ class Building(InScratch):
             (self.tools / name).chmod(0o755)
         self.calls = self.folder / "calls"
 
+    def environment(self):
+        known = {key: value for key, value in os.environ.items() if key not in ("FSI_BIN", "FSI_MARCH")}
+        return known | {"PATH": f"{self.tools}:{os.environ['PATH']}", "CALLS": str(self.calls)}
+
     def build(self, march=None, verb="check", missing=""):
         """(how cmake and ninja were called, what the command said)"""
         self.calls.write_text("")
-        environment = {key: value for key, value in os.environ.items() if key not in ("FSI_BIN", "FSI_MARCH")}
-        environment |= {"PATH": f"{self.tools}:{os.environ['PATH']}", "CALLS": str(self.calls), "MISSING": missing}
+        environment = self.environment() | {"MISSING": missing}
         if march is not None:
             environment["FSI_MARCH"] = march
         answer = subprocess.run([self.folder / "launch" / "fsi", verb, "nothing"], env=environment, capture_output=True,
@@ -115,6 +124,16 @@ class Building(InScratch):
 
     def test_what_another_verb_needs_is_not_asked_for(self):
         self.assertEqual(self.build(missing="python3-matplotlib clang-format-16")[0][-1:], ["ninja bin/fsi_case"])
+
+    def test_a_build_ends_with_the_command_that_is_killed(self):
+        begun = self.folder / "begun"
+        os.mkfifo(begun)
+        for number in (signal.SIGTERM, signal.SIGKILL):
+            with subprocess.Popen([self.folder / "launch" / "fsi", "check", "nothing"], env=self.environment() | {"BUILDING": str(begun)},
+                                  stderr=subprocess.DEVNULL) as process:
+                ninja = os.pidfd_open(int(begun.read_text(encoding="ascii")))
+                process.send_signal(number)
+            ended(ninja)
 
     def test_a_check_builds_the_checker(self):
         self.assertEqual(self.build()[0][1:], ["ninja bin/fsi_case"])

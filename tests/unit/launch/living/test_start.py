@@ -3,7 +3,6 @@
 launcher."""
 
 import os
-import select
 import signal
 import subprocess
 import sys
@@ -11,7 +10,7 @@ import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
-from launcher import InScratch  # noqa: E402
+from launcher import InScratch, ended  # noqa: E402
 from fsi_launch import paths  # noqa: E402
 from fsi_launch.living import supervise  # noqa: E402
 
@@ -59,10 +58,7 @@ signal.pause()
             pid = int(begun.read_text(encoding="ascii"))
             pidfd = os.pidfd_open(pid)
             process.kill()
-        signal.alarm(600)   # a watchdog: it would sleep for ever
-        select.select([pidfd], [], [])
-        signal.alarm(0)
-        os.close(pidfd)
+        ended(pidfd)
 
     def test_what_cannot_be_executed_is_named(self):
         ended = said(supervise.leashed([str(self.folder / "nothing")]))
