@@ -60,6 +60,8 @@ make_chroot() {  # make_chroot SUITE DIR LOG
 mount_into() {  # mount_into DIR
   mount -t proc proc "$1/proc" && mounted+=("$1/proc")
   mount --rbind /dev "$1/dev" && mount --make-rslave "$1/dev" && mounted+=("$1/dev")
+  # Where tests of several hosts keep their networks: `ip netns` makes a mount of it, which would stay.
+  mkdir -p "$1/run/netns" && mount --bind "$1/run/netns" "$1/run/netns" && mount --make-shared "$1/run/netns" && mounted+=("$1/run/netns")
 }
 
 failed=0

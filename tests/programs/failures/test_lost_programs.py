@@ -3,12 +3,13 @@
 
 import os
 import signal
+import subprocess
 import sys
 import unittest
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
-from running import EndToEnd, LONG, PATIENT  # noqa: E402
+from running import BIN, EndToEnd, FSI, LONG, PATIENT, processes, until  # noqa: E402
 
 PARTICIPANTS = {"fluid_solver": "fluid", "solid_solver_linear_elastic": "solid", "coupler": "coupler"}
 
@@ -68,6 +69,22 @@ class LostPrograms(EndToEnd):
 
     def test_stopped_coupler(self):
         self.stop("coupler")
+
+
+class LostStudy(EndToEnd):
+    def test_the_runs_of_a_study_that_is_killed_end_too(self):
+        runs = [self.folder / "study" / f"density_ratio={value}" for value in (1, 2)]
+
+        def living():
+            return [[program.pid for program in processes.programs_of(run)] for run in runs]
+
+        self.addCleanup(lambda: [processes.signal_to(pid, signal.SIGKILL) for pids in living() for pid in pids])
+        command = [FSI, "study", *LONG, "--vary", "parameters.density_ratio=1,2", "--jobs", "2", "--out", runs[0].parent]
+        with subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, cwd=self.folder,
+                              env=os.environ | {"FSI_BIN": str(BIN), "XDG_RUNTIME_DIR": str(self.folder)}) as study:
+            self.assertTrue(until(lambda: [len(pids) for pids in living()] == [len(PARTICIPANTS)] * 2))
+            study.kill()
+        self.assertTrue(until(lambda: living() == [[], []]))
 
 
 class Joining(EndToEnd):
