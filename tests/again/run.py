@@ -123,7 +123,9 @@ def main():
     for one in suites(chosen):
         told.append(one)
         print(row(len(told), one), flush=True)
-    return 0 if len(told) == chosen.times + chosen.beside and all(map(flawless, told)) else 1
+    wanted, flawed = chosen.times + chosen.beside, sum(not flawless(one) for one in told)
+    print(f"\n{len(told)} of {wanted} suites, {flawed} with failures")
+    return 0 if len(told) == wanted and not flawed else 1
 
 
 if __name__ == "__main__":
