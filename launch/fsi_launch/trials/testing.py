@@ -21,9 +21,10 @@ def jobs():
 def with_all_it_starts(command, environment=None):
     """Exit code of a command that ends with this process. A request to end goes to it and to all that it has started: CTest by itself
     would leave its tests to their own."""
-    with subprocess.Popen(leashed(command), stdin=subprocess.DEVNULL, env=environment, start_new_session=True) as process:
+    with interrupts.held(), subprocess.Popen(leashed(command), stdin=subprocess.DEVNULL, env=environment, start_new_session=True) as process:
         try:
-            return process.wait()
+            with interrupts.heard():
+                return process.wait()
         except (KeyboardInterrupt, interrupts.Terminated):
             with contextlib.suppress(ProcessLookupError):
                 os.killpg(process.pid, signal.SIGTERM)
