@@ -13,7 +13,7 @@
 #include "common/case/case.hpp"
 #include "common/grid/geometry/interface_geometry.hpp"
 #include "solid_solver/boundary/robin.hpp"
-#include "solid_solver/neo_hookean_solver.hpp"
+#include "solid_solver/laws/neo_hookean.hpp"
 #include "solid_solver/program/port.hpp"
 
 namespace {
@@ -64,7 +64,7 @@ void ellipse_substeps(benchmark::State& state) {
                        .run_dir = folder.path(),
                        .run = "bench",
                        .name = "ellipse"};
-  SolidParticipant<NeoHookean> solid(setup, solid_of(setup));
+  SolidParticipant solid(setup, solid_of(setup), law_kind<NeoHookean>());
   const double dt = 0.9 * substeps * solid.compute_time_step().dt;
   double t = 0;
   wire::PredictedInterface predicted;

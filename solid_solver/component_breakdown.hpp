@@ -46,7 +46,7 @@ std::string SolidComponent<L>::breakdown_at(int i, int j, double dt) const {
   if (!(J > 0)) return fmt::format("det F = {:.4g}", J);
   if (phi_s > 0) return {};
   const std::string lost = fmt::format("no longer hyperbolic, phi_s = {:.4g}", phi_s);
-  if constexpr (requires { L::where_soft; }) return fmt::format("{}: {}", lost, L::where_soft);
+  if constexpr (Softens<L>) return fmt::format("{}: {}", lost, L::where_soft);
   return lost;
 }
 

@@ -6,7 +6,8 @@
 
 #include "common/core/field.hpp"
 #include "common/grid/overlap/composite_grid.hpp"
-#include "solid_solver/solid_component.hpp"
+#include "solid_solver/solid_part.hpp"
+#include "solid_solver/solid_points.hpp"
 
 namespace fsi::solid {
 

@@ -14,15 +14,10 @@
 #include "solid_solver/boundary/solid_boundary.hpp"
 #include "solid_solver/kernels/sweep/dissipation.hpp"
 #include "solid_solver/kernels/sweep/godunov_sweep.hpp"
+#include "solid_solver/solid_part.hpp"
 #include "solid_solver/solid_points.hpp"
 
 namespace fsi::solid {
-
-/// A component grid and the conditions on its sides.
-struct SolidPart {
-  grid::MovingGrid grid;
-  Boundaries boundaries;
-};
 
 template <Law L>
 class SolidComponent {

@@ -16,42 +16,19 @@
 #include <string>
 #include <vector>
 
-#include "common/core/archive.hpp"
 #include "common/core/field.hpp"
-#include "common/grid/moving_grid.hpp"
 #include "common/grid/overlap/composite_grid.hpp"
-#include "common/ranks/breaking.hpp"
-#include "common/ranks/rows/share.hpp"
-#include "solid_solver/boundary/interface.hpp"
+#include "solid_solver/any_solid_solver.hpp"
 #include "solid_solver/composite.hpp"
 #include "solid_solver/measures/body_integrals.hpp"
-#include "solid_solver/measures/pose.hpp"
-#include "solid_solver/measures/probe.hpp"
-#include "solid_solver/options.hpp"
 #include "solid_solver/solid_component.hpp"
 #include "solid_solver/time_step.hpp"
 
 namespace fsi::solid {
 
-/// Largest time step the solid can take, and why.
-struct TimeStep {
-  double dt = 0;       ///< safety factor included [time]
-  std::string reason;  ///< what limits it, for people
-};
-
-/// How well the numbers are, over all points at the last step.
-struct Health {
-  double min_det_F = 1;  ///< [-]
-  /// Smallest s-wave eigenvalue of the acoustic matrices, times |grad r|^2 [pressure/length^2]
-  double min_phi_s = 0;
-  /// Ghost points of all steps that took the acoustic matrix of the body beside them [-]
-  double settled = 0;
-  /// Points of sides of all steps that kept their prediction, since the body carries no waves there [-]
-  double waveless = 0;
-};
-
+/// What is not said here is said of AnySolidSolver.
 template <Law L>
-class SolidSolver {
+class SolidSolver final : public AnySolidSolver {
  public:
   /// A body on one grid. @throws UserMistake where boundaries, grid and options do not fit together
   SolidSolver(grid::MovingGrid reference_grid, L law, SolidOptions options, Boundaries boundaries, double t0)
@@ -78,12 +55,8 @@ class SolidSolver {
     }
     views_.resize(components_.size());
   }
-  SolidSolver(const SolidSolver&) = delete;
-  SolidSolver& operator=(const SolidSolver&) = delete;
 
-  /// State at t0 from functions of the reference position; the stress is P(F(u)) by differences of u. The
-  /// functions are asked at points that have a value only.
-  void assign_initial_conditions(const VectorFunction& u, const VectorFunction& v) {
+  void assign_initial_conditions(const VectorFunction& u, const VectorFunction& v) override {
     const StateFunction state = [&](double x, double y, double t) {
       return SolidState{.u = u(x, y, t), .v = v(x, y, t), .P = {}};
     };
@@ -93,28 +66,18 @@ class SolidSolver {
     }
     start();
   }
-  /// State at t0, stress given.
-  void assign_initial_conditions(const StateFunction& state) {
+  void assign_initial_conditions(const StateFunction& state) override {
     for (SolidComponent<L>& component : components_) component.assign(state, t_);
     start();
   }
-  /// Force per unit reference volume.
-  void set_body_force(const VectorFunction& force) {
+  void set_body_force(const VectorFunction& force) override {
     for (SolidComponent<L>& component : components_) component.set_body_force(force);
   }
-
-  /// Makes chosen fields exact; half of a step's sources act before it, half after it. Conditions on the
-  /// sides then hold for the difference to the fields, and so does what an interface shows and is told: it
-  /// lies where the reference configuration has it, but for
-  /// the difference in u. Before the initial conditions.
-  void choose(const ChosenSolution& solution) {
+  void choose(const ChosenSolution& solution) override {
     for (SolidComponent<L>& component : components_) component.choose(solution);
   }
 
-  /// Largest stable step for the present state: paper eq. (44) in paper eq. (45), times the safety factor,
-  /// and not beyond what the fastest decay of the stress allows, which is an upper bound and needs no factor.
-  /// The wave speeds are those the last sweep met (half a step old).
-  TimeStep compute_time_step() const {
+  TimeStep compute_time_step() const override {
     const SweepResult met = measured();
     const double waves = std::sqrt(met.rate_squared);
     const TimeSteppingEigenvalue lambda = time_stepping_eigenvalue(waves, options_);
@@ -124,11 +87,7 @@ class SolidSolver {
     if (decay < dt) return {.dt = decay, .reason = "upwinding and relaxation of the stress in the solid"};
     return {.dt = dt, .reason = waves > damping ? "waves in the solid" : "dissipation in the solid"};
   }
-  /// Predicted state at t + dt at all discretised points; no boundary or interface condition is applied. Looks at
-  /// the waves where `compute_time_step` is to know them: in all steps but those that others follow at once.
-  /// @throws Diverged at det F <= 0 or where the system is no longer hyperbolic; all grids then keep the
-  /// state at t
-  void advance_solid(double t, double dt, Look look = Look::all) {
+  void advance_solid(double t, double dt, Look look = Look::all) override {
     try {
       predict(t, dt, look);
     } catch (Diverged& failure) {
@@ -141,19 +100,15 @@ class SolidSolver {
     t_ = t + dt;
     if (!alone()) early_.bring(states());
   }
-  /// Predicted state of the interface points of a side; reuses the memory of `state`. Needs no ghost points.
-  void interface_state(Side side, SolidInterface& state, int grid = 0) const {
+  void interface_state(Side side, SolidInterface& state, int grid = 0) const override {
     gather_interface(component(grid), law_, {options_.rho, t_}, side, state);
   }
-  /// Outward direction in which the end k of a side slides along a wall.
-  Vec2 along_wall(Side side, int k, int grid = 0) const {
+  Vec2 along_wall(Side side, int k, int grid = 0) const override {
     const Sides& sides = component(grid).boundary().sides();
     const Vec2 wall = wall_of(sides, side, k).value(), n0 = sides.at(side, k).n0;
     return (n0 - wall * wall.dot(n0)).normalized();
   }
-  /// Boundary conditions and ghost points at time t, then interpolation between the grids. `projected` has
-  /// one entry per interface side.
-  void apply_solid_bcs(double t, std::span<const InterfaceValues> projected = {}) {
+  void apply_solid_bcs(double t, std::span<const InterfaceValues> projected = {}) override {
     if (interpolate_first_) interpolate(early_);
     together_.attempt([&] {
       for (SolidComponent<L>& component : components_) component.apply_boundary(t, projected);
@@ -167,7 +122,7 @@ class SolidSolver {
     t_ = t;
   }
 
-  Health health() const {
+  Health health() const override {
     const SweepResult met = measured();
     Health health = {.min_det_F = met.min_det_F, .min_phi_s = met.min_phi_s};
     for (const SolidComponent<L>& component : components_) {
@@ -176,43 +131,33 @@ class SolidSolver {
     }
     return health;
   }
-  /// Overlaps of grids count once.
-  Totals totals() const;
-  /// Over all points that have a value.
-  Errors errors(const StateFunction& exact, double t) const {
+  Totals totals() const override;
+  Errors errors(const StateFunction& exact, double t) const override {
     Errors errors;
     for (const SolidComponent<L>& component : components_) add_errors(component, exact, t, errors);
     return errors;
   }
-  SideLoad side_load(Side side, int grid = 0) const { return load_on_side(component(grid), side); }
-  /// On rank 0; all call it.
-  Pose pose() const;
-  /// Body-fitted grids come first. @throws UserMistake when (x, y) lies outside the reference grids
-  ProbePoint locate(double x, double y) const;
-  SolidState value(const ProbePoint& probe) const { return value_at_probe(state(probe.grid), probe); }
+  SideLoad side_load(Side side, int grid = 0) const override { return load_on_side(component(grid), side); }
+  Pose pose() const override;
+  ProbePoint locate(double x, double y) const override;
 
-  int grids() const { return static_cast<int>(components_.size()); }
-  /// Null for a body on one grid.
-  const grid::CompositeGrid* composite() const { return composite_ ? &*composite_ : nullptr; }
-  /// Planes u1, u2, v1, v2, P11, P12, P21, P22 (namespace plane of state.hpp), ghosts included.
-  ConstFieldView state(int grid = 0) const { return component(grid).q(); }
+  int grids() const override { return static_cast<int>(components_.size()); }
+  const grid::CompositeGrid* composite() const override { return composite_ ? &*composite_ : nullptr; }
+  ConstFieldView state(int grid = 0) const override { return component(grid).q(); }
   FieldView state(int grid = 0) { return components_[static_cast<std::size_t>(grid)].q(); }
   /// Reference positions of the points.
   ConstFieldView reference(int grid = 0) const { return component(grid).grid().x(); }
-  const grid::MovingGrid& grid(int grid = 0) const { return component(grid).grid(); }
+  const grid::MovingGrid& grid(int grid = 0) const override { return component(grid).grid(); }
   const Condition& condition(Side side, int grid = 0) const {
     return component(grid).boundary().sides().condition(side);
   }
-  /// Points of a grid that have a value.
-  const grid::RowSets& valid(int grid = 0) const { return component(grid).points().valid(); }
-  /// Points that have a value, all grids.
-  std::size_t points() const {
+  const grid::RowSets& valid(int grid = 0) const override { return component(grid).points().valid(); }
+  std::size_t points() const override {
     std::size_t sum = 0;
     for (const SolidComponent<L>& component : components_) sum += component.points().count();
     return sum;
   }
-  /// Everything the next steps depend on.
-  void archive(Archive& archive) {
+  void archive(Archive& archive) override {
     for (std::size_t k = 0; k < components_.size(); ++k) {
       archive.inside(fmt::format("grid{}", k), [&] { components_[k].archive(archive); });
     }
@@ -220,34 +165,21 @@ class SolidSolver {
     archive.number("steps", steps_);
   }
   std::uint64_t steps() const { return steps_; }
-  double t() const { return t_; }
+  double t() const override { return t_; }
 
-  // Several ranks that share the body: every one has such a solver, and calls the same functions with the same numbers
-  // (ranks/README.md). What is said of the state above is then known where it says so.
+  // Several ranks that share the body
 
-  /// From now on this one advances its rows only. After the initial conditions.
-  void share(std::shared_ptr<Ranks> ranks, const RecutOptions& options);
+  void share(std::shared_ptr<Ranks> ranks, const RecutOptions& options) override;
   bool alone() const { return early_.alone(); }
-  const Share& shared() const { return early_; }
-  /// Whether a rank knows `interface_state` of a side after `advance_solid`: rank 0, and those with rows of the side.
-  bool shows(Side side, int grid) const {
+  const Share& shared() const override { return early_; }
+  bool shows(Side side, int grid) const override {
     return early_.ranks().first() || component(grid).boundary().sides().present(side);
   }
-  /// What this rank does on its part before it applies conditions; where its solution diverges, it does on all ranks then.
-  template <class Action>
-  void attempt(const Action& action) {
-    together_.attempt(action);
-  }
-  /// Brings interface sides and these strips to rank 0.
-  void fetch(std::vector<Strip> strips);
-  /// Where the corners of a probe's cell are.
-  static std::vector<Strip> strips_of(const ProbePoint& probe);
-  /// Brings the state to rank 0.
-  void collect();
-  /// Everything the next steps depend on; other ranks forget what was counted.
-  void collect_all();
-  /// A saved state was loaded, by all.
-  void loaded();
+  Together& together() override { return together_; }
+  void fetch(std::vector<Strip> strips) override;
+  void collect() override;
+  void collect_all() override;
+  void loaded() override;
 
  private:
   static std::vector<SolidPart> one_part(grid::MovingGrid grid, Boundaries boundaries) {

@@ -62,6 +62,12 @@ concept Law = requires(const L law, const Tensor2 F) {
   { law.mu } -> std::convertible_to<double>;
 };
 
+/// A law that carries no waves beyond some strain: `where_soft` says where, and which other law does.
+template <class L>
+concept Softens = requires {
+  { L::where_soft } -> std::convertible_to<std::string_view>;
+};
+
 /// The law with the Lame constants and with its own numbers by their keys. Whether they are there and in
 /// their range is checked where a case is read (common/case/read/build_material.hpp).
 template <Law L>

@@ -1,215 +1,59 @@
 #pragma once
 /// What a case file says about one solid, as the functions the solver works with.
 
-#include <fmt/format.h>
-
-#include <cmath>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "common/case/scales.hpp"
-#include "common/core/failure.hpp"
 #include "common/exact/solution.hpp"
 #include "common/grid/geometry/interface_geometry.hpp"
-#include "common/program/grid_from_case.hpp"
 #include "common/program/program.hpp"
-#include "common/program/reference_from_case.hpp"
-#include "solid_solver/boundary/every_boundary.hpp"
-#include "solid_solver/boundary/side_data.hpp"
 #include "solid_solver/measures/manufactured.hpp"
 #include "solid_solver/options.hpp"
-#include "solid_solver/solid_component.hpp"
+#include "solid_solver/solid_part.hpp"
 
 namespace fsi::solid {
 
-inline VectorFunction function_of(const VectorExpressions& vector) {
-  return [vector](double x, double y, double t) { return Vec2(vector.c1(x, y, t), vector.c2(x, y, t)); };
-}
-
-inline TensorFunction function_of(const TensorExpressions& P) {
-  return [P](double x, double y, double t) -> Tensor2 {
-    return {P.c11(x, y, t), P.c12(x, y, t), P.c21(x, y, t), P.c22(x, y, t)};
-  };
-}
-
 /// How the points of a side of a grid continue beyond its ends.
-inline grid::Curve curve_along(const grid::MovingGrid& grid, Side side) {
-  return grid.periodic(1 - direction_of(side)) ? grid::Curve::closed : grid::Curve::open;
-}
+grid::Curve curve_along(const grid::MovingGrid& grid, Side side);
 
-template <Law L>
 class CaseData {
  public:
-  CaseData(const Setup& setup, const SolidSpec& spec, const L& law)
-      : spec_(spec),
-        crossing_time_(crossing_time_of(spec)),
-        cfl_(setup.problem.time.cfl),
-        solution_(reference_from_case(setup.problem, setup.run_dir)) {
-    const ReferenceSpec& reference = setup.problem.reference;
-    if (reference.u) {
-      ChosenFields fields{.u = function_of(*reference.u)};
-      if (reference.v) fields.v = function_of(*reference.v);
-      if (reference.P) fields.P = function_of(*reference.P);
-      manufactured_ = std::make_shared<Manufactured<L>>(std::move(fields), law, spec.rho, size_of(spec.grid));
-      if (reference.kind == ReferenceKind::manufactured) {
-        chosen_ = reference.v || reference.P || reference.fluid;
-        forced_ = !chosen_;
-      }
-    } else if (reference.in_formulas()) {
-      solution_ = nullptr;  // formulas for the gas only
-    }
-  }
+  CaseData(const Setup& setup, const SolidSpec& spec, AnyLaw law);
 
   /// The grid of the case, and the one fitted to the solid's outline where it has a shape.
-  std::vector<SolidPart> parts() const {
-    std::vector<SolidPart> all;
-    all.push_back(part(grid_from_case(spec_.grid, false), spec_.boundary));
-    for (const BodyFittedSpec& fitted : fitted_grids(spec_))
-      all.push_back(part(grid_from_case(fitted), fitted.boundary));
-    return all;
-  }
-
-  SolidOptions options() const {
-    const SolidScheme& scheme = spec_.scheme;
-    const auto beta = [](const fsi::Beta& b) { return Beta{.rate = b.rate, .scaled = b.scaled}; };
-    return {.rho = spec_.rho,
-            .limiter = scheme.limiter,
-            .tangential_stress = beta(scheme.tangential_stress),
-            .displacement = beta(scheme.displacement),
-            .relaxation = beta(scheme.relaxation),
-            .bulk_diffusion = scheme.bulk_diffusion,
-            .cfl = cfl_};
-  }
+  std::vector<SolidPart> parts() const;
+  SolidOptions options() const;
 
   /// State of the case's reference solution; empty where there is none.
-  StateFunction reference_state() const {
-    if (manufactured_) {
-      return [m = manufactured_](double x, double y, double t) { return m->state(x, y, t); };
-    }
-    if (!solution_) return {};
-    return [s = solution_](double x, double y, double t) {
-      const exact::SolidState q = s->solid(x, y, t);
-      return SolidState{.u = q.u, .v = q.v, .P = {q.P(0, 0), q.P(0, 1), q.P(1, 0), q.P(1, 1)}};
-    };
-  }
-
+  StateFunction reference_state() const;
   /// Why the reference solution says nothing of time t; empty where it does.
   std::string reference_missing_at(double t) const { return solution_ ? solution_->missing_at(t) : ""; }
 
   /// Empty unless the case starts from the reference.
-  StateFunction initial_state() const {
-    return spec_.initial_from_reference ? reference_state() : StateFunction{};
-  }
-  VectorFunction initial_displacement() const {
-    return spec_.initial_u ? function_of(*spec_.initial_u) : at_rest();
-  }
-  VectorFunction initial_velocity() const {
-    return spec_.initial_v ? function_of(*spec_.initial_v) : at_rest();
-  }
+  StateFunction initial_state() const;
+  VectorFunction initial_displacement() const;
+  VectorFunction initial_velocity() const;
 
   /// Where the case gives more than a displacement: sources in all equations.
-  std::optional<ChosenSolution> chosen_solution() const {
-    if (!chosen_) return std::nullopt;
-    const auto& m = manufactured_;
-    return ChosenSolution{.state = reference_state(),
-                          .source = [m](double x, double y, double t) { return m->source(x, y, t); },
-                          .offset = [m](double x, double y, double t) { return m->offset(x, y, t); }};
-  }
-
+  std::optional<ChosenSolution> chosen_solution() const;
   /// With a chosen solution, it takes the place of that of the case.
-  VectorFunction body_force() const {
-    if (chosen_) return {};
-    if (forced_) {
-      return [m = manufactured_](double x, double y, double t) { return m->body_force(x, y, t); };
-    }
-    return spec_.body_force ? function_of(*spec_.body_force) : VectorFunction{};
-  }
+  VectorFunction body_force() const;
 
  private:
-  static VectorFunction at_rest() {
-    return [](double, double, double) -> Vec2 { return Vec2::Zero(); };
-  }
-
-  SolidPart part(grid::GridDescription description, const std::array<BoundarySpec, 4>& specs) const {
-    SolidPart result{.grid = grid::MovingGrid(std::move(description), 0), .boundaries = {}};
-    for (const Side side : all_sides) {
-      const auto k = static_cast<std::size_t>(side);
-      result.boundaries[k] = boundary(specs[k], side, result.grid);
-    }
-    return result;
-  }
-
-  Boundary boundary(const BoundarySpec& spec, Side side, const grid::MovingGrid& grid) const {
-    SideData data{.from_reference = spec.from_reference,
-                  .time_scale = crossing_time_,
-                  .numbers = spec.numbers,
-                  .exact = [&] { return required_reference(side); },
-                  .exact_traction = [&] { return reference_traction(spec, side, grid); }};
-    if (spec.vector) data.value = function_of(*spec.vector);
-    if (spec.velocity) data.velocity = function_of(*spec.velocity);
-    for (const auto& [key, vector] : spec.vectors) data.vectors[key] = function_of(vector);
-    for (const auto& [key, field] : spec.fields)
-      data.fields[key] = [field](double x, double y, double t) { return field(x, y, t); };
-    std::optional<Boundary> result = boundary_from(spec.kind, data);
-    if (!result)
-      throw UserMistake(
-          fmt::format("solid \"{}\": boundary {} has a condition for gases", spec_.name, name_of(side)));
-    result->load = spec.load;
-    return *std::move(result);
-  }
-
-  StateFunction required_reference(Side side) const {
-    StateFunction exact = reference_state();
-    if (!exact) {
-      throw UserMistake(
-          fmt::format("solid \"{}\": boundary {} takes its data from the reference, but the case has none; "
-                      "add a section reference",
-                      spec_.name, name_of(side)));
-    }
-    return exact;
-  }
-
-  /// Traction of the reference solution per unit current area:
-  /// eta n0^T P with eta = 1 / |F t0|, paper eq. (13).
-  VectorFunction reference_traction(const BoundarySpec& spec, Side side, const grid::MovingGrid& grid) const {
-    if (!manufactured_)
-      throw UserMistake(
-          fmt::format("solid \"{}\": traction from the reference needs its displacement u", spec_.name));
-    auto x = grid.side_points(side);
-    auto n = grid::normals(x, curve_along(grid, side), grid::outward(side));
-    const bool on_reference = spec.load == LoadConfiguration::reference;
-    return
-        [=, m = manufactured_, x = std::move(x), n = std::move(n)](double x1, double x2, double t) -> Vec2 {
-          const std::size_t count = x.size() / 2;
-          std::size_t nearest = 0;
-          double best = std::numeric_limits<double>::infinity();
-          for (std::size_t k = 0; k < count; ++k) {
-            const double d1 = x[k] - x1, d2 = x[count + k] - x2, squared = d1 * d1 + d2 * d2;
-            if (squared < best) {
-              best = squared;
-              nearest = k;
-            }
-          }
-          const double n1 = n[nearest], n2 = n[count + nearest];
-          const Tensor2 F = m->deformation_gradient(x1, x2, t);
-          const Tensor2 P = m->stress(x1, x2, t);
-          const double stretch = std::hypot(-F.a11 * n2 + F.a12 * n1, -F.a21 * n2 + F.a22 * n1);
-          const double eta = on_reference ? 1 : 1 / stretch;
-          return {eta * (n1 * P.a11 + n2 * P.a21), eta * (n1 * P.a12 + n2 * P.a22)};
-        };
-  }
+  SolidPart part(grid::GridDescription description, const std::array<BoundarySpec, 4>& specs) const;
+  Boundary boundary(const BoundarySpec& spec, Side side, const grid::MovingGrid& grid) const;
+  StateFunction required_reference(Side side) const;
+  VectorFunction reference_traction(const BoundarySpec& spec, Side side, const grid::MovingGrid& grid) const;
 
   const SolidSpec& spec_;
   double crossing_time_;  ///< of a p-wave through the body [time]
   double cfl_;
   std::shared_ptr<const exact::Solution> solution_;
-  std::shared_ptr<const Manufactured<L>> manufactured_;  ///< motion given by formulas
-  bool forced_ = false;                                  ///< a body force makes it a solution
-  bool chosen_ = false;                                  ///< sources in all equations do
+  std::shared_ptr<const Manufactured> manufactured_;  ///< motion given by formulas
+  bool forced_ = false;                               ///< a body force makes it a solution
+  bool chosen_ = false;                               ///< sources in all equations do
 };
 
 }  // namespace fsi::solid

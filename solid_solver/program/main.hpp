@@ -1,21 +1,11 @@
 #pragma once
-/// The solid solver as a program of a run; each law instantiates it once.
+/// The solid solver as a program of a run.
 
-#include "common/program/program.hpp"
-#include "solid_solver/program/port.hpp"
+#include "solid_solver/program/law_kind.hpp"
 
 namespace fsi::solid {
 
-template <Law L>
-int run_solid_solver(int argc, char** argv) {
-  return run_program(
-      argc, argv, "solid", "solid",
-      [](const Setup& setup, io::Part& part) {
-        if (!setup.ranks->first()) return serve<L>(setup, solid_of(setup));
-        SolidParticipant<L> solver(setup, solid_of(setup));
-        participate(setup, part, solver);
-      },
-      Sharing::ranks);
-}
+/// @return exit code of the program
+int run_solid_solver(int argc, char** argv, const LawKind& law);
 
 }  // namespace fsi::solid

@@ -3,10 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <string>
 #include <utility>
 
 #include "common/case/case.hpp"
+#include "common/core/archive.hpp"
 
 namespace fsi::solid {
 
@@ -14,7 +16,7 @@ namespace fsi::solid {
 class Squeeze {
  public:
   static constexpr double strong = 0.4;  ///< det F [-], below which no scheme keeps a body from folding
-  static constexpr int lasting = 20;     ///< [steps]
+  static constexpr std::uint64_t lasting = 20;  ///< [steps]
 
   /// @param det_F the least of a step
   void add(double det_F) {
@@ -23,9 +25,13 @@ class Squeeze {
   }
   /// The last det F of a solid that its load breaks; 1 for any other.
   double by_load() const { return steps_ >= lasting ? det_F_ : 1; }
+  void archive(Archive& archive) {
+    archive.number("steps", steps_);
+    archive.number("det_F", det_F_);
+  }
 
  private:
-  int steps_ = 0;
+  std::uint64_t steps_ = 0;
   double det_F_ = 1;
 };
 

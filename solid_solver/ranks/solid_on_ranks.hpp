@@ -189,11 +189,6 @@ void SolidSolver<L>::fetch(std::vector<Strip> strips) {
 }
 
 template <Law L>
-std::vector<Strip> SolidSolver<L>::strips_of(const ProbePoint& probe) {
-  return {{probe.grid, probe.j, probe.i, probe.i + 2}, {probe.grid, probe.j + 1, probe.i, probe.i + 2}};
-}
-
-template <Law L>
 void SolidSolver<L>::collect() {
   if (!alone()) early_.all_to_first(states());
 }

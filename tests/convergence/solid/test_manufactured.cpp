@@ -170,7 +170,7 @@ Errors run_chosen(const std::array<Condition, 4>& kinds, int cells) {
                                 .displacement = {.scaled = 0.1},
                                 .relaxation = {.scaled = 0.2}};
   const ChosenFields fields = trigonometric_fields();
-  const auto m = std::make_shared<Manufactured<L>>(fields, law, options.rho, 1);
+  const auto m = std::make_shared<Manufactured>(fields, law, options.rho, 1);
   const ChosenSolution chosen{.state = [m](double x, double y, double t) { return m->state(x, y, t); },
                               .source = [m](double x, double y, double t) { return m->source(x, y, t); },
                               .offset = [m](double x, double y, double t) { return m->offset(x, y, t); }};

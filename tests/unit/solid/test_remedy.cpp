@@ -47,6 +47,12 @@ TEST(Remedy, ASolidThatItsLoadSqueezesIsNotToldToRelax) {
   EXPECT_NEAR(by_load.by_load(), 0.5 - 0.0045 * 99, 1e-12);
   for (const double det_F : {1.0, 0.9, 0.3, 0.1}) by_noise.add(det_F);
   EXPECT_EQ(by_noise.by_load(), 1);
+  Archive saved;
+  by_load.archive(saved);
+  Squeeze restarted;
+  Archive loading(saved.entries());
+  restarted.archive(loading);
+  EXPECT_EQ(restarted.by_load(), by_load.by_load());
   by_load.add(0.9);  // it came back
   EXPECT_EQ(by_load.by_load(), 1);
   EXPECT_NE(remedy_for("bar", relaxed({.scaled = 0.2}), 1, false, 0.05).find("a stiffer solids.bar"),
