@@ -55,7 +55,7 @@ InterfaceExchange::InterfaceExchange(InterfacePair pair, Combination combination
     level.w_n.resize(curve_.n);
   }
   if (const auto& coarser = pair_.coarser)
-    transfer_.emplace(curve_of(pair_, coarser->x, coarser->n0), coarser->x, pair_.x);
+    transfer_.emplace(curve_of(pair_, coarser->x, coarser->n0), coarser->x, pair_.x, coarser->is_gas);
   if (path) prescribed_.emplace(path, pair_.x);
   report_.name = pair_.name;
 }

@@ -1,6 +1,6 @@
 #include "coupler/exchange/transfer.hpp"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
 
 #include "common/core/component_major.hpp"
@@ -10,7 +10,7 @@ namespace fsi::coupler {
 
 namespace {
 
-/// A direction carries a force if its part of sum ds n n^T is more than this of the largest.
+/// A direction carries a force if its pivot of sum ds n n^T is more than this of the largest.
 constexpr double no_force = 1e-10;
 
 /// A point counts as clamped where the marks of its neighbours, weighted, come to this.
@@ -29,6 +29,12 @@ std::vector<double> difference(std::span<const double> x, std::span<const double
   return u;
 }
 
+/// Do two curves with the same ends run in opposite directions?
+bool run_oppositely(std::span<const double> x, std::span<const double> other) {
+  const Vec2 first = vector_at(other, 0);
+  return (first - vector_at(x, x.size() / 2 - 1)).norm() < (first - vector_at(x, 0)).norm();
+}
+
 }  // namespace
 
 Vec2 force_of(std::span<const double> x, std::span<const double> n, std::span<const double> w_n) {
@@ -38,37 +44,21 @@ Vec2 force_of(std::span<const double> x, std::span<const double> n, std::span<co
   return force;
 }
 
-void impose_force(std::span<const double> x, std::span<const double> n, const Vec2& wanted,
-                  std::span<double> w_n) {
-  const std::vector<double> ds = lengths(x);
-  Mat2 carried = Mat2::Zero();
-  for (std::size_t k = 0; k < ds.size(); ++k)
-    carried += ds[k] * vector_at(n, k) * vector_at(n, k).transpose();
-  Eigen::SelfAdjointEigenSolver<Mat2> directions;
-  directions.computeDirect(carried);
-  const Vec2 missing = wanted - force_of(x, n, w_n);
-  Vec2 c = Vec2::Zero();
-  for (Eigen::Index i = 0; i < 2; ++i) {
-    const double part = directions.eigenvalues()[i];
-    if (part <= no_force * directions.eigenvalues()[1]) continue;
-    const Vec2 direction = directions.eigenvectors().col(i);
-    c += direction.dot(missing) / part * direction;
-  }
-  for (std::size_t k = 0; k < ds.size(); ++k) w_n[k] += vector_at(n, k).dot(c);
-}
-
 InterfaceTransfer::InterfaceTransfer(const Curve& curve, std::span<const double> coarse,
-                                     std::span<const double> fine)
+                                     std::span<const double> fine, bool to_gas)
     : curve_(curve),
+      to_gas_(to_gas),
       to_fine_(coarse, fine, curve.periodic),
       to_coarse_(fine, coarse, curve.periodic),
       modes_to_fine_(to_fine_.cubic_weights()),
       x_0_(coarse.begin(), coarse.end()),
-      x_0_fine_(fine.begin(), fine.end()) {}
+      x_0_fine_(fine.begin(), fine.end()),
+      opposite_(run_oppositely(coarse, fine)) {}
 
 const wire::PredictedInterface& InterfaceTransfer::bring(const wire::PredictedInterface& coarse) {
   x_ = coarse.x;
   v_ = coarse.v;
+  p_ = coarse.p;
   brought_ = coarse;
   const std::size_t m = to_fine_.points();
   const auto fill = [&](const std::vector<double>& from, std::vector<double>& to, auto how) {
@@ -93,8 +83,9 @@ const wire::PredictedInterface& InterfaceTransfer::bring(const wire::PredictedIn
   std::ranges::transform(fine_marks, brought_.fixed.begin(),
                          [](double mark) { return static_cast<std::uint8_t>(mark >= clamped); });
   if (coarse.fixed.empty()) return brought_;
-  if (coarse.fixed.front() == wire::Freedom::slides) brought_.fixed.front() = wire::Freedom::slides;
-  if (coarse.fixed.back() == wire::Freedom::slides) brought_.fixed.back() = wire::Freedom::slides;
+  std::uint8_t &first = brought_.fixed.front(), &last = brought_.fixed.back();
+  if (coarse.fixed.front() == wire::Freedom::slides) (opposite_ ? last : first) = wire::Freedom::slides;
+  if (coarse.fixed.back() == wire::Freedom::slides) (opposite_ ? first : last) = wire::Freedom::slides;
   return brought_;
 }
 
@@ -114,19 +105,47 @@ void InterfaceTransfer::resolve(std::span<double> fine) const {
   to_fine_.cubic(at_coarse(fine), fine);
 }
 
+/// What the interpolated traction, brought back to the finer points, lacks of the force there, is made up for by n.c with
+/// one vector c. A traction that the coarser side has shown itself lacks nothing: it comes back as it was, however often.
+std::vector<double> InterfaceTransfer::solid_traction(std::span<const double> x,
+                                                      const wire::ProjectedInterface& fine) const {
+  const std::size_t m = to_fine_.points();
+  std::vector<double> w_n = at_coarse(fine.w_n), back(m), n_back(2 * m);
+  const std::vector<double> n = at_coarse(fine.n), ds = lengths(x);
+  to_fine_.cubic(w_n, back);
+  to_fine_.cubic(n, n_back);
+  Vec2 missing = Vec2::Zero();
+  Mat2 carried = Mat2::Zero();
+  for (std::size_t k = 0; k < m; ++k) {
+    const Vec2 n_ds = ds[k] * vector_at(fine.n, k);
+    missing += (fine.w_n[k] - back[k]) * n_ds;
+    carried += n_ds * vector_at(n_back, k).transpose();
+  }
+  const Vec2 c = Eigen::FullPivLU<Mat2>(carried).setThreshold(no_force).solve(missing);
+  for (std::size_t k = 0; k < curve_.n; ++k) w_n[k] += vector_at(n, k).dot(c);
+  return w_n;
+}
+
+/// What the projection changed of the gas's own traction p_e - p is carried over, so that what it did not change stays.
+std::vector<double> InterfaceTransfer::gas_traction(std::span<const double> fine) const {
+  std::vector<double> change(fine.begin(), fine.end());
+  for (std::size_t k = 0; k < change.size(); ++k) change[k] -= brought_.p_e - brought_.p[k];
+  std::vector<double> w_n = at_coarse(change);
+  for (std::size_t k = 0; k < curve_.n; ++k) w_n[k] += brought_.p_e - p_[k];
+  return w_n;
+}
+
 /// The coarser side keeps its own normals and its own normal velocity; only what the projection changed is
 /// carried over, so that a uniform motion stays one.
 void InterfaceTransfer::give(std::span<const double> x, wire::ProjectedInterface& answer) const {
   std::vector<double> change = answer.v_n;
   for (std::size_t k = 0; k < change.size(); ++k)
     change[k] -= vector_at(answer.n, k).dot(vector_at(brought_.v, k));
-  const Vec2 force = force_of(x, answer.n, answer.w_n);
+  answer.w_n = to_gas_ ? gas_traction(answer.w_n) : solid_traction(x, answer);
   answer.n.resize(2 * curve_.n);
   unit_normals(curve_, x_, answer.n);
   answer.v_n = at_coarse(change);
   for (std::size_t k = 0; k < curve_.n; ++k) answer.v_n[k] += vector_at(answer.n, k).dot(vector_at(v_, k));
-  answer.w_n = at_coarse(answer.w_n);
-  impose_force(x_, answer.n, force, answer.w_n);
   answer.v = at_coarse(answer.v);
   answer.a = at_coarse(answer.a);
   answer.x_next = at_coarse(difference(answer.x_next, x_0_fine_));

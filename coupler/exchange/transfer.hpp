@@ -6,7 +6,9 @@
 ///                    |  bring |     | give |        cubic; impedances linear
 ///     coarser side   O-----------O-----------O
 ///
-/// What is handed back acts with exactly the same force as at the finer points.
+/// The traction that a solid gets, as a function along the curve, acts with exactly the same force as at the finer points. A
+/// gas gets what changes its own traction, interpolated: it takes it over as its pressure and keeps it, and what its points
+/// cannot show would be added to this pressure once more in every step.
 
 #include <Eigen/SparseCore>
 #include <cstddef>
@@ -23,23 +25,19 @@ namespace fsi::coupler {
 /// Force of a normal traction, sum ds w_n n, with the lengths of `point_lengths`.
 Vec2 force_of(std::span<const double> x, std::span<const double> n, std::span<const double> w_n);
 
-/// Adds n.c with one vector c to w_n, so that its force becomes `wanted` in all directions the interface can
-/// carry: a difference of the size of the discretisation errors is spread smoothly over the interface.
-void impose_force(std::span<const double> x, std::span<const double> n, const Vec2& wanted,
-                  std::span<double> w_n);
-
 class InterfaceTransfer {
  public:
   /// @param curve of the coarser side  @param coarse its points at t = 0, 2 n  @param fine points of the
-  /// other side, 2 m
-  InterfaceTransfer(const Curve& curve, std::span<const double> coarse, std::span<const double> fine);
+  /// other side, 2 m  @param to_gas the coarser side is the gas
+  InterfaceTransfer(const Curve& curve, std::span<const double> coarse, std::span<const double> fine,
+                    bool to_gas);
 
   std::size_t coarse_points() const { return curve_.n; }
 
-  /// Whether the ends of the curve slide along walls.
+  /// Whether the ends slide along walls: the first and the last of the finer points.
   void let_ends_slide(bool first, bool last) {
-    curve_.first.slides = first;
-    curve_.last.slides = last;
+    curve_.first.slides = opposite_ ? last : first;
+    curve_.last.slides = opposite_ ? first : last;
   }
 
   /// The predicted state of the coarser side at the finer points. Holds until the next call.
@@ -55,13 +53,18 @@ class InterfaceTransfer {
  private:
   void bring_modes(const wire::ModalResponse& coarse);
   std::vector<double> at_coarse(std::span<const double> fine) const;
+  std::vector<double> gas_traction(std::span<const double> fine) const;
+  /// @param x, fine as for `give`
+  std::vector<double> solid_traction(std::span<const double> x, const wire::ProjectedInterface& fine) const;
   void give_robin(wire::ProjectedInterface& answer) const;
 
   Curve curve_;  ///< of the coarser side
+  bool to_gas_;
   CurveInterpolation to_fine_, to_coarse_;
   Eigen::SparseMatrix<double> modes_to_fine_;
   std::vector<double> x_0_, x_0_fine_;  ///< positions at t = 0
-  std::vector<double> x_, v_;           ///< coarser side, predicted
+  bool opposite_;                       ///< the first of the finer points is at the curve's last one
+  std::vector<double> x_, v_, p_;       ///< coarser side, predicted
   wire::PredictedInterface brought_;
 };
 
