@@ -12,6 +12,7 @@
 #include "common/case/check/check_interfaces.hpp"
 #include "common/case/check/check_overlap.hpp"
 #include "common/case/check/check_places.hpp"
+#include "common/case/check/check_starts.hpp"
 #include "common/case/document/fluid_sections.hpp"
 #include "common/case/document/node_at.hpp"
 #include "common/case/grids/grid_points.hpp"
@@ -83,16 +84,16 @@ std::vector<Vec2> sample_points(const GridSpec& grid, std::optional<Side> side =
   return points;
 }
 
-/// Density and pressure are positive and everything is finite at t = 0 at the points.
+/// Density and pressure are positive and everything is finite at the points at time t.
 void check_state(const GasExpressions& state, const std::vector<Vec2>& points, const Node& node,
-                 const std::string& path) {
+                 const std::string& path, double t = 0) {
   for (const Vec2& x : points) {
     const auto check = [&](const Expression& quantity, const char* name, bool must_be_positive) {
-      const double value = quantity(x[0], x[1], 0);
+      const double value = quantity(x[0], x[1], t);
       if (std::isfinite(value) && (value > 0 || !must_be_positive)) return;
       const Node* own = node.find(name);
       fail(own == nullptr ? node.place : own->place, fmt::format("{}.{}", path, name),
-           fmt::format("is {} at ({:.4g}, {:.4g}), t = 0; must be {}", value, x[0], x[1],
+           fmt::format("is {} at ({:.4g}, {:.4g}), t = {:.4g}; must be {}", value, x[0], x[1], t,
                        must_be_positive ? "> 0" : "finite"));
     };
     check(state.rho, "rho", true);
@@ -115,9 +116,11 @@ void check_fluid(const Case& problem, const FluidSpec& fluid, const Node& root) 
   for (const Side side : all_sides) {
     const BoundarySpec& spec = fluid.boundary[static_cast<std::size_t>(side)];
     if (!spec.state) continue;
-    check_state(*spec.state, sample_points(fluid.grid, side),
-                node_at(node, {"boundary", name_of(side), "state"}),
-                fmt::format("{}.boundary.{}.state", path, name_of(side)));
+    constexpr int times = 32;
+    for (int k = 0; k <= times; ++k)
+      check_state(*spec.state, sample_points(fluid.grid, side),
+                  node_at(node, {"boundary", name_of(side), "state"}),
+                  fmt::format("{}.boundary.{}.state", path, name_of(side)), problem.time.end * k / times);
   }
 }
 
@@ -337,6 +340,7 @@ void check_case(const Case& problem, const Node& root) {
                    .path = "solids." + solid.name});
   }
   check_reference(problem, root);
+  check_starts(problem, root);
   check_interfaces(problem, root);
   check_held_ends(problem, root);
   check_beams(problem, root);

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "common/case/check/check_ends.hpp"
 #include "common/case/grids/grid_points.hpp"
 #include "common/case/schema/laws.hpp"
 #include "common/core/choices.hpp"
@@ -113,33 +114,6 @@ void check_foot(const SolidSpec& solid, const Node& beam, std::size_t end) {
            "would {} and leave the wall, and the grid of the gas with it; write clamped, or guided (it moves "
            "across the line)",
            x.x(), x.y(), last ? "last" : "first", name_of(kind), kind == BeamEnd::free ? "move" : "turn"));
-}
-
-bool is_wall(const BoundarySpec& boundary) {
-  return boundary.kind == BoundaryKind::slip_wall || boundary.kind == BoundaryKind::symmetry;
-}
-
-/// The two sides at the ends of a side, in the order of its points.
-std::array<Side, 2> sides_beside(Side side) {
-  if (direction_of(side) == 1) return {Side::left, Side::right};
-  return {Side::bottom, Side::top};
-}
-
-/// The wall of a gas on which the interface with the solid ends at x, in words; empty: it is none.
-std::string wall_at(const FluidSpec& fluid, const SolidSpec& solid, const Vec2& x) {
-  for (const BodyFittedSpec& grid : fluid.body_fitted) {
-    if (grid.solid == solid.name && !grid.curve.closed()) return fmt::format("a wall of {}", fluid.path);
-  }
-  for (const Side side : all_sides) {
-    const BoundarySpec& spec = fluid.boundary[static_cast<std::size_t>(side)];
-    if (spec.kind != BoundaryKind::interface || spec.solid != solid.name) continue;
-    const Vec2 first = side_point(fluid.grid, side, 0);
-    const Vec2 last = side_point(fluid.grid, side, points_along(fluid.grid, side) - 1);
-    const Side end = sides_beside(side)[(x - first).norm() < (x - last).norm() ? 0 : 1];
-    if (is_wall(fluid.boundary[static_cast<std::size_t>(end)]))
-      return fmt::format("the {} side of {}.grid, a wall", name_of(end), fluid.path);
-  }
-  return "";
 }
 
 /// Where a side of the grid meets the gas, and this ends at a wall: that end stays on the wall by itself, or slides

@@ -106,6 +106,9 @@ void check_rigid_side(const BoundarySpec& spec, const Node& node, const std::str
 
 /// Neither a rigid body nor a beam.
 void check_initial(const SolidSpec& solid, const Node& node) {
+  if (solid.fixed && solid.initial_v)
+    fail(node.find("initial")->place, fmt::format("solids.{}.initial.v", solid.name),
+         "the body is fixed (`motion: fixed`) and has no velocity; leave one of them out");
   if (!solid.initial_from_reference && !solid.initial_u) return;
   fail(node.find("initial")->place, fmt::format("solids.{}.initial", solid.name),
        fmt::format("a {} may begin with `v`, and nothing else; leave the rest out",

@@ -92,7 +92,8 @@ BodyFittedSpec first_that_holds(const BodyFittedSpec& spec, double estimate) {
   return tried;
 }
 
-constexpr double margin = 0.95;  // of an estimate: shares are not quite in proportion to distances
+constexpr double margin_of_estimate =
+    0.95;  // of an estimate: shares are not quite in proportion to distances
 
 void check_behind(const BodyFittedSpec& spec, ConstFieldView x) {
   if (const auto trouble = trouble_behind(spec, x)) throw Diverged(*trouble, {.grid = spec.name});
@@ -169,7 +170,7 @@ BodyFittedSpec with_sound_lines(const BodyFittedSpec& spec) {
   } catch (const Failure&) {  // another check says why no grid can be marched from this curve
     return spec;
   }
-  const double estimate = margin * part * thin.spacing;
+  const double estimate = margin_of_estimate * part * thin.spacing;
   return estimate < spec.spacing ? first_that_holds(spec, estimate) : spec;
 }
 

@@ -287,6 +287,17 @@ std::string why_long(const RunCost& cost, const std::string& steps) {
 }  // namespace
 
 void refuse_endless(const RunCost& cost) {
+  constexpr int most_substeps = 10000;  // as in coupler/time_step.cpp
+  for (const StepCost& program : cost.programs) {
+    if (cost.substeps(program) <= most_substeps) continue;
+    throw UserMistake(
+        fmt::format("solids.{}: takes about {} substeps in a step, {} are possible: dt about {:.2g}, set by "
+                    "cells {:.2g} x {:.2g} "
+                    "of grid \"{}\"; look at the units of its rho and moduli, whose waves are that fast, and "
+                    "at its points",
+                    program.program, cost.substeps(program), most_substeps, program.dt, program.cell[0],
+                    program.cell[1], program.grid));
+  }
   constexpr double most_steps = 1e11;
   if (!(cost.steps > most_steps)) return;
   const StepCost& slowest =

@@ -44,7 +44,8 @@ struct RunCost {
 /// for all grids: a flow that becomes faster takes more steps.
 RunCost cost_of(const Case& problem);
 
-/// @throws UserMistake for a run of more steps than any can take: `TimeSchedule` would refuse its first one
+/// @throws UserMistake for a run of more steps than any can take, or of more substeps than a step may have: the first one would
+/// be refused (`TimeSchedule`, `TimeStepAgreement`)
 void refuse_endless(const RunCost& cost);
 
 /// For people, a line for each program and one for the run;

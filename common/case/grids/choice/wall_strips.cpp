@@ -51,6 +51,13 @@ void refuse_touching(const BodyFittedSpec& ring, const Node& item, Side side, do
           ring.solid, name_of(side), std::max(distance, 0.0))));
 }
 
+/// A gas inside a closed outline does not come to the sides of its rectangle.
+bool is_contained(const FluidSpec& fluid) {
+  return std::ranges::any_of(fluid.body_fitted, [](const BodyFittedSpec& ring) {
+    return ring.curve.closed() && ring.side == Side::bottom;
+  });
+}
+
 /// The curve whose body is near to a wall that has no grid of its own.
 const Node* body_near(const Node& list, const FluidSpec& fluid, const std::vector<std::size_t>& open,
                       Side side) {
@@ -100,6 +107,7 @@ Node strip_along(const GridSpec& box, Side side, const std::string& place) {
 }  // namespace
 
 bool add_wall_strips(Node& body_fitted, const FluidSpec& fluid, const std::vector<std::size_t>& open) {
+  if (is_contained(fluid)) return false;
   std::array<bool, 2> has_strips{};  // along x = const, along y = const: strips do not meet in corners
   const auto has_name = [&](const std::string& name) {
     return std::ranges::find(fluid.body_fitted, name, &BodyFittedSpec::name) != fluid.body_fitted.end();

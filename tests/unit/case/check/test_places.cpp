@@ -26,6 +26,33 @@ std::string disk_probe(const std::string& in, const std::string& x, const std::s
                     {"output.probes=[{name: a, in: " + in + ", x: " + x + ", y: " + y + "}]"});
 }
 
+TEST(StartOfASolid, IsFiniteAndLeavesTheOutlineWhereTheGasHasIt) {
+  const auto ellipse = [](const std::string& value) {
+    return mistake_of("shock_ellipse", {"solids.ellipse." + value});
+  };
+  EXPECT_EQ(ellipse("initial={v: [0.1 * x, 0]}"), "");
+  EXPECT_NE(ellipse("initial={v: [sqrt(x), 0]}").find("initial: is (-nan, 0) at ("), std::string::npos)
+      << ellipse("initial={v: [sqrt(x), 0]}");
+  EXPECT_NE(ellipse("body_force=[0, 1 / (x - x)]").find("solids.ellipse.body_force: is (0, "),
+            std::string::npos);
+  const std::string moved = ellipse("initial={u: [0.1, 0]}");
+  EXPECT_NE(moved.find("initial: moves the outline by (0.1, 0) at ("), std::string::npos) << moved;
+  EXPECT_EQ(ellipse("initial={u: [0, 0]}"), "");
+}
+
+TEST(StartOfASolid, OfAFixedBodyHasNoVelocity) {
+  const std::string message =
+      mistake_of("rigid_piston", {"solids.solid.motion=fixed", "solids.solid.initial={v: [0, 0]}"});
+  EXPECT_NE(message.find("the body is fixed"), std::string::npos) << message;
+}
+
+TEST(StateOfABoundary, IsLookedAtUntilTheEnd) {
+  const std::string message = mistake_of(
+      "sod_tube", {"fluid.boundary.left={kind: imposed, state: {rho: 1, v: [0, 0], p: 1 - 10 * t}}"});
+  EXPECT_NE(message.find("fluid.boundary.left: is "), std::string::npos) << message;
+  EXPECT_NE(message.find("must be > 0"), std::string::npos) << message;
+}
+
 TEST(CaseProbe, OutsideTheGasIsRefusedAndOnItsRimFine) {
   EXPECT_NE(disk_probe("fluid", "-10", "0").find("output.probes: (-10, 0) lies outside fluid.grid"),
             std::string::npos);

@@ -91,6 +91,21 @@ TEST(CostOfARun, CountsTheSubstepsOfAStiffSolid) {
   EXPECT_NE(cost_text(own).find("substeps"), std::string::npos);
 }
 
+TEST(CostOfARun, OfMoreSubstepsThanAStepMayHaveIsRefused) {
+  const auto with_density = [](const char* rho) {
+    refuse_endless(cost_of(load_text(costly_case({disk_alone}),
+                                     {"time.multirate=true", std::string("solids.body_0.rho=") + rho})));
+  };
+  EXPECT_NO_THROW(with_density("1e-4"));
+  try {
+    with_density("1e-9");
+    FAIL();
+  } catch (const UserMistake& mistake) {
+    EXPECT_NE(std::string(mistake.what()).find("solids.body_0: takes about"), std::string::npos)
+        << mistake.what();
+  }
+}
+
 TEST(CostOfARun, OffersSubstepsWhereASolidMakesTheGasTakeSmallSteps) {
   const std::string text = costly_case({disk_alone});
   const std::vector<std::string> stiff = {"solids.body_0.lambda=98", "solids.body_0.mu=1",

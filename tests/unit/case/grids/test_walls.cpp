@@ -182,6 +182,37 @@ TEST(Walls, ASolidMayNotLeaveTheSideItsInterfaceEndsOn) {
   EXPECT_NE(message.find("write `right: slip_wall`"), std::string::npos) << message;
 }
 
+/// Where the gas meets a body along a side of its own grid.
+TEST(Walls, AnEndOfASideMayNotLeaveTheWallOfTheGasBesideIt) {
+  const auto mistake = [](const char* name, std::vector<std::string> sets) {
+    try {
+      load_case(std::string(FSI_ROOT "/configs/") + name, sets);
+    } catch (const UserMistake& message) {
+      return std::string(message.what());
+    }
+    return std::string();
+  };
+  for (const char* held : {"slip_wall", "symmetry", "clamped"}) {
+    const std::string top = fmt::format("solids.solid.boundary.top={}", held);
+    EXPECT_EQ(mistake("elastic_piston.yaml", {top}), "") << held;
+  }
+  const std::string elastic = mistake("elastic_piston.yaml", {"solids.solid.boundary.top=free"});
+  EXPECT_NE(
+      elastic.find("solids.solid.boundary.top: the interface ends at (0, 1) on the top side of fluid.grid, "
+                   "a wall, but nothing holds it there"),
+      std::string::npos)
+      << elastic;
+  EXPECT_NE(elastic.find("write `top: slip_wall` (it slides along the wall) or `top: clamped`"),
+            std::string::npos)
+      << elastic;
+  EXPECT_EQ(mistake("elastic_piston.yaml", {"solids.solid.boundary.top=free", "fluid.boundary.top=outflow"}),
+            "");
+  const std::string rigid = mistake("rigid_piston.yaml", {"solids.solid.boundary.bottom=free"});
+  EXPECT_NE(rigid.find("write `motion: fixed`, or `bottom: slip_wall`"), std::string::npos) << rigid;
+  EXPECT_EQ(mistake("rigid_piston.yaml", {"solids.solid.boundary.bottom=free", "solids.solid.motion=fixed"}),
+            "");
+}
+
 /// A body in a gas with the grid of the gas around it as given.
 std::string body_case(const std::string& law, const std::string& shape, const std::string& ring) {
   return "time: {end: 1}\ngrid: {factor: 2}\n"
@@ -215,6 +246,23 @@ TEST(LinesAtBends, AreChosenCloseAndGivenOnesThatAreTooWideAreRefusedWithOnesTha
     ASSERT_FALSE(spacing.empty() || lines.empty()) << message;
     EXPECT_EQ(mistake_in(with(fmt::format("lines: {}, spacing: {}", lines, spacing))), "");
   }
+}
+
+/// The gas does not come to the sides of its rectangle: nothing is chosen for them.
+TEST(ChosenGrids, OfABodyNearTheWallOfARoundTankAreItsOwnAndTheTanks) {
+  const Case tank = load_text(
+      "grid: {factor: 20}\n"
+      "time: {end: 1}\n"
+      "fluid:\n"
+      "  grid: {x: [-0.22, 0.22], y: [-0.22, 0.22]}\n"
+      "  boundary: {left: slip_wall, right: slip_wall, bottom: slip_wall, top: slip_wall}\n"
+      "  initial: {rho: 1, v: [0, 0], p: 1}\n"
+      "  body_fitted:\n"
+      "    - {name: around, solid: ball}\n"
+      "    - {name: tank, shape: {kind: circle, radius: 0.2}, inside: true}\n"
+      "solids:\n"
+      "  ball: {law: rigid, rho: 100, shape: {kind: circle, centre: [0.14, 0], radius: 0.04}}\n");
+  EXPECT_EQ(tank.fluids.front().body_fitted.size(), 2);
 }
 
 }  // namespace
