@@ -33,10 +33,11 @@ std::int32_t substeps_of(const Proposal& proposal, double dt, double t) {
   const double count = std::max(1.0, std::ceil(dt / proposal.dt * (1 - rounding)));
   if (!(count <= most_substeps)) {
     throw Diverged(
-        fmt::format("the time step of \"{}\" has collapsed to {:.3g}, {:.0f} substeps ({}); let the "
-                    "run end before (time.end), or give that grid more `lines`, and look at "
-                    "last_state/ where its cells have become small",
-                    proposal.from, proposal.dt, count, proposal.reason),
+        fmt::format(
+            "the time step of \"{}\" has collapsed to {:.3g}, {:.0f} substeps ({}); let the "
+            "run end before (time.end), or give a grid that follows an outline more `lines`, and look at "
+            "last_state/ where its cells have become small",
+            proposal.from, proposal.dt, count, proposal.reason),
         {.t = t, .program = proposal.from});
   }
   return static_cast<std::int32_t>(count);

@@ -74,6 +74,9 @@ std::optional<RunEntry> choose_run(const Wishes& wishes) {
   const auto runs = matching(running, wishes.run);
   if (runs.size() == 1) return confirmed(wishes, runs.front());
   if (runs.empty()) {
+    if (std::filesystem::is_directory(wishes.run))
+      throw UserMistake(
+          fmt::format("no run goes on in '{0}'; write --replay {0} to see one that is over", wishes.run));
     if (running.empty()) throw UserMistake("no run is going on; start one with ./launch/fsi run CASE");
     throw UserMistake(
         fmt::format("no running run is called '{}'; running now:{}", wishes.run, list_of(running)));
@@ -152,21 +155,28 @@ void act(const Wishes& wishes) {
 }
 
 void add_options(CommandLine& line, Wishes& wishes) {
-  line.add_option("RUN", wishes.run,
-                  "identity, folder or case of the run; may be left out when only one is going on");
-  line.add_flag("--once", wishes.once, "print the state once and exit");
+  const auto run = line.add_option(
+      "RUN", wishes.run, "identity, folder or case of the run; may be left out when only one is going on");
+  const auto once = line.add_flag("--once", wishes.once, "print the state once and exit");
   line.add_flag("--json", wishes.json, "print JSON, one object per line");
   line.add_flag("--plain", wishes.plain, "print one line per second instead of using the whole terminal");
   line.add_option("--wait", wishes.wait_s,
-                  fmt::format("longest wait of --once for the first word [s] ({})", wishes.wait_s));
-  line.add_option("--web", wishes.web, "serve a page for browsers at this port; 0 finds a free one");
+                  fmt::format("longest wait of --once for the first word [s] ({})", wishes.wait_s))
+      .needs(once);
+  const auto web =
+      line.add_option("--web", wishes.web, "serve a page for browsers at this port; 0 finds a free one");
   line.add_option("--host", wishes.host,
-                  "address of the page; other machines see it where this is not loopback");
-  line.add_option("--record", wishes.record, "write everything heard to this HDF5 file");
-  line.add_option("--replay", wishes.replay,
-                  "show a recording, or the folder of a run that is over, instead of a run");
-  line.add_option("--speed", wishes.speed, "of the replay: 2 is twice as fast");
-  line.add_option("--send", wishes.send, "send a request to the run instead of watching it");
+                  "address of the page; other machines see it where this is not loopback")
+      .needs(web);
+  const auto record = line.add_option("--record", wishes.record, "write everything heard to this HDF5 file");
+  const auto replay = line.add_option(
+      "--replay", wishes.replay, "show a recording, or the folder of a run that is over, instead of a run");
+  line.add_option("--speed", wishes.speed, "of the replay: 2 is twice as fast").needs(replay);
+  const auto send =
+      line.add_option("--send", wishes.send, "send a request to the run instead of watching it");
+  for (const auto& other : {run, record, send}) replay.excludes(other);
+  for (const auto& other : {record, web, once}) send.excludes(other);
+  once.excludes(web);
 }
 
 /// @throws UserMistake

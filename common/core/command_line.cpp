@@ -12,6 +12,14 @@ void CommandLine::Option::required() const {
   option_.required();
 }
 
+void CommandLine::Option::needs(const Option& other) const {
+  option_.needs(&other.option_);
+}
+
+void CommandLine::Option::excludes(const Option& other) const {
+  option_.excludes(&other.option_);
+}
+
 CommandLine::CommandLine(const std::string& about) : app_(std::make_unique<CLI::App>(about)) {}
 CommandLine::~CommandLine() = default;
 

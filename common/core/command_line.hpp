@@ -27,6 +27,10 @@ class CommandLine {
   class Option {
    public:
     void required() const;
+    /// Makes sense beside another one only.
+    void needs(const Option& other) const;
+    /// Makes no sense beside another one.
+    void excludes(const Option& other) const;
 
    private:
     friend class CommandLine;

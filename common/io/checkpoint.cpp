@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -83,22 +85,29 @@ void check_origin(const Hdf5& file, const std::string& path, const CheckpointOri
 }
 
 /// Folders of sets, the latest first.
+/// By its name; 0 for a folder that is none of ours.
+std::uint64_t step_of(const files::path& set) {
+  const std::string name = set.filename().string();
+  std::uint64_t step = 0;
+  std::from_chars(name.data(), name.data() + name.size(), step);
+  return step;
+}
+
 std::vector<files::path> sets_of(const std::string& run_dir) {
   std::vector<files::path> sets;
   std::error_code error;
   for (const auto& entry : files::directory_iterator(run_dir + "/checkpoints", error)) {
     if (entry.is_directory()) sets.push_back(entry.path());
   }
-  std::ranges::sort(sets, std::greater<>());
+  std::ranges::sort(sets, std::greater<>(), step_of);
   return sets;
 }
 
 /// Keeps the newest set and the last complete one before it.
 void remove_others(const std::string& run_dir, const std::string& newest) {
   int kept = 0;
-  const std::string name = files::path(newest).filename().string();
   for (const files::path& set : sets_of(run_dir)) {
-    const bool later = set.filename().string() > name;
+    const bool later = step_of(set) > step_of(newest);
     if (!later && kept < 2 && files::exists(set / manifest_name)) {
       ++kept;
       continue;

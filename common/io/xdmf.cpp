@@ -84,7 +84,7 @@ std::vector<std::string> programs_in(const std::string& run_dir) {
 }
 
 bool same_time(double a, double b) {
-  return std::fabs(a - b) <= 1e-9 * std::max(1.0, std::fabs(a));
+  return std::fabs(a - b) <= 1e-9 * std::max(std::fabs(a), std::fabs(b));
 }
 
 }  // namespace

@@ -55,6 +55,7 @@ class Running:
 
     def __init__(self, process, directory):
         self.process, self.directory = process, directory
+        self._said = None   # on stderr, when it has ended
 
     def state(self):
         """What its programs said last: status, t, step, dt, participants, interfaces .. (docs/output.md)."""
@@ -89,7 +90,9 @@ class Running:
 
     def wait(self, check=True):
         """The Run when it has ended. @raises RunFailed unless it completed or was stopped on request, or `check` is false"""
-        said = self.process.communicate()[1].strip().splitlines()
+        if self._said is None:
+            self._said = self.process.communicate()[1].strip().splitlines()
+        said = self._said
         there = (self.directory / "case.yaml").is_file()
         run = Run(self.directory) if there else None
         status = run.summary.get("status") if run else None

@@ -1,6 +1,5 @@
 """What a run left behind (docs/output.md), as Python objects."""
 
-import functools
 import json
 from pathlib import Path
 
@@ -20,17 +19,28 @@ class Run:
 
     def __init__(self, directory):
         self.directory = Path(directory)
+        self._kept = {}     # what is read once and for all, when the run is over
         if not (self.directory / "case.yaml").is_file():
             raise FileNotFoundError(f"'{self.directory}' holds no run: give the folder that fsi run --out named")
 
     def __repr__(self):
         return f"Run('{self.directory}', {self.summary.get('status', 'no summary yet')})"
 
-    @functools.cached_property
+    def _once(self, name, read):
+        """What `read` gives; not read again once the run is over."""
+        if name in self._kept:
+            return self._kept[name]
+        over = (self.directory / "summary.json").is_file()
+        value = read()
+        if over:
+            self._kept[name] = value
+        return value
+
+    @property
     def summary(self):
         """summary.json as a dict; empty while the run goes on."""
         path = self.directory / "summary.json"
-        return json.loads(path.read_text(encoding="utf-8")) if path.is_file() else {}
+        return self._once("summary", lambda: json.loads(path.read_text(encoding="utf-8")) if path.is_file() else {})
 
     @property
     def case(self):
@@ -96,15 +106,15 @@ class Run:
         table = data.read_table(path)
         return table.columns if table else {}
 
-    @functools.cached_property
+    @property
     def interface(self):
         """The table of jumps, gap and power of each interface, a line per step."""
-        return self.table("interface")
+        return self._once("interface", lambda: self.table("interface"))
 
-    @functools.cached_property
+    @property
     def probes(self):
         """The table of the case's probes, columns PROBE.FIELD."""
-        return self.table("probes")
+        return self._once("probes", lambda: self.table("probes"))
 
     def forces(self, solid):
         """The table of force, moment and power on a solid; its centre, velocity and angle."""

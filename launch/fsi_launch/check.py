@@ -54,7 +54,6 @@ def shared_out(options):
     """What `--ranks` would do to a case that is right, one line. Throws UserMistake where it cannot."""
     case = cases.resolve(options.case, options.overrides, options.laws)
     numbers = ranks.wanted(options.ranks, case)
-    ranks.expect_mpi(numbers)
     if not numbers:
         return "one process for each program"
     return "; ".join(f"{name}: {number} ranks" + (f", about {case.cost[name]['points'] / number:.0f} points each" if name in case.cost else "")
@@ -63,7 +62,10 @@ def shared_out(options):
 
 def main(options):
     """Prints what `fsi_case check` says, shares out ranks and draws where that is asked for."""
-    print(cases.check(options.case, options.overrides, options.laws), flush=True)
+    valid = cases.check(options.case, options.overrides, options.laws)
+    if "(external)" in valid:
+        paths.expect(cases.resolve(options.case, options.overrides, options.laws).programs)
+    print(valid, flush=True)
     if options.ranks is not None:
         print(f"  ranks: {shared_out(options)}")
     if options.plot is not None:

@@ -15,19 +15,32 @@ BIN = Path(os.environ.get("FSI_BIN") or BUILD / "bin")
 _built = set()  # by this command
 
 
+def _targets():
+    """Programs that the build knows; none with FSI_BIN."""
+    if os.environ.get("FSI_BIN"):
+        return set()
+    return set(re.findall(r"^build bin/(\w+):", (BUILD / "build.ninja").read_text(encoding="utf-8"), flags=re.M))
+
+
 def build(names):
     """Builds those of the programs that the build knows and that are missing or out of date. With FSI_BIN nothing is built. Ends the
     command where that fails; the reason is told by then."""
-    if os.environ.get("FSI_BIN"):
-        return
-    known = set(re.findall(r"^build bin/(\w+):", (BUILD / "build.ninja").read_text(encoding="utf-8"), flags=re.M))
-    wanted = [f"bin/{name}" for name in dict.fromkeys(names) if name in known - _built]
+    wanted = [f"bin/{name}" for name in dict.fromkeys(names) if name in _targets() - _built]
     if not wanted:
         return
     code = subprocess.run([ROOT / "launch" / "fsi", "--build", *wanted], stdin=subprocess.DEVNULL, check=False).returncode
     if code != 0:
         raise SystemExit(code)
     _built.update(names)
+
+
+def expect(programs):
+    """Throws UserMistake where one that a case names, {participant: name}, neither is there nor can be built."""
+    for participant, name in programs.items():
+        if "/" in name:
+            program(name)
+        elif not os.access(BIN / name, os.X_OK) and name not in _targets():
+            raise UserMistake(f"'{participant}': there is no program {name} in {BIN}; write ./{name} for one in this folder, or its path")
 
 
 def program(name):

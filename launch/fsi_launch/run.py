@@ -225,9 +225,8 @@ def _resolved(request, path, former=None):
     if request.frames and not any(entry.startswith("output.every") for entry in request.overrides):
         overrides = [*request.overrides, f"output.every={case.end / FRAMES:.17g}"]
         case = cases.resolve(path, overrides, request.laws, former)
+    paths.expect(case.programs)
     paths.build([*needed(case), *(["monitor"] if request.monitor else [])])
-    for program in case.programs.values():
-        paths.program(program)
     ranks.expect_mpi(ranks.wanted(request.ranks, case))
     if far := hosts.wanted(request.hosts, case, request.ranks, request.protection):
         hosts.expect_shell(request.remote_shell)
@@ -250,6 +249,8 @@ def _begin(request, say):
         former = str(directory / "case.yaml")
         case = _resolved(request, request.case or former, former)
         checkpoint = restart.choose(directory, say, case.digest)
+        if request.pause_at is not None and request.pause_at < checkpoint.step:
+            raise UserMistake(f"--pause-at {request.pause_at}: the run goes on from step {checkpoint.step}; write that or a later one")
         if case.end < checkpoint.t:
             raise UserMistake(f"time.end = {case.end:g} lies before the checkpoint's t = {checkpoint.t:.6g}; "
                               "a restart can only go on")

@@ -54,7 +54,8 @@ def _places(apart):
     """Lines that make `hosts`: who runs on another node than this one."""
     if not apart:
         return []
-    lines = ["", f"export FSI_RSH={shlex.quote(str(paths.ROOT / 'launch' / 'slurm_shell'))}", "hosts=''",
+    shell = shlex.quote(str(paths.ROOT / "launch" / "slurm_shell"))  # a line for a shell, as FSI_RSH is; quoted once more for this one
+    lines = ["", f"export FSI_RSH={shlex.quote(shell)}", "hosts=''",
              'first() { local nodes; mapfile -t nodes < <(scontrol show hostnames "$1"); echo "${nodes[0]}"; }', 'here=$(first "$SLURM_JOB_NODELIST_HET_GROUP_0")',
              "add() {  # NAME GROUP NODES",
              '  local node; node=$(first "$3")',

@@ -89,7 +89,8 @@ PlannedStep TimeSchedule::plan(double t, double proposal, const std::string& rea
           options_.end, options_.end / proposal, proposal, reason));
     throw Diverged(
         fmt::format("the time step has collapsed to {:.3g} ({}): a cell there has become small, or a wave "
-                    "fast; let the run end before (time.end), or give that grid more `lines`, and look "
+                    "fast; let the run end before (time.end), or give a grid that follows an outline more "
+                    "`lines`, and look "
                     "at last_state/ where it is the wave",
                     proposal, reason),
         {.t = t});

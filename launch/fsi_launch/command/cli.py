@@ -18,7 +18,7 @@ def _run(options):
                          overwrite=options.overwrite, restart=options.restart, progress=options.progress, pause_at=options.pause_at,
                          monitor=options.monitor, protection=options.protection, frames=options.movie,
                          ranks=options.ranks, hosts=options.hosts, remote_shell=options.remote_shell))
-    if options.movie and result.code == DONE:
+    if options.movie and result.summary["status"] in ("completed", "stopped"):
         from fsi_launch import plot
         plot.draw_movie(result.directory)
     return result.code

@@ -126,7 +126,7 @@ def _add_run(verbs):
     verb.add_argument("--no-progress", dest="progress", action="store_false", help="no progress bar")
     verb.add_argument("--monitor", action="store_true", help="show the run on the whole terminal, as fsi monitor does; "
                       "with q it goes on with the progress bar")
-    verb.add_argument("--pause-at", metavar="N", type=_count, help="pause after N steps, until fsi ctl resume: to look at a run, "
+    verb.add_argument("--pause-at", metavar="N", type=_count, help="pause at step N of the run, until fsi ctl resume: to look at a run, "
                       "or to attach a debugger, at the same place every time")
     verb.add_argument("--ranks", metavar="NAME=N,..", help="let N processes compute a gas or a solid together, e.g. --ranks fluid=4,disk=2; "
                       "auto: as many as there are cores for. The numbers are the same to the bit. Takes Open MPI (docs/scaling.md)")

@@ -39,6 +39,17 @@ def _numbers(line):
     return tuple(float(word) for word in re.split(r"[,;\s]+", line.strip()) if word)
 
 
+def _names_columns(text):
+    """Words, and no number among them."""
+    for word in re.split(r"[,;\s]+", text):
+        try:
+            float(word.strip("\"'"))
+            return False
+        except ValueError:
+            pass
+    return True
+
+
 def read(path, straight=False):
     """The Outline in a file with x, y on each line; comments begin with #, and the first line may name the columns. `straight`: with
     edges between the points. Throws UserMistake with file:line."""
@@ -50,7 +61,7 @@ def read(path, straight=False):
     points = []
     for number, line in enumerate(lines, 1):
         text = line.split("#")[0].strip()
-        if not text or (not points and re.match(r"[A-Za-z\"]", text)):
+        if not text or (not points and _names_columns(text)):
             continue
         try:
             x, y = _numbers(text)

@@ -70,6 +70,11 @@ def _outlines(directory):
     return {body.name: body.outlines for body in outlines.of(data.all_series(Path(directory)))}
 
 
+def _at(lines, t):
+    """The one of {time: line} at t, or None."""
+    return next((line for time, line in lines.items() if math.isclose(time, t, rel_tol=1e-9)), None)
+
+
 def _distance(coarse, fine):
     from fsi_launch.plot.several_runs import outlines
     return float(outlines.distance(coarse, _refined(fine)))
@@ -86,7 +91,7 @@ def compare(levels, directories, times):
             for name, columns in QUANTITIES:
                 found = [math.dist(*([run[t][column] for column in columns] for run in pair)) for pair in zip(runs, runs[1:])]
                 rows.append(Row(solid, name, t, found, orders(levels, found)))
-            lines = [{round(time, 9): line for time, line in one.get(solid, {}).items()}.get(round(t, 9)) for one in curves]
+            lines = [_at(one.get(solid, {}), t) for one in curves]
             if all(line is not None for line in lines):
                 found = [_distance(coarse, fine) for coarse, fine in zip(lines, lines[1:])]
                 rows.append(Row(solid, "boundary", t, found, orders(levels, found)))

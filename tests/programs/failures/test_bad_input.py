@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """The user's mistakes: exit 2, one line that says where and what to write, nothing started, nothing made."""
 
+import json
 import os
 import re
 import subprocess
@@ -43,6 +44,30 @@ class BadInput(EndToEnd):
             os.close(writing)
             code = 128 - answer.returncode if answer.returncode < 0 else answer.returncode   # as a shell tells it
             self.assertEqual((words, code, answer.stderr), (words, 141, ""))
+
+    def test_nothing_depends_on_who_listens(self):
+        for closed in ("0<&-", ">&-", "2>&-", "0<&- >&- 2>&-"):
+            folder = self.folder / f"closed{len(list(self.folder.iterdir()))}"
+            answer = subprocess.run(["bash", "-c", f"exec '{FSI}' run sod_tube --set grid.factor=2 --set expect={{}} --out '{folder}' {closed}"],
+                                    cwd=self.folder, env=os.environ | {"FSI_BIN": str(BIN)}, capture_output=True, text=True, check=False)
+            self.assertEqual((closed, answer.returncode), (closed, 0), answer.stderr)
+            self.assertEqual(json.loads((folder / "summary.json").read_text(encoding="utf-8"))["status"], "completed")
+
+    def test_program_of_somebody_else_that_is_not_there(self):
+        for program, remedy in (("./nothere", "does not exist"), ("nothere", "write ./nothere for one in this folder")):
+            self.assertIn(remedy, self.refused("spring_piston", "--set", f"solids.piston.program={program}"))
+            answer = subprocess.run([FSI, "check", "spring_piston", "--set", f"solids.piston.program={program}"], cwd=self.folder,
+                                    env=os.environ | {"FSI_BIN": str(BIN)}, capture_output=True, text=True, check=False)
+            self.assertEqual((answer.returncode, answer.stdout), (2, ""), answer.stderr)
+            self.assertIn(remedy, answer.stderr)
+
+    def test_ways_to_watch_that_do_not_go_together(self):
+        for words in (["--replay", "a.h5", "--record", "b.h5"], ["a_run", "--replay", "a.h5"], ["--send", "pause", "--web", "0"],
+                      ["--host", "0.0.0.0"], ["--speed", "2"], ["--once", "--web", "0"]):
+            answer = subprocess.run([FSI, "monitor", *words], cwd=self.folder, env=os.environ | {"FSI_BIN": str(BIN)}, capture_output=True,
+                                    text=True, check=False)
+            self.assertEqual((words, answer.returncode), (words, 2), answer.stderr)
+            self.assertRegex(answer.stderr, next(word for word in words if word.startswith("--")))
 
     def test_unknown_key_and_what_was_meant(self):
         self.assertRegex(self.changed("cfl: 0.9", "clf: 0.9"), r"clf.*cfl")
@@ -116,6 +141,9 @@ class BadInput(EndToEnd):
         back = self.launch("--restart", str(run.directory), "--set", "time.end=0.1", out=None)
         self.assertEqual(back.wait(), 2)
         self.assertIn("time.end", back.stderr)
+        past = self.launch("--restart", str(run.directory), "--set", "time.end=2", "--pause-at", "3", out=None)
+        self.assertEqual(past.wait(), 2)
+        self.assertRegex(past.stderr, r"--pause-at 3: the run goes on from step \d+")
         again = self.launch("--restart", str(run.directory), "--set", "expect={}", out=None)
         self.assertEqual(again.wait(), 0, again.stderr)
         self.assertIn("the run is complete", again.stdout + again.stderr)

@@ -58,8 +58,15 @@ class FromPython(EndToEnd):
         running.until(lambda: running.state()["status"] == "paused")
         self.assertTrue(running.going())
         running.resume()
+        watched = amp_fsi.open(self.folder / "run")
+        self.assertEqual(watched.summary, {})
+        steps = len(watched.interface["t"])
         running.stop()
-        self.assertEqual(running.wait().summary["status"], "stopped")
+        for _ in range(2):
+            self.assertEqual(running.wait().summary["status"], "stopped")
+        self.assertEqual(watched.summary["status"], "stopped")
+        self.assertGreaterEqual(len(watched.interface["t"]), steps)
+        self.assertEqual(watched.interface["t"][-1], watched.summary["t"])
 
     def test_study_goes_on_where_it_was(self):
         vary = {"parameters.density_ratio": [0.01, 1]}

@@ -135,6 +135,14 @@ TEST_F(Checkpoint, TheLastTwoCompleteSetsAreKept) {
   EXPECT_FALSE(kept(20));
 }
 
+TEST_F(Checkpoint, SetsAreInTheOrderOfTheirStepsHoweverManyDigitsTheseHave) {
+  for (const std::uint64_t step : {99'999'900U, 99'999'950U, 100'000'000U}) write(step);
+  const auto kept = [&](std::uint64_t step) { return std::filesystem::exists(checkpoint_folder(dir, step)); };
+  EXPECT_FALSE(kept(99'999'900));
+  EXPECT_TRUE(kept(99'999'950));
+  EXPECT_TRUE(kept(100'000'000));
+}
+
 TEST_F(Checkpoint, ArchiveOfAnotherProgramIsRefused) {
   State state;
   Archive saved;

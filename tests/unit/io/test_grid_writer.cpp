@@ -163,6 +163,16 @@ TEST_F(GridSeries, XdmfOfAnInterruptedRunShowsWhatIsThereAndIsRepeatable) {
   EXPECT_EQ(all_between(once, "<Grid Name=\"solid_beam/block\"", ">").size(), 1U);
 }
 
+TEST_F(GridSeries, XdmfTellsTimesApartInAnyUnit) {
+  GridWriter fluid(dir, "fluid"), solid(dir, "solid_beam");
+  for (const std::uint64_t step : {0U, 1U, 2U}) {
+    const double t = 1e-10 * static_cast<double>(step);
+    write_fluid(fluid, t, step);
+    write_solid(solid, t * (1 + 1e-15));
+  }
+  EXPECT_EQ(write_xdmf(dir), 3U);
+}
+
 TEST_F(GridSeries, XdmfOfAnEmptyDirectoryHasNoTimes) {
   EXPECT_EQ(write_xdmf(dir), 0U);
 }

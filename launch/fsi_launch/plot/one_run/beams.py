@@ -167,20 +167,24 @@ def table(runs):
 
 
 def _draw(axes, beam, line, colours):
-    for (t, positions), colour in zip(sorted(beam.lines.items()), colours):
-        axes.plot(*positions.T, line, color=colour, linewidth=1.1, label=f"{t:.4g}")
+    """`colours`: {time: colour}."""
+    for t, positions in sorted(beam.lines.items()):
+        axes.plot(*positions.T, line, color=colours[t], linewidth=1.1, label=f"{t:.4g}")
 
 
-def _colours(count):
-    return pyplot.get_cmap(style.GAS_MAP)(np.linspace(0, 0.9, count))
+def _colours(times):
+    """{time: colour}"""
+    return dict(zip(times, pyplot.get_cmap(style.GAS_MAP)(np.linspace(0, 0.9, len(times)))))
 
 
 def _panel(axes, group, title):
     """The runs of a group: the finest, or the first, in full lines, others broken."""
+    times = sorted({t for run in group for beam in run.beams for t in beam.lines})
     for run, line in zip(group, (FINEST, *COARSER)):
         for beam in run.beams:
-            _draw(axes, beam, line, _colours(len(beam.lines)))
-    handles = [handle for handle in axes.get_lines()[:len(group[0].beams[0].lines)]]
+            _draw(axes, beam, line, _colours(times))
+    handles = list({handle.get_label(): handle for handle in reversed(axes.get_lines())}.items())
+    handles = [handle for _, handle in sorted(handles, key=lambda one: float(one[0]))]
     axes.legend(handles=handles, title=units.label("t", "time"), loc="center left", bbox_to_anchor=(1.0, 0.5), handlelength=1.2)
     axes.set_title(title, loc="left")
     same_grid = len({run.factor for run in group}) == 1 and all(run.laws for run in group)

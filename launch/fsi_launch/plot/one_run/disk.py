@@ -13,7 +13,6 @@ from matplotlib.tri import LinearTriInterpolator
 from fsi_launch.plot.look import style, units
 from fsi_launch.plot.reading import data, mesh
 
-SAME_TIME = 1e-9
 AXIS_POINTS = 1601  # along y = 0
 
 # Components along and across the current radius: (key, title)
@@ -208,7 +207,7 @@ def pictures(series, reference):
         return
     p_e = reference[min(reference)]["gas"]["p"][-1]  # of the gas at rest
     for index, (of_gas, of_solid) in enumerate(zip(gas.outputs, solid.outputs)):
-        table = next((table for t, table in reference.items() if abs(t - of_gas.t) < SAME_TIME), None)
+        table = next((table for t, table in reference.items() if data.same_time(t, of_gas.t)), None)
         if table is None or of_gas.t == 0:
             continue
         exact = _gas_reference(table["gas"], p_e), _solid_reference(table["solid"])

@@ -1,5 +1,6 @@
 """Reads what a run wrote (layout: docs/output.md): fields of each program over its output times, and tables."""
 
+import contextlib
 import csv
 import functools
 import json
@@ -12,7 +13,7 @@ from fsi_launch.failure import UserMistake
 
 NOT_FIELDS = ("x", "x1", "x2", "kind", "vtkGhostType")  # "x" holds x1 and x2 side by side, for ParaView
 UNUSED, DISCRETISED, INTERPOLATED = 0, 1, 2
-SAME_TIME = 1e-9    # part of the time (or time, below 1) by which an output may differ from the one asked for
+SAME_TIME = 1e-9    # part of the time by which an output may differ from the one asked for
 
 
 @dataclass
@@ -133,13 +134,16 @@ def _read_output(group):
     return Output(float(group.attrs["t"]), _read_grids(group))
 
 
+@contextlib.contextmanager
 def _opened(path):
-    file = h5py.File(path, "r")
-    if "outputs" not in file.attrs:
-        file.close()
-        raise UserMistake(f"'{path}' is not the series of outputs of a program: give the folder of a run, "
-                        "as fsi run --out named it")
-    return file
+    try:
+        with h5py.File(path, "r") as file:
+            if "outputs" not in file.attrs:
+                raise UserMistake(f"'{path}' is not the series of outputs of a program: give the folder of a run, "
+                                "as fsi run --out named it")
+            yield file
+    except (KeyError, OSError) as error:
+        raise UserMistake(f"'{path}', or a file in fields/ that it names, is damaged: {error.args[0]}; fsi run --restart names it") from None
 
 
 def _is_of_gas(path):
@@ -196,7 +200,7 @@ def gas_of(series):
 
 def same_time(a, b):
     """True if an output at a is one that was asked for at b."""
-    return abs(a - b) <= SAME_TIME * max(1, abs(b))
+    return abs(a - b) <= SAME_TIME * max(abs(a), abs(b))
 
 
 def _at(one, times):

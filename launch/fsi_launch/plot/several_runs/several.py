@@ -4,7 +4,8 @@ import csv
 
 import numpy as np
 
-SAME_TIME = 1e-9
+from fsi_launch.plot.reading import data
+
 MOST_TIMES = 3
 TELLING = ("law", "factor", "projection", "multirate")
 UNSAID = {"interface.projection": "simplified", "time.multirate": "false"}  # what a case without the key has
@@ -49,7 +50,7 @@ def labels(cases, names):
 
 def at(values, t):
     """The value of {time: value} at a time, or None."""
-    return next((value for other, value in values.items() if abs(other - t) < SAME_TIME), None)
+    return next((value for other, value in values.items() if data.same_time(other, t)), None)
 
 
 def common_times(runs):

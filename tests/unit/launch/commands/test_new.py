@@ -44,7 +44,8 @@ class Outlines(InScratch):
         self.assertEqual(self.read("\ufeff0,0\n1,0\n.5,2\n").points[0], (0.0, 0.0))
 
     def test_mistakes_say_where(self):
-        for content, said in (("0,0\n1,nan\n", "outline.csv:2: '1,nan' is no point"), ("0,0\n1,x\n", "outline.csv:2: '1,x' is no point"), ("0,0\n1,0,3\n", "outline.csv:2"), ("0,0\n1,1\n", "3 points")):
+        for content, said in (("0,0\n1,nan\n", "outline.csv:2: '1,nan' is no point"), ("0,0\n1,x\n", "outline.csv:2: '1,x' is no point"), ("O.5,0\n1,1\n", "outline.csv:1: 'O.5,0' is no point"),
+                              ("nan,0\n1,1\n", "outline.csv:1: 'nan,0' is no point"), ('"x","y"\n1,1\n', "3 points"), ("0,0\n1,0,3\n", "outline.csv:2"), ("0,0\n1,1\n", "3 points")):
             with self.subTest(content), self.assertRaises(UserMistake) as caught:
                 self.read(content)
             self.assertIn(said, str(caught.exception))

@@ -74,7 +74,8 @@ class Job(InScratch):
 
     def setUp(self):
         super().setUp()
-        shutil.copytree(paths.ROOT / "launch", self.folder / "launch", ignore=lambda *_: ["fsi", "fsi_launch", "amp_fsi"])
+        self.root = self.folder / "a checkout"
+        shutil.copytree(paths.ROOT / "launch", self.root / "launch", ignore=lambda *_: ["fsi", "fsi_launch", "amp_fsi"])
         self.programs = self.folder / "programs"
         self.programs.mkdir()
         for name, body in SLURM.items():
@@ -86,8 +87,8 @@ class Job(InScratch):
 
     def job(self, launcher, **given):
         """A started script. `launcher`: what `fsi` does in it."""
-        self._write(self.folder / "launch" / "fsi", launcher)
-        with mock.patch.object(paths, "ROOT", self.folder):
+        self._write(self.root / "launch" / "fsi", launcher)
+        with mock.patch.object(paths, "ROOT", self.root):
             text = submit.script(CASE, options(**given))
         path = self.folder / "job"
         path.write_text(text, encoding="utf-8")
@@ -101,7 +102,8 @@ class Job(InScratch):
         return (self.folder / name).read_text(encoding="utf-8").strip()
 
     def test_who_has_a_node_of_his_own_runs_there(self):
-        job = self.job('printf "%s\\n" "$*" > "$FOLDER/run"\n"$FSI_RSH" 2@m12 "echo a \\"b c\\" > $FOLDER/there"\nexit 3\n', nodes=3,
+        job = self.job('printf "%s\\n" "$*" > "$FOLDER/run"\nwords="echo a \\"b c\\" > $FOLDER/there"\n'
+                       'eval "$FSI_RSH" 2@m12 \'"$words"\'\nexit 3\n', nodes=3,
                        ranks="fluid=4", overrides=["a=[1, 2]"])
         self.assertEqual(job.wait(), 3, "the exit code of the run")
         # The second component got a node of the first one: who runs there is here.
