@@ -16,12 +16,6 @@ constexpr double no_force = 1e-10;
 /// A point counts as clamped where the marks of its neighbours, weighted, come to this.
 constexpr double clamped = 1 - 1e-9;
 
-std::vector<double> lengths(std::span<const double> x) {
-  std::vector<double> ds(x.size() / 2);
-  point_lengths(x, ds);
-  return ds;
-}
-
 /// u at a place that moved from x_0: positions are carried over as displacements, exact at t = 0.
 std::vector<double> difference(std::span<const double> x, std::span<const double> x_0) {
   std::vector<double> u(x.begin(), x.end());
@@ -36,13 +30,6 @@ bool run_oppositely(std::span<const double> x, std::span<const double> other) {
 }
 
 }  // namespace
-
-Vec2 force_of(std::span<const double> x, std::span<const double> n, std::span<const double> w_n) {
-  const std::vector<double> ds = lengths(x);
-  Vec2 force = Vec2::Zero();
-  for (std::size_t k = 0; k < ds.size(); ++k) force += ds[k] * w_n[k] * vector_at(n, k);
-  return force;
-}
 
 InterfaceTransfer::InterfaceTransfer(const Curve& curve, std::span<const double> coarse,
                                      std::span<const double> fine, bool to_gas)
@@ -110,8 +97,9 @@ void InterfaceTransfer::resolve(std::span<double> fine) const {
 std::vector<double> InterfaceTransfer::solid_traction(std::span<const double> x,
                                                       const wire::ProjectedInterface& fine) const {
   const std::size_t m = to_fine_.points();
-  std::vector<double> w_n = at_coarse(fine.w_n), back(m), n_back(2 * m);
-  const std::vector<double> n = at_coarse(fine.n), ds = lengths(x);
+  std::vector<double> w_n = at_coarse(fine.w_n), back(m), n_back(2 * m), ds(m);
+  const std::vector<double> n = at_coarse(fine.n);
+  point_lengths(x, ds);
   to_fine_.cubic(w_n, back);
   to_fine_.cubic(n, n_back);
   Vec2 missing = Vec2::Zero();

@@ -22,9 +22,6 @@
 
 namespace fsi::coupler {
 
-/// Force of a normal traction, sum ds w_n n, with the lengths of `point_lengths`.
-Vec2 force_of(std::span<const double> x, std::span<const double> n, std::span<const double> w_n);
-
 class InterfaceTransfer {
  public:
   /// @param curve of the coarser side  @param coarse its points at t = 0, 2 n  @param fine points of the

@@ -94,6 +94,16 @@ CouplerOptions transfer_options() {
   return result;
 }
 
+/// Of a normal traction, sum ds w_n n.
+Vec2 force_of(const std::vector<double>& x, const std::vector<double>& n, const std::vector<double>& w_n) {
+  const std::size_t points = w_n.size();
+  std::vector<double> ds(points);
+  point_lengths(x, ds);
+  Vec2 force = Vec2::Zero();
+  for (std::size_t k = 0; k < points; ++k) force += ds[k] * w_n[k] * Vec2(n[k], n[points + k]);
+  return force;
+}
+
 Vec2 force_on(const std::vector<double>& x, const wire::ProjectedInterface& answer) {
   return force_of(x, answer.n, answer.w_n);
 }
