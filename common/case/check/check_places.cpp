@@ -91,12 +91,15 @@ void check_probe_in_solid(const SolidSpec& solid, const Vec2& x, const Node& nod
            solid.body_fitted.empty() ? "" : ", within its `shape` as the points of the outline draw it"));
 }
 
-void check_rigid_side(const BoundarySpec& spec, const Node& node, const std::string& path) {
+void check_rigid_side(const BoundarySpec& spec, bool fixed, const Node& node, const std::string& path) {
   if (schema::solid_boundary(spec.kind).holds == Hold::motion) {
     fail(node.place, path,
-         "a rigid solid cannot have its motion given (or be clamped): it moves as a whole; write free, or "
-         "take "
-         "a law that deforms");
+         fmt::format(
+             "a rigid solid cannot have its motion given (or be clamped) at a side: {}; write free, or "
+             "take a law that deforms",
+             fixed ? "`motion: fixed` holds all of it"
+                   : "it moves as a whole, or not at all with "
+                     "`motion: fixed`"));
   }
   if (carries_load(spec)) {
     fail(node.place, path,
@@ -125,8 +128,8 @@ void check_rigid(const SolidSpec& solid, const Node& node) {
       const auto& walls = solid.body_fitted.front().curve.walls;
       if (!walls || std::ranges::find(*walls, side) == walls->end()) continue;
     }
-    check_rigid_side(solid.boundary[static_cast<std::size_t>(side)], *boundary->find(name_of(side)),
-                     fmt::format("{}.boundary.{}", path, name_of(side)));
+    check_rigid_side(solid.boundary[static_cast<std::size_t>(side)], solid.fixed,
+                     *boundary->find(name_of(side)), fmt::format("{}.boundary.{}", path, name_of(side)));
   }
 }
 

@@ -55,7 +55,10 @@ void read_points(const Node& node, const std::string& path, GridSpec& grid) {
   const double n2 = std::round((grid.y_b - grid.y_a) / *spacing->number) + 1;
   if (!(std::min(n1, n2) >= fewest) || !(std::max(n1, n2) <= most)) {
     fail(spacing->place, path + ".spacing",
-         fmt::format("gives {} x {} points; {} to {} are possible in each direction", n1, n2, fewest, most));
+         fmt::format("gives {} x {} points; {} to {} are possible in each direction: write a {} grid.factor, "
+                     "or another "
+                     "spacing",
+                     n1, n2, fewest, most, std::min(n1, n2) >= fewest ? "smaller" : "greater"));
   }
   grid.n1 = static_cast<int>(n1);
   grid.n2 = static_cast<int>(n2);

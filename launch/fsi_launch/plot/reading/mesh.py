@@ -34,10 +34,18 @@ def triangles(grid, shown=None):
     return Triangulation(grid.x1.ravel(), grid.x2.ravel(), np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]]))
 
 
+def _closes_upwards(grid):
+    """True where the last line is the first one again: a mapped grid that is periodic along j."""
+    gap = np.hypot(grid.x1[-1] - grid.x1[0], grid.x2[-1] - grid.x2[0])
+    return bool((gap <= 1e-9 * np.hypot(np.ptp(grid.x1), np.ptp(grid.x2))).all())
+
+
 def _loops(grid):
     """The rim as closed lines: two for a ring."""
     if grid.closed:
         parts = [[np.s_[0, :]], [np.s_[-1, :]]]
+    elif _closes_upwards(grid):
+        parts = [[np.s_[:, 0]], [np.s_[:, -1]]]
     else:
         parts = [[np.s_[0, :], np.s_[:, -1], np.s_[-1, ::-1], np.s_[::-1, 0]]]
     return [np.column_stack([np.concatenate([x[p] for p in part]) for x in (grid.x1, grid.x2)]) for part in parts]
