@@ -184,7 +184,7 @@ TEST(Walls, ASolidMayNotLeaveTheSideItsInterfaceEndsOn) {
 
 /// Where the gas meets a body along a side of its own grid.
 TEST(Walls, AnEndOfASideMayNotLeaveTheWallOfTheGasBesideIt) {
-  const auto mistake = [](const char* name, std::vector<std::string> sets) {
+  const auto mistake = [](const char* name, const std::vector<std::string>& sets) {
     try {
       load_case(std::string(FSI_ROOT "/configs/") + name, sets);
     } catch (const UserMistake& message) {
