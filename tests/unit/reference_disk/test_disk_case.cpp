@@ -118,7 +118,7 @@ TEST_F(DiskCase, AForceOrADisplacementAtTheStartIsRefused) {
     return read(rotation, "omega_0: omega_0", "14", "interface", "radius: 1", more);
   };
   EXPECT_NO_THROW(disk_from_case(with(", u: [0, 0]}")));
-  expect_mistake(with(", u: [0, 0.01 * x]}"), "solids.disk.initial.u");
+  expect_mistake(with(", u: [0, 0.01 * (1 - x^2 - y^2)]}"), "solids.disk.initial.u");
   expect_mistake(with("}\n    body_force: [0, 0.2]"), "solids.disk.body_force");
 }
 

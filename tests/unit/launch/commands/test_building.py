@@ -49,7 +49,7 @@ echo "apt-get $*" >>"$CALLS"
 """
 CASE = """#!/bin/bash
 echo '{"name": "piston", "resolved": "", "participants": [{"name": "fluid", "executable": "fluid_solver"},
-  {"name": "solid", "executable": "somebody_elses"}, {"name": "coupler", "executable": "coupler"}],
+  {"name": "solid", "executable": "/bin/true"}, {"name": "coupler", "executable": "coupler"}],
   "reference": {"kind": "piston_1d"}, "expect": [], "time": {"end": 1}, "output_times": [], "projection": "full",
   "restart_digest": "", "cost": {"programs": []}}'
 """
