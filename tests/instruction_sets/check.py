@@ -32,9 +32,10 @@ LOADER = "/lib64/ld-linux-x86-64.so.2"  # of the C library, which knows what the
 
 
 def laws():
-    """All laws, from the one place that names them."""
-    text = (ROOT / "solid_solver" / "CMakeLists.txt").read_text(encoding="utf-8")
-    return re.findall(r"^fsi_(?:solid_solver\(|program\(solid_solver_)(\w+) ", text, flags=re.M)
+    """All laws, and what stands where a law stands, from the two places that name them."""
+    folder = ROOT / "solid_solver"
+    return [*re.findall(r"^fsi_kind\(law (\w+) ", (folder / "kinds.cmake").read_text(encoding="utf-8"), flags=re.M),
+            *re.findall(r"^fsi_program\(solid_solver_(\w+) ", (folder / "CMakeLists.txt").read_text(encoding="utf-8"), flags=re.M)]
 
 
 def runs_here(level):
@@ -119,8 +120,8 @@ def main():
     options = parser.parse_args()
     if unknown := set(options.levels) - set(LEVELS):
         parser.error(f"no level {', '.join(sorted(unknown))}; there are {', '.join(LEVELS)}")
-    if missing := set(laws()) - set(CASES):
-        sys.exit(f"no case for the law {', '.join(sorted(missing))}: name one in CASES of {__file__}")
+    if different := set(laws()) ^ set(CASES):
+        sys.exit(f"{', '.join(sorted(different))}: a law without a case, or a case without a law, in CASES of {__file__}")
     if not options.full:
         if not (RELEASE / "build.ninja").exists():
             do("cmake", "--preset", "release")
