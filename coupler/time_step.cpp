@@ -12,7 +12,6 @@ namespace fsi::coupler {
 
 namespace {
 
-constexpr double most_substeps = 10000;
 constexpr double rounding = 1e-9;  // a step that exceeds a proposal by rounding needs no further substep
 
 /// Smallest proposal of those that cannot substep; of all when nobody else sets a limit.

@@ -63,8 +63,7 @@ class AnySolidSolver {
   virtual void set_body_force(const VectorFunction& force) = 0;
   /// Makes chosen fields exact; half of a step's sources act before it, half after it. Conditions on the
   /// sides then hold for the difference to the fields, and so does what an interface shows and is told: it
-  /// lies where the reference configuration has it, but for
-  /// the difference in u. Before the initial conditions.
+  /// lies where the reference configuration has it, but for the difference in u. Before the initial conditions.
   virtual void choose(const ChosenSolution& solution) = 0;
 
   /// Largest stable step for the present state: paper eq. (44) in paper eq. (45), times the safety factor,

@@ -92,8 +92,7 @@ BodyFittedSpec first_that_holds(const BodyFittedSpec& spec, double estimate) {
   return tried;
 }
 
-constexpr double margin_of_estimate =
-    0.95;  // of an estimate: shares are not quite in proportion to distances
+constexpr double margin_of_estimate = 0.95;  // shares are not quite in proportion to distances
 
 void check_behind(const BodyFittedSpec& spec, ConstFieldView x) {
   if (const auto trouble = trouble_behind(spec, x)) throw Diverged(*trouble, {.grid = spec.name});

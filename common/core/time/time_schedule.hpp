@@ -9,6 +9,9 @@
 
 namespace fsi {
 
+/// A solid that would take more substeps than these in a step has no step worth the name.
+inline constexpr double most_substeps = 10000;
+
 /// Times from 0 to `end`, sorted. Those closer to each other than 1e-8 of the run are one, the first of them;
 /// those so close to the start or the end are that.
 std::vector<double> distinct_times(std::vector<double> times, double end);
