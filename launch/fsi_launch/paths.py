@@ -2,6 +2,7 @@
 
 import os
 import re
+import shlex
 import subprocess
 from pathlib import Path
 
@@ -10,6 +11,7 @@ from fsi_launch.failure import Failure, INTERNAL_ERROR, UserMistake
 ROOT = Path(__file__).resolve().parents[2]
 BUILD = ROOT / "build" / "release"
 BIN = Path(os.environ.get("FSI_BIN") or BUILD / "bin")
+COMMAND = shlex.quote(os.environ.get("FSI_COMMAND") or "./launch/fsi")  # for what a person is told to type
 
 
 _built = set()  # by this command

@@ -2,6 +2,7 @@
 
 import contextlib
 import os
+import shlex
 import shutil
 import subprocess
 import sys
@@ -340,4 +341,4 @@ def _report(result, directory, missed, quiet, restarts):
     for line in missed + ([result["reason"]] if result["status"] == "failed" else []):
         print(f"fsi: {line}", file=sys.stderr)
     if result["status"] != "completed" and restarts and (found := restart.latest(directory, digest=restarts)):
-        print(f"fsi: ./launch/fsi run --restart {directory} goes on from step {found.step}", file=sys.stderr)
+        print(f"fsi: {paths.COMMAND} run --restart {shlex.quote(str(directory))} goes on from step {found.step}", file=sys.stderr)

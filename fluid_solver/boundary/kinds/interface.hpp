@@ -63,14 +63,20 @@ struct Interface {
       if (!(p_I > 0 && std::isfinite(p_I) && std::isfinite(values.v_n[k]))) {
         throw Diverged(
             fmt::format(
-                "p^I = {:.3g}, v_n^I = {:.3g}{}", p_I, values.v_n[k],
-                side.options.wave_curve ? "" : "; write interface.riemann: exact, for jumps of this size"),
+                "p^I = {:.3g}, v_n^I = {:.3g}: the solid leaves the gas faster than it can follow; {}", p_I,
+                values.v_n[k], remedy(side.options)),
             {.t = side.t,
              .grid = side.grid,
              .point = {at.i, at.j},
              .position = {side.x(0, at.i, at.j), side.x(1, at.i, at.j)}});
       }
     }
+  }
+
+  static const char* remedy(const GasOptions& options) {
+    if (!options.wave_curve) return "write interface.riemann: exact, for jumps of this size";
+    return "let the run end before (time.end), load the solid less, or look at last_state/ for what throws "
+           "it";
   }
 
   /// Of the gas through the wave that changes its pressure so many times: behind a shock by Rankine and

@@ -135,7 +135,7 @@ def _act(arguments):
     interrupts.listen()
     options, unknown = verbs.parser(arguments[0]).parse_known_args(arguments)
     if unknown:
-        raise UserMistake(f"{options.verb}: it takes no {' '.join(unknown)}; ./launch/fsi {options.verb} --help says what it takes")
+        raise UserMistake(f"{options.verb}: it takes no {' '.join(unknown)}; {paths.COMMAND} {options.verb} --help says what it takes")
     return ACTS[options.verb](options)
 
 

@@ -5,7 +5,7 @@ import argparse
 from fsi_launch import paths
 from fsi_launch.gallery import problems
 
-SCRIPT = """# Completion of AMP-FSI's command for bash: source <(./launch/fsi completion)
+SCRIPT = """# Completion of AMP-FSI's command for bash: source <({command} completion)
 _fsi() {{
   local word=${{COMP_WORDS[COMP_CWORD]}} verb=${{COMP_WORDS[1]}} words files=
   if ((COMP_CWORD == 1)); then
@@ -41,4 +41,4 @@ def script(parser):
     """The text of the script."""
     verbs = _verbs(parser)
     cases = "\n".join(f"      {name}) words='{' '.join(_words(verb))}' files=yes ;;" for name, verb in verbs.items())
-    return SCRIPT.format(verbs=" ".join(verbs), cases=cases)
+    return SCRIPT.format(command=paths.COMMAND, verbs=" ".join(verbs), cases=cases)

@@ -2,6 +2,7 @@
 
 import argparse
 
+from fsi_launch import paths
 from fsi_launch.failure import UserMistake
 
 REQUESTS = ("pause", "resume", "checkpoint", "stop")
@@ -12,7 +13,7 @@ class _Parser(argparse.ArgumentParser):
 
     def error(self, message):
         verb = "".join(f" {word}" for word in self.prog.split()[1:2])
-        raise UserMistake(f"{verb.strip()}{': ' if verb else ''}{message}; ./launch/fsi{verb} --help says what it takes")
+        raise UserMistake(f"{verb.strip()}{': ' if verb else ''}{message}; {paths.COMMAND}{verb} --help says what it takes")
 
 
 def _add_case(parser, **options):
@@ -252,7 +253,7 @@ def _add_schema(verbs):
 
 def _add_completion(verbs):
     verbs.add_parser("completion", description="Prints a script for bash that completes verbs, options and cases: "
-                     "source <(./launch/fsi completion)")
+                     f"source <({paths.COMMAND} completion)")
 
 
 VERBS = {"run": _add_run, "new": _add_new, "check": _add_check, "converge": _add_converge, "study": _add_study, "gallery": _add_gallery,

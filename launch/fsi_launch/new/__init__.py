@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 
 from fsi_launch import case as cases
+from fsi_launch import paths
 from fsi_launch.failure import DONE, UserMistake
 from fsi_launch.new import materials, outline, text
 from fsi_launch.new.problem import Problem
@@ -82,5 +83,5 @@ def main(options):
     if angle is not None and not text.keeps_corners(problem):
         print(f"the points of {options.outline} turn by more than {angle} degrees: if these are corners, add --straight for edges between the points")
     print(cases.check(str(path), [], []))
-    print(f"next: ./launch/fsi check {path} --plot, ./launch/fsi run {path}")
+    print(f"next: {paths.COMMAND} check {path} --plot, {paths.COMMAND} run {path}")
     return DONE

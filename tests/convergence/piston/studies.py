@@ -17,6 +17,8 @@ SOLID = {"0.1": {"u_bar": 1.1e-5, "v_bar": 3.8e-6, "P_bar": 8.1e-7}, "1": {"u_ba
 # Only the finest pair of grids is judged: on coarser ones errors of opposite sign can cancel and hide the order.
 LEVELS = "8,16"
 MIN_RATE = 1.9
+# The problem is plane: on a quarter of the duct all errors are the same to eight digits, for a quarter of the work.
+QUARTER = ("fluid.grid.y=[0, 0.25]", "solids.solid.grid.y=[0, 0.25]")
 ALL = ("rho", "v1", "T", "u_bar", "v_bar", "P_bar")
 
 

@@ -3,14 +3,14 @@
 
 import unittest
 
-from studies import GAS, SOLID, Study
+from studies import GAS, QUARTER, SOLID, Study
 
 
 class DensityRatios(Study):
     def test_every_ratio_with_the_simplified_projection(self):
         for ratio in ("0.001", "0.01", "0.1", "1", "10", "1000"):
             with self.subTest(density_ratio=ratio):
-                self.assert_second_order(self.converge(f"parameters.density_ratio={ratio}"), GAS | SOLID.get(ratio, {}))
+                self.assert_second_order(self.converge(*QUARTER, f"parameters.density_ratio={ratio}"), GAS | SOLID.get(ratio, {}))
 
     def test_the_full_projection_gives_the_same_errors(self):
         for ratio in ("0.001", "0.1", "1000"):

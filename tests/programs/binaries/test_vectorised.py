@@ -120,6 +120,13 @@ class Kernels(unittest.TestCase):
     def test_gas(self):
         self.check("fluid_solver", GAS)
 
+    def test_moving_grids_are_looked_over(self):
+        """In every step. Points that are left over share edges, so they are fewer operations than so many points would be."""
+        code = dict(functions(BIN / "fluid_solver"))
+        for loop in ("cell_quality", "check_cells"):
+            loops = [arithmetic(one) for name in code if f"grid::{loop}(" in name for one in innermost_loops(code[name])]
+            self.assertTrue(any(scalar == 0 < packed for packed, scalar in loops), loop)
+
     def test_solids_of_every_law(self):
         for program in sorted(path.name for path in BIN.glob("solid_solver_*")):
             if program not in ("solid_solver_rigid", "solid_solver_beam"):  # which have no grid of points

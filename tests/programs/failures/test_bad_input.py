@@ -45,6 +45,14 @@ class BadInput(EndToEnd):
             code = 128 - answer.returncode if answer.returncode < 0 else answer.returncode   # as a shell tells it
             self.assertEqual((words, code, answer.stderr), (words, 141, ""))
 
+    def test_what_to_type_next_is_told_as_the_command_was_typed(self):
+        link = self.folder / "my fsi"
+        link.symlink_to(FSI)
+        for typed, named in ((str(link), f"'{link}'"), (str(FSI), str(FSI)), (os.path.relpath(FSI, self.folder), os.path.relpath(FSI, self.folder))):
+            answer = subprocess.run([typed, "check", "--nonsense"], cwd=self.folder, env=os.environ | {"FSI_BIN": str(BIN)},
+                                    capture_output=True, text=True, check=False)
+            self.assertTrue(answer.stderr.endswith(f"; {named} check --help says what it takes\n"), answer.stderr)
+
     def test_nothing_depends_on_who_listens(self):
         for closed in ("0<&-", ">&-", "2>&-", "0<&- >&- 2>&-"):
             folder = self.folder / f"closed{len(list(self.folder.iterdir()))}"

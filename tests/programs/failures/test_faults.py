@@ -113,10 +113,14 @@ class Requests(EndToEnd):
         self.assertEqual(answer.returncode, 4, answer.stderr)
 
     def test_requests_without_the_key_of_the_run_change_nothing(self):
-        run = self.launch(*LONG)
-        run.until_stepping()
+        """Of a run that is paused meanwhile: one that went on, and the one beside it, would only be longer."""
+        run = self.launch(*LONG, "--pause-at", "100")
+        run.until_paused()
+        before = run.written()
         self.send_with_key(run, "", "stop")
-        self.send_with_key(run, "sign:" + "0" * 64, "pause")
+        self.send_with_key(run, "sign:" + "0" * 64, "resume")
+        self.assertLess(run.written() - before, 32 * len(run.table()[-1]))  # lines are written sixteen at a time
+        run.ctl("resume")
         run.until_further()
         self.assertEqual(run.checkpoints(), [])
         self.assert_as_undisturbed(run)
