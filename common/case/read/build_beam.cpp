@@ -16,6 +16,12 @@ using config::Node;
 
 constexpr double fewest_elements = 3, most_elements = 5000;  ///< elements, as in the schema
 
+/// Does the last point say where the first one is again? Numbers that were computed meet to round-off.
+bool comes_back(const std::vector<Vec2>& line) {
+  constexpr double round_off = 1e-6;  // of the way to the second point
+  return (line.back() - line.front()).norm() < round_off * (line[1] - line[0]).norm();
+}
+
 std::vector<Vec2> line_of(const Node& list, bool closed, const std::string& path) {
   std::vector<Vec2> line;
   for (const Node& item : list.items) line.emplace_back(*item.items[0].number, *item.items[1].number);
@@ -28,6 +34,9 @@ std::vector<Vec2> line_of(const Node& list, bool closed, const std::string& path
     if (line[k] == line[k - 1])
       fail(list.items[k].place, path + ".line", fmt::format("point {} is the one before it again", k + 1));
   }
+  if (closed && comes_back(line))
+    fail(list.items.back().place, path + ".line",
+         "a ring closes by itself; leave out its last point, the first one again");
   return line;
 }
 
@@ -62,6 +71,13 @@ std::optional<BeamSpec> build_beam(const Reader& reader, const Node& solid, std:
     if (ends->items.size() != 2) fail(ends->place, where + ".ends", "must be two words, [clamped, free]");
     if (beam.closed) fail(ends->place, where + ".ends", "a ring has none; leave them out");
     for (std::size_t k = 0; k < 2; ++k) beam.ends[k] = named<BeamEnd>(ends->items[k].text).value();
+  }
+  const bool loose = std::ranges::count(beam.ends, BeamEnd::free) > 0;
+  if (!beam.closed && loose && beam.line.size() > 2 && comes_back(beam.line)) {
+    fail(node->find("line")->items.back().place, where + ".line",
+         "comes back to its first point, where an end is free and would come apart; for a ring write "
+         "`closed: true` "
+         "and leave this point out");
   }
   return beam;
 }

@@ -112,6 +112,13 @@ TEST(CaseLaw, ABeamNeedsItsSectionAndHasAMotionOfItsOwn) {
   };
   refused({"solids.plate.beam.line=[[0, 0]]"}, "solids.plate.beam.line: give two points");
   refused({"solids.plate.beam.line=[[0, 0], [0, 0]]"}, "point 2 is the one before it again");
+  const std::string ring = "solids.plate.beam.line=[[0, 0], [0, 1], [1, 1], [1, 0], [1e-12, 0]]";
+  refused({ring, "solids.plate.beam.ends=[clamped, free]"},
+          "for a ring write `closed: true` and leave this point out");
+  refused(
+      {ring,
+       "solids.plate.beam={closed: true, line: [[0, 0], [0, 1], [1, 1], [1, 0], [0, 0]], thickness: 0.1}"},
+      "a ring closes by itself; leave out its last point");
   refused({"solids.plate.beam.ends=[guided]"}, "solids.plate.beam.ends: must be two words");
   refused({"solids.plate.beam.ends=[guided, welded]"},
           "solids.plate.beam.ends: `welded` does not exist here");
