@@ -285,6 +285,18 @@ void check_probes(const Case& problem, const Node& root) {
   }
 }
 
+/// What is scaled is there in any step, however small: too much of it leaves none that is stable. paper eq. (45)
+void check_scheme(const SolidSpec& solid, const Node& node) {
+  const SolidScheme& scheme = solid.scheme;
+  const double together = scheme.tangential_stress.scaled + scheme.relaxation.scaled,
+               most = std::max(together, scheme.displacement.scaled);
+  if (most < 2) return;
+  fail(node.find("scheme")->place, fmt::format("solids.{}.scheme", solid.name),
+       fmt::format("the `scaled` part of {} must be less than 2, is {:.3g}: it damps as much in any step, "
+                   "however small; write less of it, or give it as `rate`",
+                   together < 2 ? "displacement" : "tangential_stress and relaxation together", most));
+}
+
 /// The grid of a solid is its reference configuration.
 void check_solid_grid(const SolidSpec& solid, const Node& node) {
   const std::string path = fmt::format("solids.{}.grid", solid.name);
@@ -334,6 +346,7 @@ void check_case(const Case& problem, const Node& root) {
   for (const SolidSpec& solid : problem.solids) {
     check_solid_grid(solid, node_at(root, {"solids", solid.name, "grid"}));
     if (!is_continuum(solid.law)) continue;  // need their outline only
+    check_scheme(solid, node_at(root, {"solids", solid.name}));
     check_overlap({.background = solid.grid,
                    .body_fitted = fitted_grids(solid),
                    .owner = node_at(root, {"solids", solid.name}),

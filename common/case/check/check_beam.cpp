@@ -13,6 +13,7 @@
 
 #include "common/case/check/check_ends.hpp"
 #include "common/case/grids/grid_points.hpp"
+#include "common/case/schema/boundary_facts.hpp"
 #include "common/case/schema/laws.hpp"
 #include "common/core/choices.hpp"
 
@@ -35,6 +36,9 @@ Vec2 on_line(const BeamSpec& beam, double part) {
 
 /// The largest one.
 double check_thickness(const SolidSpec& solid, const Node& beam) {
+  if (solid.beam->thickness.uses("t"))
+    fail(beam.find("thickness")->place, fmt::format("solids.{}.beam.thickness", solid.name),
+         "must not depend on t: a beam keeps its thickness");
   double largest = 0;
   for (int k = 0; k < stations; ++k) {
     const Vec2 x = on_line(*solid.beam, (k + 0.5) / stations);
@@ -46,6 +50,30 @@ double check_thickness(const SolidSpec& solid, const Node& beam) {
                      x.y()));
   }
   return largest;
+}
+
+/// Is a given displacement none, as of what is clamped?
+bool stays(const VectorExpressions& u) {
+  const auto none = [](const Expression& f) {
+    return !f.uses("x") && !f.uses("y") && !f.uses("r") && !f.uses("t") && f(0, 0, 0) == 0;
+  };
+  return none(u.c1) && none(u.c2);
+}
+
+/// A beam is held at its ends and loaded by gases and its body force: what else a side of its grid says would be
+/// ignored.
+void check_side(const SolidSpec& solid, Side side, const Node& node) {
+  const BoundarySpec& spec = solid.boundary[static_cast<std::size_t>(side)];
+  if (spec.kind == BoundaryKind::none) return;
+  const bool held = schema::solid_boundary(spec.kind).holds == Hold::motion;
+  const bool loaded = carries_load(spec),
+             moved = held && (spec.from_reference || (spec.vector && !stays(*spec.vector)));
+  if (!loaded && !moved) return;
+  fail(
+      node.place, fmt::format("solids.{}.boundary.{}", solid.name, name_of(side)),
+      fmt::format("a beam cannot have its {} given at a side: {}; write free here, or take a law with a grid",
+                  loaded ? "traction" : "motion",
+                  loaded ? "gases and `body_force` load it" : "`beam: {ends: [..]}` says what holds it"));
 }
 
 /// Of the outline, or of the grid.
@@ -146,6 +174,10 @@ void check_beams(const Case& problem, const Node& root) {
     if (solid.law != beam_law || !solid.beam) continue;
     const Node& beam = *root.find("solids")->find(solid.name)->find("beam");
     const double thickness = check_thickness(solid, beam);
+    if (const Node* sides = root.find("solids")->find(solid.name)->find("boundary")) {
+      for (const Side side : all_sides)
+        if (const Node* node = sides->find(name_of(side))) check_side(solid, side, *node);
+    }
     check_line(solid, beam, thickness);
     if (problem.fluids.empty() && !problem.time.dt) {
       fail(root.find("time")->place, "time",

@@ -43,6 +43,12 @@ void check_periods_meet(const FluidSpec& fluid, const SolidSpec& solid, Side gas
                         const config::Node& place) {
   const bool gas = repeats_along(fluid.grid, gas_side), own = repeats_along(solid.grid, solid_side);
   const std::string path = fmt::format("solids.{}.boundary", solid.name);
+  if (solid.beam && solid.beam->closed) {
+    config::fail(
+        place.place, path,
+        "a ring by `law: beam` has no ends that would keep a side of the gas on its walls; give it a "
+        "`shape`, or, between two gases, a law with a grid, such as neo_hookean");
+  }
   if (gas != own) {
     config::fail(place.place, path,
                  fmt::format("the sides beside the interface are {}periodic, those of the gas are {}; write "

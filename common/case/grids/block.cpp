@@ -80,7 +80,7 @@ std::size_t bottom_among(const std::array<Vec2, 4>& x) {
 BlockCorners block_corners(const CurveSpec& outline) {
   const std::vector<int> ends = ends_of_sides(outline);
   const bool closed = outline.closed();
-  const auto corners = static_cast<int>(ends.size()) - (closed ? 1 : 0);
+  const auto corners = std::max(static_cast<int>(ends.size()) - (closed ? 1 : 0), 0);
   if (corners != 4)
     return {.at = {}, .why_not = fmt::format("it has {} corners{}", corners, closed ? "" : " with its feet")};
   if (!closed && outline.walls->front() != outline.walls->back())

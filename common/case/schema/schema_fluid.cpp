@@ -26,7 +26,7 @@ constexpr array shake_keys{
         .meaning = "random displacement of every inner point at every step, for tests",
         .unit = "cell",
         .fallback = "0",
-        .range = {.low = 0, .high = 0.4}},
+        .range = {.low = 0, .high = 0.2}},
     Key{.name = "shake_seed",
         .type = Type::integer,
         .meaning = "seed of the random displacement",

@@ -128,4 +128,8 @@ def judge(outcome, case, directory, parts):
     for part in parts.values():
         if part.get("status") == "stopped":
             return Verdict(DONE, "stopped", part.get("reason") or "stopped on request")
+    if not parts:   # a program of somebody else's, alone
+        ending = next(one for one in outcome.endings if one.name in case.programs)
+        reason = f"lost {ending.name}: it ended without a word, and left no report{_last_words(directory, ending.name)}"
+        return Verdict(PEER_LOST, "failed", reason, _record(ending, parts, PEER_LOST, reason))
     return Verdict(DONE, "completed")

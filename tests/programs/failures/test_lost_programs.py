@@ -13,6 +13,15 @@ from running import BIN, EndToEnd, FSI, LONG, PATIENT, processes, until  # noqa:
 
 PARTICIPANTS = {"fluid_solver": "fluid", "solid_solver_linear_elastic": "solid", "coupler": "coupler"}
 
+# A solid alone, computed by somebody else's program.
+ALONE = """
+time: {end: 0.2}
+grid: {factor: 1}
+solids:
+  b: {law: external, program: /bin/true, rho: 2, lambda: 3, mu: 2, grid: {x: [0, 2], y: [0, 1], spacing: h},
+      boundary: {left: free, right: free, bottom: free, top: free}}
+"""
+
 
 class LostPrograms(EndToEnd):
     def lose(self, program, number=signal.SIGKILL):
@@ -29,6 +38,14 @@ class LostPrograms(EndToEnd):
         self.assert_output_opens(run)
         self.assert_nothing_left(run)
         return run
+
+    def test_program_that_ends_well_and_has_computed_nothing_is_lost(self):
+        case = self.folder / "alone.yaml"
+        case.write_text(ALONE, encoding="utf-8")
+        run = self.launch(case)
+        self.assertEqual(run.wait(), 4, run.stderr)
+        self.assertIn("lost b: it ended without a word, and left no report", run.stderr)
+        self.assertEqual((run.summary()["status"], run.summary()["failure"]["origin"]), ("failed", "b"))
 
     def kill(self, program):
         run = self.lose(program)

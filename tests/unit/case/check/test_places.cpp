@@ -104,6 +104,21 @@ TEST(CaseLaw, ClampedSolidCannotBeRigid) {
   EXPECT_EQ(mistake_of("beam", {"solids.beam.boundary.bottom=slip_wall"}, {"beam=rigid"}), "");
 }
 
+TEST(CaseLaw, WhatIsScaledOfTheDissipationMustLeaveAStableStep) {
+  const auto told = [](const char* setting) {
+    return mistake_of("elastic_piston", {std::string("solids.solid.scheme.") + setting});
+  };
+  EXPECT_EQ(told("relaxation={scaled: 1.9}"), "");
+  for (const char* setting : {"relaxation={scaled: 2}", "tangential_stress={scaled: 2.5}"})
+    EXPECT_NE(told(setting).find(
+                  "solids.solid.scheme: the `scaled` part of tangential_stress and relaxation together"),
+              std::string::npos)
+        << setting;
+  EXPECT_NE(
+      told("displacement={scaled: 2}").find("the `scaled` part of displacement must be less than 2, is 2"),
+      std::string::npos);
+}
+
 TEST(CaseLaw, ABeamNeedsItsSectionAndHasAMotionOfItsOwn) {
   EXPECT_EQ(mistake_of("plate", {}), "");
   const auto refused = [](const std::vector<std::string>& settings, const char* words) {
@@ -120,6 +135,11 @@ TEST(CaseLaw, ABeamNeedsItsSectionAndHasAMotionOfItsOwn) {
        "solids.plate.beam={closed: true, line: [[0, 0], [0, 1], [1, 1], [1, 0], [0, 0]], thickness: 0.1}"},
       "a ring closes by itself; leave out its last point");
   refused({"solids.plate.beam.ends=[guided]"}, "solids.plate.beam.ends: must be two words");
+  refused({"solids.plate.beam.thickness=0.1 * (1 + t)"}, "solids.plate.beam.thickness: must not depend on t");
+  refused({"solids.plate.boundary.left={kind: traction, value: [1, 0]}"},
+          "solids.plate.boundary.left: a beam cannot have its traction given at a side");
+  refused({"solids.plate.boundary.left={kind: displacement, value: [t, 0]}"},
+          "solids.plate.boundary.left: a beam cannot have its motion given at a side");
   refused({"solids.plate.beam.ends=[guided, welded]"},
           "solids.plate.beam.ends: `welded` does not exist here");
   refused({"solids.plate.beam.elements=2"}, "solids.plate.beam.elements");
