@@ -28,10 +28,6 @@ struct DiskProblem {
   std::vector<double> times;                         ///< of the outputs, increasing
 };
 
-/// Initial angular velocity of the paper's disk (section 5.2), V = omega_0 [4 r (1 - r)]^4. Differs from the
-/// paper: it prints a radial velocity, but its figures are those of a rotation.
-double angular_velocity(double omega_0, double r_bar);
-
 /// Conserved in sum, of the whole disk and gas per unit thickness. The energy of the gas counts from its rest
 /// and holds the work of p_e. Loads on the reference configuration keep neither.
 struct DiskTotals {

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <memory>
 
+#include "common/case/check/given/misfit.hpp"
 #include "common/case/schema/boundary_facts.hpp"
 #include "common/core/failure.hpp"
 #include "common/exact/solution.hpp"
@@ -16,52 +16,6 @@ namespace {
 
 constexpr int default_points = 3200;
 
-void expect_side_by_side(const std::string& path, const FluidSpec& fluid, const SolidSpec& solid) {
-  const bool straight = solid.grid.kind == GridSpec::Kind::rectangle && solid.grid.rotation == 0 &&
-                        fluid.grid.kind == GridSpec::Kind::rectangle && fluid.grid.rotation == 0;
-  const bool meets =
-      fluid.boundary[0].kind == BoundaryKind::interface && solid.boundary[1].kind == BoundaryKind::interface;
-  if (straight && meets) return;
-  throw UserMistake(
-      fmt::format("{}: the one-dimensional reference needs rectangles along x, the gas right of solid '{}'",
-                  path, solid.name));
-}
-
-/// The chain takes no force along it.
-void expect_no_body_force(const std::string& path, const SolidSpec& solid) {
-  if (!solid.body_force) return;
-  throw UserMistake(
-      fmt::format("{}: solids.{}.body_force: the one-dimensional reference has no body force; leave it out, "
-                  "or `reference`",
-                  path, solid.name));
-}
-
-/// Beyond the reach of waves the chain's gas stays as it was at first: a state that is given there must be
-/// that one at all times.
-void expect_quiet_end(const Case& problem, const FluidSpec& fluid) {
-  constexpr double tolerance = 1e-9;
-  constexpr int times = 16;
-  const BoundarySpec& right = fluid.boundary[1];
-  if (!right.state || !fluid.initial) return;
-  const double x = fluid.grid.x_b;
-  const auto apart = [x](const Expression& at_first, const Expression& given, double t) {
-    const double value = at_first(x, 0, 0);
-    return !(std::fabs(given(x, 0, t) - value) <= tolerance * (1 + std::fabs(value)));
-  };
-  for (int k = 0; k <= times; ++k) {
-    const double t = problem.time.end * k / times;
-    if (!apart(fluid.initial->rho, right.state->rho, t) && !apart(fluid.initial->v1, right.state->v1, t) &&
-        !apart(fluid.initial->p, right.state->p, t))
-      continue;
-    throw UserMistake(fmt::format(
-        "{}: fluid.boundary.right.state: the one-dimensional reference has at the right a wall or a gas that "
-        "stays as `fluid.initial` has it at x = {:g}, but at t = {:.4g} the state is another; give that "
-        "state, "
-        "or write slip_wall or outflow",
-        problem.path, x, t));
-  }
-}
-
 std::function<double(double)> along_x(const std::optional<VectorExpressions>& field) {
   if (!field) return [](double) { return 0.0; };
   return [f = field->c1](double x) { return f(x, 0, 0); };
@@ -72,10 +26,6 @@ std::function<double(double)> drive_of(const SolidSpec& solid,
   const BoundarySpec& left = solid.boundary[0];
   const double x = solid.grid.x_a;
   if (left.from_reference && exact) return [=](double t) { return exact->solid(x, 0, t).u[0]; };
-  if (schema::solid_boundary(left.kind).holds != Hold::motion) {
-    throw UserMistake(fmt::format(
-        "the one-dimensional reference needs `displacement` on the left side of solid '{}'", solid.name));
-  }
   if (!left.vector) return [](double) { return 0.0; };
   return [f = left.vector->c1, x](double t) { return f(x, 0, t); };
 }
@@ -97,15 +47,9 @@ std::function<exact::TubeState(double)> gas_of(const FluidSpec& fluid,
 }  // namespace
 
 PistonProblem piston_from_case(const Case& problem) {
-  if (problem.fluids.size() != 1 || problem.solids.size() != 1) {
-    throw UserMistake(
-        fmt::format("{}: the one-dimensional reference needs one gas and one solid", problem.path));
-  }
+  expect_none(misfit_of_piston(problem), problem.path);
   const FluidSpec& fluid = problem.fluids.front();
   const SolidSpec& solid = problem.solids.front();
-  expect_side_by_side(problem.path, fluid, solid);
-  expect_no_body_force(problem.path, solid);
-  expect_quiet_end(problem, fluid);
   std::shared_ptr<exact::Solution> exact;
   if (problem.reference.kind != ReferenceKind::piston_1d && problem.reference.kind != ReferenceKind::none) {
     exact = exact::make_solution(problem.reference.kind, problem.reference.numbers, "");

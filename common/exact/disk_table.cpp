@@ -44,6 +44,10 @@ Vec2 ray(double x, double y, double r) {
 
 }  // namespace
 
+double angular_velocity(double omega_0, double r_bar) {
+  return omega_0 * std::pow(4 * r_bar * (1 - r_bar), 4);
+}
+
 DiskTable::DiskTable(const std::string& path) : TabulatedSolution(path, gas_table, solid_table) {}
 
 GasState DiskTable::gas(double x, double y, double t) const {

@@ -9,6 +9,11 @@
 
 namespace fsi::exact {
 
+/// Initial angular velocity of the paper's disk (section 5.2), V = omega_0 [4 r (1 - r)]^4. Differs from the
+/// paper: it prints a radial velocity, but its figures are those of a rotation.
+inline constexpr double default_omega_0 = 0.1;  ///< [1/time]
+double angular_velocity(double omega_0, double r_bar);
+
 /// paper eqs. of section 5.2: gas by the radius in space, solid by the radius in the reference disk, turned
 /// to Cartesian components. Cubic between the points of the table, continued through the centre as a smooth
 /// field: vectors odd in the radius, stress even. Off its ends (a point just inside the rim, gas beyond the

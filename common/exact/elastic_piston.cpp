@@ -24,7 +24,8 @@ constexpr std::array<double, 4> gauss_weights{0.36268378337836198, 0.31370664587
 
 template <class Function>
 double integral(Function f, double from, double to, double widest) {
-  const int panels = std::max(1, static_cast<int>(std::ceil((to - from) / widest)));
+  constexpr double most_panels = 1000;  // and wider ones, rather than to be at it for ever
+  const int panels = static_cast<int>(std::clamp(std::ceil((to - from) / widest), 1.0, most_panels));
   const double half = 0.5 * (to - from) / panels;
   double sum = 0;
   for (int k = 0; k < panels; ++k) {
@@ -110,6 +111,8 @@ GasState ElasticPiston::gas(double x, double y, double t) const {
 
 /// Integral of p_I - p_e from 0 to t.
 double ElasticPiston::impulse(double t) const {
+  if (!(sound_speed(t) > 0))
+    return std::numeric_limits<double>::quiet_NaN();  // the gas cannot follow any more
   const double until = std::min(t, series_end_);
   const double z = 0.5 * (data_.gamma - 1) * path_velocity(until) / data_.a_0;
   double sum = 0;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <stdexcept>
+#include <string>
 
 namespace fsi::exact {
 
@@ -67,6 +68,12 @@ WallBetweenGases::WallBetweenGases(const WallBetweenGasesData& data)
   if (data.mass && !(*data.mass >= 0)) throw std::invalid_argument("the mass must not be negative");
   if (data.mass && data.clamped) throw std::invalid_argument("a wall that does not deform cannot be clamped");
   if (!(data.distance >= 0)) throw std::invalid_argument("the pulse must begin in front of the wall");
+  constexpr double most_echoes = 1e4;
+  if (!data.mass && !((data.distance + data.length) / a_left_ <= most_echoes * 2 * data.thickness / data.c_p))
+    throw std::invalid_argument(
+        "the wall is so thin that more than 1e4 echoes run through it while the pulse arrives; take a "
+        "thicker one" +
+        std::string(data.clamped ? "" : ", or give its `mass`, as of one that does not deform"));
 }
 
 double WallBetweenGases::z_left() const {
@@ -101,22 +108,29 @@ double WallBetweenGases::impulse(double t) const {
   return data_.size * data_.p * data_.length / a_left_ * shape_integral(place(t));
 }
 
+/// Sum of kept^k f(t - k returns), k = 0, 1, .. as long as the argument is positive; f is `passed` from the time on at
+/// which the pulse is through.
+template <class Function>
+double WallBetweenGases::sum_of_echoes(double t, double passed, Function f) const {
+  const double returns = 2 * data_.thickness / data_.c_p, kept = reflected_left() * reflected_right();
+  const double through = (data_.distance + data_.length) / a_left_;
+  const double gone = std::max(0.0, std::ceil((t - through) / returns));  // of whole pulses
+  double part = std::pow(kept, gone), sum = passed * (kept == 1 ? gone : (1 - part) / (1 - kept));
+  for (t = std::min(t - gone * returns, through); t > 0; t -= returns, part *= kept) sum += part * f(t);
+  return sum;
+}
+
 /// f
 double WallBetweenGases::forward(double t) const {
-  const double z_s = data_.rho_bar * data_.c_p, returns = 2 * data_.thickness / data_.c_p;
-  const double kept = reflected_left() * reflected_right();
-  double sum = 0, part = 2 / (z_s + z_left());
-  for (; t > 0; t -= returns, part *= kept) sum += part * data_.p * pulse(t);
-  return sum;
+  const double enters = 2 / (data_.rho_bar * data_.c_p + z_left());
+  return enters * data_.p * sum_of_echoes(t, 0, [this](double t_k) { return pulse(t_k); });
 }
 
 /// Time integral of f.
 double WallBetweenGases::forward_way(double t) const {
-  const double z_s = data_.rho_bar * data_.c_p, returns = 2 * data_.thickness / data_.c_p;
-  const double kept = reflected_left() * reflected_right();
-  double sum = 0, part = 2 / (z_s + z_left());
-  for (; t > 0; t -= returns, part *= kept) sum += part * impulse(t);
-  return sum;
+  const double enters = 2 / (data_.rho_bar * data_.c_p + z_left());
+  const double passed = impulse((data_.distance + data_.length) / a_left_);
+  return enters * sum_of_echoes(t, passed, [this](double t_k) { return impulse(t_k); });
 }
 
 double WallBetweenGases::stiff_velocity(double t) const {

@@ -62,6 +62,8 @@ class WallBetweenGases final : public Solution {
   double reflected_right() const;
   double place(double t) const;
   double impulse(double t) const;
+  template <class Function>
+  double sum_of_echoes(double t, double passed, Function f) const;
   double forward(double t) const;
   double forward_way(double t) const;
   double stiff_velocity(double t) const;

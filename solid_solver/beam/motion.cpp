@@ -124,8 +124,10 @@ void BeamMotion::advance(double dt, const Eigen::VectorXd& own, const ModalLoad*
     if (change <= converged || (change <= almost && change >= 0.5 * before)) return;
   }
   throw Diverged(fmt::format(
-      "the motion of the beam in a step of {:.3g} is not found in {} iterations; take a smaller `time.dt`",
-      dt, most_iterations));
+      "the motion of the beam in a step of {:.3g} is not found in {} iterations; {}", dt, most_iterations,
+      model_.mass().maxCoeff() > 0 ? "take a smaller `time.dt`"
+                                   : "without mass it follows its load at once: let that grow from zero, or "
+                                     "give the beam a mass (`rho`)"));
 }
 
 /// One iteration, and the largest change it made: of a displacement over the length, of a rotation.

@@ -12,7 +12,11 @@
 #include "common/case/check/check_interfaces.hpp"
 #include "common/case/check/check_overlap.hpp"
 #include "common/case/check/check_places.hpp"
-#include "common/case/check/check_starts.hpp"
+#include "common/case/check/given/check_reference.hpp"
+#include "common/case/check/given/check_side_data.hpp"
+#include "common/case/check/given/check_starts.hpp"
+#include "common/case/check/given/given.hpp"
+#include "common/case/check/given/sample.hpp"
 #include "common/case/document/fluid_sections.hpp"
 #include "common/case/document/node_at.hpp"
 #include "common/case/grids/grid_points.hpp"
@@ -27,7 +31,7 @@ namespace {
 using config::fail;
 using config::Node;
 
-/// A cell of a grid at t = 0: what its two edges from the first corner span has a positive area where the second
+/// A cell of a grid: what its two edges from the first corner span has a positive area where the second
 /// is to the left of the first.
 struct SampledCell {
   int i = 0, j = 0;
@@ -35,16 +39,16 @@ struct SampledCell {
   double area = 0;
 };
 
-std::vector<SampledCell> sample_cells(const GridSpec& grid) {
-  constexpr int samples = 64;  // in each direction
+std::vector<SampledCell> sample_cells(const GridSpec& grid, double t) {
+  const int samples = t > 0 ? 16 : 64;  // in each direction
   const int step1 = std::max(1, (grid.n1 - 1) / samples);
   const int step2 = std::max(1, (grid.n2 - 1) / samples);
   std::vector<SampledCell> cells;
   for (int j = 0; j + 1 < grid.n2; j += step2) {
     for (int i = 0; i + 1 < grid.n1; i += step1) {
-      const Vec2 x = position(grid, i, j, 0);
-      const Vec2 along1 = position(grid, i + 1, j, 0) - x;
-      const Vec2 along2 = position(grid, i, j + 1, 0) - x;
+      const Vec2 x = position(grid, i, j, t);
+      const Vec2 along1 = position(grid, i + 1, j, t) - x;
+      const Vec2 along2 = position(grid, i, j + 1, t) - x;
       cells.push_back({.i = i, .j = j, .x = x, .area = along1[0] * along2[1] - along1[1] * along2[0]});
     }
   }
@@ -52,8 +56,8 @@ std::vector<SampledCell> sample_cells(const GridSpec& grid) {
 }
 
 /// The cells of a sample have positive area: a map that folds costs one look, not a run.
-void check_grid(const GridSpec& grid, const Node& node, const std::string& path) {
-  const std::vector<SampledCell> cells = sample_cells(grid);
+void check_grid(const GridSpec& grid, const Node& node, const std::string& path, double t = 0) {
+  const std::vector<SampledCell> cells = sample_cells(grid, t);
   const auto is_sound = [](const SampledCell& cell) { return cell.area > 0 && std::isfinite(cell.area); };
   const auto wrong = std::ranges::find_if_not(cells, is_sound);
   if (wrong == cells.end()) return;
@@ -64,24 +68,9 @@ void check_grid(const GridSpec& grid, const Node& node, const std::string& path)
          "s, so that bottom and top change places, or 1 - r in that of r, so that left and right do");
   }
   fail(node.place, path,
-       fmt::format("the grid folds at point ({}, {}) at t = 0, near ({:.4g}, {:.4g}); change `map`", wrong->i,
-                   wrong->j, wrong->x[0], wrong->x[1]));
-}
-
-/// A sample of points of a grid at t = 0: of all of it, or of one side.
-std::vector<Vec2> sample_points(const GridSpec& grid, std::optional<Side> side = {}) {
-  constexpr int samples = 8;  // in each direction
-  std::vector<Vec2> points;
-  for (int b = 0; b <= samples; ++b) {
-    if (side) {
-      points.push_back(side_point(grid, *side, b * (points_along(grid, *side) - 1) / samples));
-      continue;
-    }
-    for (int a = 0; a <= samples; ++a) {
-      points.push_back(position(grid, a * (grid.n1 - 1) / samples, b * (grid.n2 - 1) / samples, 0));
-    }
-  }
-  return points;
+       fmt::format("the grid folds at point ({}, {}) at t = {:.4g}, near ({:.4g}, {:.4g}); change `map`{}",
+                   wrong->i, wrong->j, t, wrong->x[0], wrong->x[1],
+                   t > 0 ? ", or let time.end be smaller" : ""));
 }
 
 /// Density and pressure are positive and everything is finite at the points at time t.
@@ -106,7 +95,8 @@ void check_state(const GasExpressions& state, const std::vector<Vec2>& points, c
 void check_fluid(const Case& problem, const FluidSpec& fluid, const Node& root) {
   const Node& node = fluid_section_of(root, fluid.name);
   const std::string& path = fluid.path;
-  check_grid(fluid.grid, node_at(node, {"grid"}), path + ".grid");
+  for (int k = 0; k < (fluid.grid.moving ? looked_at_times : 1); ++k)
+    check_grid(fluid.grid, node_at(node, {"grid"}), path + ".grid", looked_at_time(problem, k));
   check_overlap({.background = fluid.grid, .body_fitted = fluid.body_fitted, .owner = node, .path = path});
   const std::vector<Vec2> everywhere = sample_points(fluid.grid);
   if (fluid.initial) check_state(*fluid.initial, everywhere, node_at(node, {"initial"}), path + ".initial");
@@ -128,118 +118,6 @@ std::vector<std::string> solid_names(const Case& problem) {
   std::vector<std::string> names;
   for (const SolidSpec& solid : problem.solids) names.push_back(solid.name);
   return names;
-}
-
-/// Whether the reference describes the gas, or the solids.
-bool describes(const ReferenceSpec& reference, bool gas) {
-  if (!reference.in_formulas()) return true;
-  return gas ? reference.fluid.has_value() : reference.u.has_value();
-}
-
-/// A body that starts from the reference is described there.
-void check_start(const ReferenceSpec& reference, bool gas, const std::string& owner, const Node& node) {
-  if (describes(reference, gas)) return;
-  fail(node.place, owner + ".initial",
-       fmt::format("takes its data from `reference`, which has no `{}`; add it there, or give the state here",
-                   gas ? "fluid" : "u"));
-}
-
-void check_reference(const Case& problem, const Node& root) {
-  if (problem.reference.kind == ReferenceKind::riemann && !problem.solids.empty())
-    fail(node_at(root, {"reference", "kind"}).place, "reference",
-         "`riemann` is a solution for a gas alone; leave it out");
-  if (problem.reference.computed() && problem.fluids.size() > 1)
-    fail(node_at(root, {"reference", "kind"}).place, "reference",
-         fmt::format("`{}` is computed with one gas and one solid; leave it out",
-                     name_of(problem.reference.kind)));
-  if (!problem.reference.u) {
-    for (const auto& [key, is_there] :
-         {std::pair{"v", problem.reference.v.has_value()}, std::pair{"P", problem.reference.P.has_value()}}) {
-      if (is_there)
-        fail(node_at(root, {"reference", key}).place, fmt::format("reference.{}", key),
-             "goes with `u`, which is missing");
-    }
-  }
-  const auto need = [&](const BoundarySpec& spec, bool is_gas, const std::string& owner, Side side,
-                        const Node& node) {
-    if (!spec.from_reference) return;
-    const std::string path = fmt::format("{}.boundary.{}", owner, name_of(side));
-    if (problem.reference.computed()) {
-      fail(node.place, path,
-           fmt::format("reference `{}` is known at output times only; give the boundary data here",
-                       name_of(problem.reference.kind)));
-    }
-    if (!describes(problem.reference, is_gas))
-      fail(node.place, path,
-           fmt::format("takes its data from `reference`, which has no `{}`", is_gas ? "fluid" : "u"));
-  };
-  for (const FluidSpec& fluid : problem.fluids) {
-    if (fluid.initial_from_reference)
-      check_start(problem.reference, true, fluid.path,
-                  node_at(fluid_section_of(root, fluid.name), {"initial"}));
-  }
-  for (const SolidSpec& solid : problem.solids) {
-    if (solid.initial_from_reference)
-      check_start(problem.reference, false, "solids." + solid.name,
-                  node_at(root, {"solids", solid.name, "initial"}));
-  }
-  for (const Side side : all_sides) {
-    const auto index = static_cast<std::size_t>(side);
-    for (const FluidSpec& fluid : problem.fluids) {
-      need(fluid.boundary[index], true, fluid.path, side,
-           node_at(fluid_section_of(root, fluid.name), {"boundary", name_of(side)}));
-    }
-    for (const SolidSpec& solid : problem.solids) {
-      need(solid.boundary[index], false, "solids." + solid.name, side,
-           node_at(root, {"solids", solid.name, "boundary", name_of(side)}));
-    }
-  }
-}
-
-/// Points where a solid meets the gas at t = 0.
-std::vector<Vec2> meeting_points(const SolidSpec& solid) {
-  std::vector<Vec2> points;
-  if (!solid.body_fitted.empty()) {
-    const CurveSpec& curve = solid.body_fitted.front().curve;
-    const auto n = static_cast<std::size_t>(curve.points());
-    for (std::size_t k = 0; k < n; ++k) points.emplace_back(curve.x[k], curve.x[n + k]);
-  }
-  for (const Side side : all_sides) {
-    if (solid.boundary[static_cast<std::size_t>(side)].kind != BoundaryKind::interface) continue;
-    for (int k = 0; k < points_along(solid.grid, side); ++k)
-      points.push_back(side_point(solid.grid, side, k));
-  }
-  return points;
-}
-
-/// A chosen solution of gas and solid and a given path of the interface belong together.
-void check_motion(const Case& problem, const Node& root) {
-  const ReferenceSpec& reference = problem.reference;
-  const bool chosen =
-      reference.kind == ReferenceKind::manufactured && !problem.fluids.empty() && !problem.solids.empty();
-  if (!problem.interface.motion) {
-    if (!chosen) return;
-    fail(node_at(root, {"reference"}).place, "reference",
-         "kind manufactured for gas and solid needs the path of the interface; write interface: {motion: "
-         "[.., ..]}");
-  }
-  const Node& node = node_at(root, {"interface", "motion"});
-  if (!chosen || !reference.fluid || !reference.u) {
-    fail(node.place, "interface.motion",
-         "goes with `reference: {kind: manufactured, fluid: .., u: ..}` only; leave it out: the solid moves "
-         "it");
-  }
-  constexpr double tolerance = 1e-9;
-  for (const SolidSpec& solid : problem.solids) {
-    for (const Vec2& x : meeting_points(solid)) {
-      const Vec2 start(problem.interface.motion->c1(x[0], x[1], 0),
-                       problem.interface.motion->c2(x[0], x[1], 0));
-      if ((start - x).norm() <= tolerance * (1 + x.norm())) continue;
-      fail(node.place, "interface.motion",
-           fmt::format("must be (x, y) at t = 0, but ({:.6g}, {:.6g}) goes to ({:.6g}, {:.6g})", x[0], x[1],
-                       start[0], start[1]));
-    }
-  }
 }
 
 /// The scheme without added mass is not there where the gas's answer is part of the solid's motion.
@@ -354,10 +232,10 @@ void check_case(const Case& problem, const Node& root) {
   }
   check_reference(problem, root);
   check_starts(problem, root);
+  check_side_data(problem, root);
   check_interfaces(problem, root);
   check_held_ends(problem, root);
   check_beams(problem, root);
-  check_motion(problem, root);
   check_projection(problem, root);
   check_probes(problem, root);
   check_probe_places(problem, root);

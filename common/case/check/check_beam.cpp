@@ -60,6 +60,21 @@ bool stays(const VectorExpressions& u) {
   return none(u.c1) && none(u.c2);
 }
 
+/// What is clamped says so at the end of the line that is there.
+void check_held_side(const SolidSpec& solid, Side side, const Node& node) {
+  const BoundarySpec& spec = solid.boundary[static_cast<std::size_t>(side)];
+  if (spec.kind == BoundaryKind::none || schema::solid_boundary(spec.kind).holds != Hold::motion) return;
+  const Vec2 x = side_point(solid.grid, side, points_along(solid.grid, side) / 2);
+  const std::vector<Vec2>& line = solid.beam->line;
+  const bool last = (line.back() - x).norm() < (line.front() - x).norm();
+  const BeamEnd kind = solid.beam->ends[last ? 1 : 0];
+  if (kind == BeamEnd::clamped || kind == BeamEnd::guided) return;
+  fail(node.place, fmt::format("solids.{}.boundary.{}", solid.name, name_of(side)),
+       fmt::format(
+           "clamps nothing: the {} end of the beam there is {}; write `beam: {{ends: [{}]}}`, or free here",
+           last ? "last" : "first", name_of(kind), last ? ".., clamped" : "clamped, .."));
+}
+
 /// A beam is held at its ends and loaded by gases and its body force: what else a side of its grid says would be
 /// ignored.
 void check_side(const SolidSpec& solid, Side side, const Node& node) {
@@ -167,31 +182,39 @@ void check_corner(const SolidSpec& solid, const FluidSpec& fluid, Side side, std
            kind == BeamEnd::free ? "move" : "turn", name_of(beside)));
 }
 
+void check_beam_in_gases(const Case& problem, const SolidSpec& solid, const Node& node, double thickness) {
+  const Node& beam = *node.find("beam");
+  for (const FluidSpec& fluid : problem.fluids) {
+    const std::optional<Side> side = solid.beam->closed ? std::nullopt : side_to(solid, fluid.name);
+    if (!side) continue;
+    for (const std::size_t end : {0U, 1U}) check_corner(solid, fluid, *side, end, node);
+  }
+  if (solid.body_fitted.empty() || solid.body_fitted.front().curve.closed() || solid.beam->closed) return;
+  check_between_feet(solid, beam, thickness);
+  for (const std::size_t end : {0U, 1U}) check_foot(solid, beam, end);
+}
+
 }  // namespace
 
 void check_beams(const Case& problem, const Node& root) {
   for (const SolidSpec& solid : problem.solids) {
     if (solid.law != beam_law || !solid.beam) continue;
-    const Node& beam = *root.find("solids")->find(solid.name)->find("beam");
-    const double thickness = check_thickness(solid, beam);
-    if (const Node* sides = root.find("solids")->find(solid.name)->find("boundary")) {
+    const Node& node = *root.find("solids")->find(solid.name);
+    const double thickness = check_thickness(solid, *node.find("beam"));
+    const auto each_side = [&](const auto& check) {
+      const Node* sides = node.find("boundary");
       for (const Side side : all_sides)
-        if (const Node* node = sides->find(name_of(side))) check_side(solid, side, *node);
-    }
-    check_line(solid, beam, thickness);
+        if (const Node* own = sides == nullptr ? nullptr : sides->find(name_of(side)))
+          check(solid, side, *own);
+    };
+    each_side(check_side);
+    check_line(solid, *node.find("beam"), thickness);
     if (problem.fluids.empty() && !problem.time.dt) {
       fail(root.find("time")->place, "time",
            "a beam without a gas has no largest step of its own; write `dt` [time]");
     }
-    for (const FluidSpec& fluid : problem.fluids) {
-      const std::optional<Side> side = solid.beam->closed ? std::nullopt : side_to(solid, fluid.name);
-      if (!side) continue;
-      for (const std::size_t end : {0U, 1U})
-        check_corner(solid, fluid, *side, end, *root.find("solids")->find(solid.name));
-    }
-    if (solid.body_fitted.empty() || solid.body_fitted.front().curve.closed() || solid.beam->closed) continue;
-    check_between_feet(solid, beam, thickness);
-    for (const std::size_t end : {0U, 1U}) check_foot(solid, beam, end);
+    check_beam_in_gases(problem, solid, node, thickness);
+    each_side(check_held_side);
   }
 }
 

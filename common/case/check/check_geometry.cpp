@@ -234,7 +234,14 @@ void check_apart(const CheckedOutline& outline, const CheckedOutline& other) {
   if (!crossing && !within) return;
   Excess overlap = deepest(outline, other);
   if (const Excess back = deepest(other, outline); back.distance > overlap.distance) overlap = back;
-  if (overlap.distance == 0) overlap.x = crossing->x;
+  if (overlap.distance == 0) {
+    const Vec2 x = crossing ? crossing->x : outline.point(0);
+    fail(outline.node.place, outline.path,
+         fmt::format(
+             "the outline of {} is on that of {} at ({:.4g}, {:.4g}); move them apart, by the depth of the "
+             "grids of the gas around them",
+             outline.name, other.name, x[0], x[1]));
+  }
   fail(outline.node.place, outline.path,
        fmt::format("the outline of {} overlaps that of {} by {:.3g} at ({:.4g}, {:.4g}); move them apart, by "
                    "this and the depth of the grids of the gas around them",

@@ -166,7 +166,11 @@ void check_grid_sides(const Case& problem, const SolidSpec& solid, const Node& r
       return solid.boundary[static_cast<std::size_t>(other)].fluid == spec.fluid;
     };
     if (std::find_if(sides.begin(), before, has_same) != before)
-      fail(place.place, path, "two sides are interfaces; a solid meets the gas along one");
+      fail(node_at(place, {name_of(side)}).place, path,
+           problem.fluids.size() < 2
+               ? "two sides are interfaces; a solid meets the gas along one"
+               : fmt::format("two sides are interfaces to {}; a solid meets each gas along one",
+                             in_ticks(spec.fluid)));
   }
   if (sides.empty() && !problem.fluids.empty())
     fail(place.place, path,

@@ -128,19 +128,31 @@ void check_program(const SolidSpec& solid, const Node& node, const std::string& 
   fail(node.find("program")->place, path + ".program", "belongs to `law: external`");
 }
 
+/// Whether its ends alone hold every motion of a beam that does not deform.
+bool holds_itself(const BeamSpec& beam) {
+  const auto is_there = [&](BeamEnd kind) { return std::ranges::count(beam.ends, kind); };
+  return is_there(BeamEnd::clamped) > 0 || is_there(BeamEnd::pinned) == 2 ||
+         (is_there(BeamEnd::pinned) == 1 && is_there(BeamEnd::guided) == 1);
+}
+
 /// A beam may have no mass where its ends, or the gas, hold every motion: nothing resists the sliding of a free
 /// one, or of a ring, along itself.
-void check_mass(const SolidSpec& solid, const Node& node, const std::string& path) {
+void check_mass(const SolidSpec& solid, bool in_gas, const Node& node, const std::string& path) {
   if (solid.rho > 0) return;
   const std::string& place = node.find("rho")->place;
   if (!solid.beam)
     fail(place, path + ".rho", "must be > 0 [mass/volume], is 0: only a beam may have no mass");
   const bool held = std::ranges::any_of(solid.beam->ends, [](BeamEnd end) { return end != BeamEnd::free; });
-  if (held && !solid.beam->closed) return;
+  if (!held || solid.beam->closed)
+    fail(place, path + ".rho",
+         "must be > 0 [mass/volume], is 0: nothing would resist the sliding of this beam along itself; hold "
+         "one of its ends, or give it a mass");
+  if (in_gas || holds_itself(*solid.beam)) return;
   fail(place, path + ".rho",
-       "must be > 0 [mass/volume], is 0: nothing would resist the sliding of this beam along itself; hold "
-       "one of "
-       "its ends, or give it a mass");
+       fmt::format(
+           "must be > 0 [mass/volume], is 0: without a gas nothing would resist that this beam {}; clamp "
+           "one of its ends, or give it a mass",
+           std::ranges::count(solid.beam->ends, BeamEnd::pinned) > 0 ? "turns" : "moves across its line"));
 }
 
 SolidSpec solid_of(const Reader& reader, const config::Entry& entry) {
@@ -165,7 +177,7 @@ SolidSpec solid_of(const Reader& reader, const config::Entry& entry) {
   complete_block(node, owner.path, result);
   result.scheme = solid_scheme_of(node.find("scheme"));
   result.beam = build_beam(reader, node, result.law, owner.path);
-  check_mass(result, node, owner.path);
+  check_mass(result, !fluid_sections(reader.root()).empty(), node, owner.path);
   if (const Node* force = node.find("body_force")) result.body_force = reader.vector(*force);
   const Node* initial = node.find("initial");
   if (initial == nullptr) return result;
@@ -247,6 +259,9 @@ Expectation expectation_of(const config::Entry& entry) {
   if (!result.max && !result.min && !result.equals) {
     fail(entry.place, "expect." + entry.key, "expects nothing; write {max: ..}, {min: ..} or a word");
   }
+  if (result.min && result.max && *result.min > *result.max)
+    fail(entry.place, "expect." + entry.key,
+         fmt::format("cannot be met: min, {:g}, is above max, {:g}", *result.min, *result.max));
   return result;
 }
 

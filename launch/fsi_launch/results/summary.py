@@ -118,11 +118,11 @@ def write(directory, summary):
 
 
 def value_at(summary, quantity):
-    """The value at a path like "errors.rho", or None."""
+    """The value at a path like "errors.rho", or None; of a counter that no program of the run has, 0."""
     value = summary
     for key in quantity.split("."):
         if not isinstance(value, dict) or key not in value:
-            return None
+            return 0 if quantity.startswith("counters.") else None
         value = value[key]
     return value
 

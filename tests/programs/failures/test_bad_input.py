@@ -150,7 +150,7 @@ class BadInput(EndToEnd):
         back = self.launch("--restart", str(run.directory), "--set", "time.end=0.1", out=None)
         self.assertEqual(back.wait(), 2)
         self.assertIn("time.end", back.stderr)
-        past = self.launch("--restart", str(run.directory), "--set", "time.end=2", "--pause-at", "3", out=None)
+        past = self.launch("--restart", str(run.directory), "--set", "time.end=1.5", "--pause-at", "3", out=None)
         self.assertEqual(past.wait(), 2)
         self.assertRegex(past.stderr, r"--pause-at 3: the run goes on from step \d+")
         again = self.launch("--restart", str(run.directory), "--set", "expect={}", out=None)

@@ -44,8 +44,8 @@ class BrokenNumbers(EndToEnd):
 class LostFolder(EndToEnd):
     """A file in the place of a folder stops root as well as anybody."""
 
-    OUTPUTS = ("elastic_piston", "--set", "grid.factor=2", "--set", "expect={}", "--set", "time.dt=1e-5", "--set", "time.end=100",
-               "--set", "output.times=[100]", "--set", "output.every=0.01")
+    OUTPUTS = ("elastic_piston", "--set", "grid.factor=2", "--set", "expect={}", "--set", "time.dt=1e-6", "--set", "time.end=1.5",
+               "--set", "output.times=[1.5]", "--set", "output.every=0.001")
 
     def lose(self, folder, *more):
         run = self.launch(*self.OUTPUTS, *more)

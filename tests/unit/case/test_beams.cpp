@@ -101,5 +101,29 @@ TEST(Beams, WithoutAGasNeedAStep) {
                     "a beam without a gas has no largest step of its own; write `dt` [time]"}});
 }
 
+TEST(Beams, WithoutAGasAndWithoutMassAreHeldByTheirEnds) {
+  const auto of_ends = [](const char* ends) {
+    return std::vector<std::string>{"solids.bar.rho=0", std::string("solids.bar.beam.ends=") + ends};
+  };
+  for (const char* ends : {"[clamped, free]", "[pinned, pinned]", "[guided, pinned]"})
+    EXPECT_EQ(mistake_in(alone, of_ends(ends)), "") << ends;
+  EXPECT_NE(mistake_in(alone, of_ends("[pinned, free]")).find("nothing would resist that this beam turns"),
+            std::string::npos);
+  for (const char* ends : {"[guided, free]", "[guided, guided]"})
+    EXPECT_NE(
+        mistake_in(alone, of_ends(ends)).find("nothing would resist that this beam moves across its line"),
+        std::string::npos)
+        << ends;
+}
+
+TEST(Beams, AreNotClampedByTheSideOfTheirGrid) {
+  EXPECT_EQ(mistake_in(alone, {"solids.bar.boundary.left=clamped"}), "");
+  EXPECT_NE(
+      mistake_in(alone, {"solids.bar.boundary.right=clamped"})
+          .find("solids.bar.boundary.right: clamps nothing: the last end of the beam there is free; write "
+                "`beam: {ends: [.., clamped]}`"),
+      std::string::npos);
+}
+
 }  // namespace
 }  // namespace fsi

@@ -118,9 +118,9 @@ TEST(Fluids, MistakesSayWhereAndWhatToWrite) {
       mistake_in(with("right: {kind: interface, fluid: right}", "right: free")),
       "case.yaml:30:7: solids.piston.boundary: no side is the interface to `right`, which meets this solid; "
       "write {kind: interface, fluid: right} on one");
-  EXPECT_EQ(
-      mistake_in(with("fluid: right}", "fluid: left}")),
-      "case.yaml:30:7: solids.piston.boundary: two sides are interfaces; a solid meets the gas along one");
+  EXPECT_EQ(mistake_in(with("fluid: right}", "fluid: left}")),
+            "case.yaml:31:14: solids.piston.boundary: two sides are interfaces to `left`; a solid meets each "
+            "gas along one");
   EXPECT_EQ(mistake_in(with("gamma: 1.6\n    p_e: 1", "gamma: 1.6\n    p_e: 2")),
             "case.yaml:30:7: solids.piston.boundary: p_e, at which the solid is free of stress, is 1 in "
             "fluids.left and "

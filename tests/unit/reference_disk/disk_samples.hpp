@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "common/exact/disk_table.hpp"
 #include "reference/disk_chain.hpp"
 
 namespace fsi::reference {
@@ -13,7 +14,7 @@ inline DiskProblem papers_disk(double delta, double omega_0, std::vector<double>
   disk.rho_0 = 1.4 / delta;
   disk.p_0 = disk.p_e = 1 / delta;
   disk.v_r = [](double) { return 0.0; };
-  disk.v_theta = [omega_0](double r) { return r * angular_velocity(omega_0, r); };
+  disk.v_theta = [omega_0](double r) { return r * exact::angular_velocity(omega_0, r); };
   disk.times = std::move(times);
   return disk;
 }

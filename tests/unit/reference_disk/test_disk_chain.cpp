@@ -94,7 +94,7 @@ INSTANTIATE_TEST_SUITE_P(Laws, DiskOfLaw,
 TEST(RotatingDisk, Eq50AnObjectiveLawKeepsTheAngularMomentumThroughALargeRotation) {
   for (const char* law : {"saint_venant_kirchhoff", "neo_hookean"}) {
     DiskProblem disk = with_law(papers_disk(0.5, 0.1, {0, 3}), law);
-    disk.v_theta = [](double r) { return 0.5 * r + r * angular_velocity(0.2, r); };
+    disk.v_theta = [](double r) { return 0.5 * r + r * exact::angular_velocity(0.2, r); };
     const auto out = solve_disk(disk, 100);
     EXPECT_GT(std::atan2(out[1].u2.back(), 1 + out[1].u1.back()), 1.0) << law;  // radians turned
     EXPECT_NEAR(out[1].totals.angular_momentum / out[0].totals.angular_momentum, 1, 1e-12)

@@ -39,7 +39,7 @@ TEST_F(DiskFile, StartsAsTheGivenRotationOfAnUnstrainedDisk) {
   const auto solution = read();
   EXPECT_TRUE(solution->only_at_output_times());
   const auto solid = solution->solid(0.3, 0.4, 0);
-  const double V = angular_velocity(0.3, 0.5);
+  const double V = exact::angular_velocity(0.3, 0.5);
   EXPECT_NEAR((solid.v - V * Vec2(-0.4, 0.3)).norm(), 0, 1e-9);  // 0.5 is a point of the table
   EXPECT_NEAR(solid.u.norm() + solid.P.norm(), 0, 1e-12);
   EXPECT_NEAR(solution->gas(1.3, -0.4, 0).rho, 1.4, 1e-13);

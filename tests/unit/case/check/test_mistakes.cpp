@@ -194,9 +194,21 @@ const Mistake values[] = {
      "case.yaml:22:11: solids.solid.bulk: must be at least 4/3 (c10 + c01) = 2, so that lambda is not "
      "negative"},
     {"ExpectedQuantityThatDoesNotExist", "status: completed", "eror.rho: {max: 1}",
-     "case.yaml:29:20: expect: summary.json has no `eror.rho` (status, reason, t, steps, dt, wall_s, "
-     "participants, errors, interface, counters, "
-     "conservation); did you mean `errors`?"},
+     "case.yaml:29:20: expect: summary.json has no `eror.rho` (status, reason, case, t, steps, dt, wall_s, "
+     "participants, errors, errors_missing, interface, counters, noise, overlap, conservation); did you mean "
+     "`errors`?"},
+    {"ExpectedCounterThatDoesNotExist", "status: completed", "counters.flors: {max: 0}",
+     "case.yaml:29:26: expect: summary.json has no `counters.flors` (floors, positive_fluxes, "
+     "positive_values, bounded_side_points, vacuum_points, first_order_fallbacks, "
+     "first_order_fallbacks_outside_shocks, settled_ghost_points, waveless_side_points, lost_outputs); did "
+     "you "
+     "mean `floors`?"},
+    {"ExpectationThatCannotBeMet", "status: completed", "t: {min: 2, max: 1}",
+     "case.yaml:29:10: expect.t: cannot be met: min, 2, is above max, 1"},
+    {"ErrorsOfASolidThatTheReferenceLeavesOut", "expect: {status: completed}",
+     "reference: {kind: expressions, fluid: {rho: 1, v: [0, 0], p: 1}}\nexpect: {errors.u_bar: {max: 1}}",
+     "case.yaml:30:24: expect: `errors.u_bar` is measured for a solid that deforms by a law that the "
+     "`reference` describes, and the case has none; leave it out"},
     {"ErrorsWithoutAReference", "status: completed", "errors.rho: {max: 1}",
      "case.yaml:29:22: expect: `errors.rho` is measured against a reference solution, and the case has none; "
      "write a `reference`, or leave it out (`fsi converge` compares grids without one)"},
@@ -261,7 +273,7 @@ const Mistake partners[] = {
      "case.yaml:24:7: solids.solid.boundary: no side is an interface, yet the case has a gas; write "
      "`interface` on the side that meets it"},
     {"TwoInterfacesOfASolid", "left: clamped", "left: interface",
-     "case.yaml:24:7: solids.solid.boundary: two sides are interfaces; a solid meets the gas along one"},
+     "case.yaml:25:14: solids.solid.boundary: two sides are interfaces; a solid meets the gas along one"},
     {"SidesThatDoNotMeet", "x: [-1, 0]", "x: [-1, 0.01]",
      "case.yaml:11:11: fluid.boundary.left: its point at (0, 0) does not meet the right side of solid "
      "`solid`, "

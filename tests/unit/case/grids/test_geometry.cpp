@@ -74,6 +74,11 @@ TEST(CaseGeometry, OneSolidWithinAnotherOverlapsItToo) {
   expect_mistake(bodies, shape_b + "solids.b.shape: ", "solid `b` overlaps that of solid `a` by 0.2 ");
 }
 
+TEST(CaseGeometry, SolidsOfOneOutlineAreOnEachOther) {
+  const TwoBodies bodies{.right = disk_at(-1)};
+  expect_mistake(bodies, shape_b + "solids.b.shape: ", "solid `b` is on that of solid `a` at ");
+}
+
 TEST(CaseGeometry, SolidsNearerThanTheirGridsAreToldTheDistanceThatIsEnough) {
   const TwoBodies near{.right = disk_at(0.02)};
   expect_mistake(near, ring_b + "fluid.body_fitted[1]: ", "solid `b` and solid `a` are 0.02");

@@ -1,16 +1,16 @@
-#include "common/case/check/check_starts.hpp"
+#include "common/case/check/given/check_starts.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "common/case/grids/grid_points.hpp"
+#include "common/case/check/given/given.hpp"
+#include "common/case/check/given/sample.hpp"
+#include "common/case/schema/laws.hpp"
 #include "common/core/types.hpp"
-#include "common/grid/geometry/outline.hpp"
 
 namespace fsi {
 
@@ -18,29 +18,6 @@ namespace {
 
 using config::fail;
 using config::Node;
-
-constexpr int samples_across = 16;  // of a grid, in each direction
-
-std::vector<Vec2> outline_of(const CurveSpec& curve) {
-  const std::size_t n = curve.x.size() / 2;
-  std::vector<Vec2> points;
-  for (std::size_t k = 0; k < n; ++k) points.emplace_back(curve.x[k], curve.x[n + k]);
-  return points;
-}
-
-/// Points of the body, its outline's among them.
-std::vector<Vec2> sample_of(const SolidSpec& solid) {
-  const CurveSpec* curve = solid.body_fitted.empty() ? nullptr : &solid.body_fitted.front().curve;
-  std::vector<Vec2> points = curve == nullptr ? std::vector<Vec2>() : outline_of(*curve);
-  for (int b = 0; b <= samples_across; ++b) {
-    for (int a = 0; a <= samples_across; ++a) {
-      const Vec2 x = place(solid.grid, static_cast<double>(a) / samples_across,
-                           static_cast<double>(b) / samples_across, 0);
-      if (curve == nullptr || (curve->closed() && grid::encloses(curve->x, x))) points.push_back(x);
-    }
-  }
-  return points;
-}
 
 /// Of a formula that the case gives, with the place where it stands.
 struct Formula {
@@ -62,7 +39,7 @@ void check_finite(const Formula& formula, const std::vector<Vec2>& points) {
 /// The grids that follow an outline have it where it is at rest.
 void check_outline_stays(const SolidSpec& solid, const Formula& u) {
   constexpr double tolerance = 0.05;  // of the distance of points, as in coupler/exchange/matching.cpp
-  const std::vector<Vec2> outline = outline_of(solid.body_fitted.front().curve);
+  const std::vector<Vec2> outline = outline_points(solid.body_fitted.front().curve);
   double length = 0;
   for (std::size_t k = 1; k < outline.size(); ++k) length += (outline[k] - outline[k - 1]).norm();
   const double most = tolerance * length / static_cast<double>(outline.size() - 1);
@@ -77,13 +54,24 @@ void check_outline_stays(const SolidSpec& solid, const Formula& u) {
   }
 }
 
+/// The law has a stress wherever the body starts.
+void check_strain(const SolidSpec& solid, const GivenVector& u, const std::vector<Vec2>& points,
+                  const Node& node, const std::string& path) {
+  if (!is_continuum(solid.law)) return;
+  for (const Vec2& x : points) {
+    const std::string wrong = unbearable(solid, u, x, 0);
+    if (!wrong.empty())
+      fail(node.place, path, fmt::format("{} at ({:.4g}, {:.4g}), t = 0", wrong, x[0], x[1]));
+  }
+}
+
 }  // namespace
 
 void check_starts(const Case& problem, const Node& root) {
   for (const SolidSpec& solid : problem.solids) {
     const Node& node = *root.find("solids")->find(solid.name);
     const std::string path = "solids." + solid.name;
-    const std::vector<Vec2> points = sample_of(solid);
+    const std::vector<Vec2> points = sample_points(solid);
     if (const Node* force = node.find("body_force"))
       check_finite({solid.body_force, *force, path + ".body_force"}, points);
     const Node* initial = node.find("initial");
@@ -93,6 +81,7 @@ void check_starts(const Case& problem, const Node& root) {
     if (u == nullptr || !solid.initial_u) continue;
     const Formula displacement{solid.initial_u, *u, path + ".initial.u"};
     check_finite(displacement, points);
+    check_strain(solid, given_by(*solid.initial_u), points, *u, path + ".initial.u");
     if (!problem.fluids.empty() && !solid.body_fitted.empty()) check_outline_stays(solid, displacement);
   }
 }

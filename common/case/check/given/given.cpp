@@ -1,0 +1,89 @@
+#include "common/case/check/given/given.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "common/case/schema/law_numbers.hpp"
+
+namespace fsi {
+
+namespace {
+
+/// F = I + du/dx by central differences; not finite beside the edge of what a formula is made for.
+Mat2 deformation_gradient(const GivenVector& u, const Vec2& x, double t) {
+  constexpr double step = 1e-5;
+  const double e = step * (1 + x.norm());
+  Mat2 F = Mat2::Identity();
+  for (int d = 0; d < 2; ++d) {
+    const Vec2 along = e * Vec2::Unit(d);
+    F.col(d) += (u(x + along, t) - u(x - along, t)) / (2 * e);
+  }
+  return F;
+}
+
+/// Whether P(F) of the solid's law is finite.
+bool has_stress(const SolidSpec& solid, const Mat2& F) {
+  bool finite = true;
+  schema::for_every_law([&]<class L>() {
+    if (L::name != solid.law) return;
+    const L law = solid::law_with<L>(solid.lambda, solid.mu, solid.data);
+    const auto P = law.P({.a11 = F(0, 0), .a12 = F(0, 1), .a21 = F(1, 0), .a22 = F(1, 1)});
+    finite = std::isfinite(P.a11 + P.a12 + P.a21 + P.a22);
+  });
+  return finite;
+}
+
+}  // namespace
+
+GivenVector given_by(const VectorExpressions& formulas) {
+  return [formulas](const Vec2& x, double t) {
+    return Vec2(formulas.c1(x[0], x[1], t), formulas.c2(x[0], x[1], t));
+  };
+}
+
+std::shared_ptr<const exact::Solution> exact_reference(const ReferenceSpec& reference) {
+  if (reference.kind == ReferenceKind::none || reference.in_formulas() || reference.computed())
+    return nullptr;
+  return exact::make_solution(reference.kind, reference.numbers, "");
+}
+
+GivenGas reference_gas(const ReferenceSpec& reference) {
+  if (reference.fluid) {
+    return [state = *reference.fluid](const Vec2& x, double t) {
+      return exact::GasState{.rho = state.rho(x[0], x[1], t),
+                             .v1 = state.v1(x[0], x[1], t),
+                             .v2 = state.v2(x[0], x[1], t),
+                             .p = state.p(x[0], x[1], t)};
+    };
+  }
+  const auto solution = exact_reference(reference);
+  if (!solution) return {};
+  return [solution](const Vec2& x, double t) { return solution->gas(x[0], x[1], t); };
+}
+
+GivenVector reference_displacement(const ReferenceSpec& reference) {
+  if (reference.u) return given_by(*reference.u);
+  const auto solution = exact_reference(reference);
+  if (!solution) return {};
+  return [solution](const Vec2& x, double t) { return solution->solid(x[0], x[1], t).u; };
+}
+
+GivenVector initial_displacement(const Case& problem, const SolidSpec& solid) {
+  if (solid.initial_from_reference) return reference_displacement(problem.reference);
+  if (solid.initial_u) return given_by(*solid.initial_u);
+  return [](const Vec2&, double) { return Vec2(Vec2::Zero()); };
+}
+
+std::string unbearable(const SolidSpec& solid, const GivenVector& u, const Vec2& x, double t) {
+  const Mat2 F = deformation_gradient(u, x, t);
+  if (!F.allFinite()) return "";
+  const double J = F.determinant();
+  if (!(J > 0)) return fmt::format("turns the material inside out (det F = {:.3g})", J);
+  if (has_stress(solid, F)) return "";
+  return fmt::format(
+      "strains the material more than the law `{}` bears (F = [{:.3g}, {:.3g}, {:.3g}, {:.3g}])", solid.law,
+      F(0, 0), F(0, 1), F(1, 0), F(1, 1));
+}
+
+}  // namespace fsi

@@ -1,0 +1,44 @@
+#pragma once
+/// What a case gives as functions of place and time, by formulas or by its reference solution.
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "common/case/case.hpp"
+#include "common/core/types.hpp"
+#include "common/exact/solution.hpp"
+
+namespace fsi {
+
+/// A vector at a place and a time.
+using GivenVector = std::function<Vec2(const Vec2& x, double t)>;
+/// The same of a state of the gas.
+using GivenGas = std::function<exact::GasState(const Vec2& x, double t)>;
+
+/// At so many times from the start to the end a case's data are looked at.
+inline constexpr int looked_at_times = 17;
+/// The k-th of them.
+inline double looked_at_time(const Case& problem, int k) {
+  return problem.time.end * k / (looked_at_times - 1);
+}
+
+/// Of formulas.
+GivenVector given_by(const VectorExpressions& formulas);
+
+/// The solution that the kind of `reference` and its numbers stand for; nullptr where it is given by formulas, computed by
+/// a program of its own, or not there. @throws UserMistake where the numbers have no solution
+std::shared_ptr<const exact::Solution> exact_reference(const ReferenceSpec& reference);
+
+/// State of a gas by the reference solution; empty where a case has none before it runs.
+GivenGas reference_gas(const ReferenceSpec& reference);
+/// Displacement of a solid by the reference solution; empty where a case has none before it runs.
+GivenVector reference_displacement(const ReferenceSpec& reference);
+
+/// Displacement of a solid at the start.
+GivenVector initial_displacement(const Case& problem, const SolidSpec& solid);
+
+/// det F > 0, and a stress of the law, at a point x of a solid displaced by u(x, t). Returns what is wrong there, or "".
+std::string unbearable(const SolidSpec& solid, const GivenVector& u, const Vec2& x, double t);
+
+}  // namespace fsi

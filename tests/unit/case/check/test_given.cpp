@@ -1,0 +1,139 @@
+// What a case gives as functions of place and time: there, and where the bodies are, or refused with its place.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "common/core/failure.hpp"
+#include "tests/unit/case/cases.hpp"
+
+namespace fsi {
+namespace {
+
+using tests::mistake_in;
+
+/// A solid alone.
+struct Solid {
+  std::string law = "neo_hookean", left = "clamped", right = "{kind: traction, value: [0, 0]}",
+              initial = "{v: [0, 0]}", more = "";
+
+  std::string text() const {
+    return fmt::format(R"(time: {{end: 2}}
+solids:
+  s:
+    law: {}
+    rho: 1
+    lambda: 2
+    mu: 1
+    grid: {{x: [-1, 0], y: [0, 1], points: [11, 11]}}
+    boundary: {{left: {}, right: {}, bottom: symmetry, top: symmetry}}
+    initial: {}
+{})",
+                       law, left, right, initial, more);
+  }
+};
+
+void expect_refused(const std::string& text, const std::string& words) {
+  const std::string message = mistake_in(text);
+  EXPECT_NE(message.find(words), std::string::npos) << message;
+  EXPECT_EQ(message.find("case.yaml:"), 0U) << message;
+}
+
+TEST(GivenStart, MayStrainTheBodyAsFarAsItsLawGoes) {
+  EXPECT_EQ(mistake_in(Solid{.initial = "{u: [0.5 * (x + 1), 0]}"}.text()), "");
+  expect_refused(Solid{.initial = "{u: [-1.2 * (x + 1), 0]}"}.text(),
+                 "solids.s.initial.u: turns the material inside out (det F = -0.2)");
+  // I1 - 3 = 4 - 2 + 1 is more than 2.
+  const std::string gent = "gent\n    J_m: 2";
+  EXPECT_EQ(mistake_in(Solid{.law = gent, .initial = "{u: [0.5 * (x + 1), 0]}"}.text()), "");
+  expect_refused(Solid{.law = gent, .initial = "{u: [x + 1, 0]}"}.text(),
+                 "solids.s.initial.u: strains the material more than the law `gent` bears");
+}
+
+TEST(GivenSide, BeginsWhereTheBodyDoes) {
+  EXPECT_EQ(mistake_in(Solid{.left = "{kind: displacement, value: [0.3 * t, 0]}"}.text()), "");
+  const std::string jump = "{kind: displacement, value: [0.3, 0]}";
+  expect_refused(
+      Solid{.left = jump}.text(),
+      "solids.s.boundary.left.value: is (0.3, 0) at (-1, 0), t = 0, where the solid starts with the "
+      "displacement (0, 0)");
+  EXPECT_EQ(mistake_in(Solid{.left = jump, .initial = "{u: [0.3, 0]}"}.text()), "");
+}
+
+TEST(GivenSide, IsFiniteForTheWholeRun) {
+  expect_refused(Solid{.right = "{kind: traction, value: [1 / t, 0]}"}.text(),
+                 "solids.s.boundary.right.value: is (inf, 0) at (0, 0), t = 0; must be finite");
+  expect_refused(Solid{.right = "{kind: traction, value: [0, 1 / (1 - t)]}"}.text(),
+                 "solids.s.boundary.right.value: is (0, inf) at (0, 0), t = 1; must be finite");
+}
+
+TEST(GivenReference, OfASolidDoesNotFoldItBeforeTheEnd) {
+  const auto chosen = [](const char* u) {
+    return Solid{.right = "{kind: displacement, value: reference}",
+                 .more = fmt::format("reference: {{kind: manufactured, u: [{}, 0]}}\n", u)}
+        .text();
+  };
+  EXPECT_EQ(mistake_in(chosen("-0.4 * t * (x + 1)")), "");
+  expect_refused(chosen("-0.6 * t * (x + 1)"),
+                 "turns the material inside out (det F = -0.05) at (-1, 0), t = 1.75");
+}
+
+TEST(GivenReference, IsASolution) {
+  const auto tube = [](const char* v) {
+    return fmt::format(R"(time: {{end: 0.1}}
+fluid:
+  gamma: 1.4
+  grid: {{x: [0, 1], y: [0, 0.2], points: [41, 9]}}
+  boundary: {{left: dirichlet, right: dirichlet, bottom: symmetry, top: symmetry}}
+  initial: reference
+reference: {{kind: riemann, x_0: 0.5, rho_left: 1, v_left: -{0}, p_left: 1, rho_right: 1, v_right: {0}, p_right: 1}}
+)",
+                       v);
+  };
+  EXPECT_EQ(mistake_in(tube("1")), "");
+  expect_refused(tube("8"), "the two states of the Riemann problem leave a vacuum between them");
+}
+
+TEST(GivenReference, EndsNoSoonerThanTheRun) {
+  const std::string piston = FSI_ROOT "/configs/elastic_piston.yaml";
+  EXPECT_NO_THROW(load_case(piston, {"time.end=1.5"}));
+  try {
+    load_case(piston, {"time.end=2.5"});  // the wall runs away from the gas faster than this follows
+    FAIL() << "must be refused";
+  } catch (const UserMistake& mistake) {
+    EXPECT_NE(std::string(mistake.what()).find("let time.end be smaller"), std::string::npos)
+        << mistake.what();
+  }
+}
+
+TEST(GivenReference, IsNotThatOfABodyWithoutALawOfDeformation) {
+  const std::string bar = FSI_ROOT "/configs/clamped_bar.yaml";
+  try {
+    load_case(bar, {"reference={kind: expressions, u: [0, 0]}", "fluid.initial={rho: 1, v: [0, 0], p: 1}",
+                    "fluid.boundary.left=outflow", "expect={}"});
+    FAIL() << "must be refused";
+  } catch (const UserMistake& mistake) {
+    EXPECT_NE(std::string(mistake.what()).find("is the displacement of a solid that deforms by a law"),
+              std::string::npos)
+        << mistake.what();
+  }
+}
+
+TEST(GivenMap, OfAGridThatMovesDoesNotFoldBeforeTheEnd) {
+  const auto gas = [](const char* x) {
+    return fmt::format(R"(time: {{end: 1}}
+fluid:
+  gamma: 1.4
+  grid: {{kind: mapped, map: ["{}", s], points: [21, 21]}}
+  boundary: {{left: slip_wall, right: slip_wall, bottom: slip_wall, top: slip_wall}}
+  initial: {{rho: 1, v: [0, 0], p: 1}}
+)",
+                       x);
+  };
+  EXPECT_EQ(mistake_in(gas("r * (1 - 0.9 * t)")), "");
+  expect_refused(gas("r * (1 - 1.1 * t)"), "fluid.grid: ");
+}
+
+}  // namespace
+}  // namespace fsi
