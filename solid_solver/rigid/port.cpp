@@ -99,7 +99,8 @@ void RigidParticipant::write_tables(double t, double /*dt*/, ProjectedStates /*p
 }
 
 bool RigidParticipant::is_surrounded() const {
-  return !spec_.body_force && !spec_.body_fitted.empty() && spec_.body_fitted.front().curve.closed();
+  return !spec_.fixed && !spec_.body_force && !spec_.body_fitted.empty() &&
+         spec_.body_fitted.front().curve.closed();
 }
 
 bodies::BodyTotals RigidParticipant::totals() const {

@@ -309,21 +309,21 @@ std::vector<BodyFittedSpec> build_fitted_grids(const Reader& reader, const Owner
 
 namespace {
 
-/// `through: [[x, y], ..]` in the place of `file: NAME`.
-void inline_points(Node& shape, const std::string& folder) {
+/// `through: [[x, y], ..]` in the place of `file: NAME` in the shape at `owner`.
+void inline_points(Node& shape, const std::string& owner, const std::string& folder) {
   for (config::Entry& entry : shape.entries) {
     if (entry.key != "file" || !entry.value.is_scalar()) continue;
     const std::string path = (std::filesystem::path(folder) / entry.value.text).string();
     const TextFile file = read_text_file(path, config::longest_file);
     if (!file.trouble.empty()) {
-      fail(entry.value.place, "shape.file",
+      fail(entry.value.place, owner + ".file",
            fmt::format("{} {}; its path counts from the folder of the case file", in_ticks(path),
                        file.trouble));
     }
     Node list{.kind = Node::Kind::list, .place = entry.value.place, .entries = {}};
     const std::vector<Vec2> points = grid::points_from_csv(file.text, path);
     if (points.size() > config::most_items) {
-      fail(entry.value.place, "shape.file",
+      fail(entry.value.place, owner + ".file",
            fmt::format("{} has {} points; at most {} are possible", in_ticks(path), points.size(),
                        config::most_items));
     }
@@ -346,14 +346,16 @@ void inline_points(Node& shape, const std::string& folder) {
 void inline_point_files(Node& root, const std::string& folder) {
   if (Node* solids = root.find("solids")) {
     for (config::Entry& solid : solids->entries) {
-      if (Node* shape = solid.value.find("shape")) inline_points(*shape, folder);
+      if (Node* shape = solid.value.find("shape"))
+        inline_points(*shape, fmt::format("solids.{}.shape", solid.key), folder);
     }
   }
   for (const FluidSection<Node>& fluid : fluid_sections(root)) {
     Node* grids = fluid.node->find("body_fitted");
     if (grids == nullptr) continue;
-    for (Node& grid : grids->items) {
-      if (Node* shape = grid.find("shape")) inline_points(*shape, folder);
+    for (std::size_t k = 0; k < grids->items.size(); ++k) {
+      if (Node* shape = grids->items[k].find("shape"))
+        inline_points(*shape, fmt::format("{}.body_fitted[{}].shape", fluid.path, k), folder);
     }
   }
 }

@@ -161,7 +161,7 @@ TEST(CaseLimits, FilesOfPointsThatAreNoneOrEndlessAreRefusedWhereTheyAreNamed) {
   folder.write("many.csv", million.substr(0, std::size_t{4} * 30'000));
   tests::make_pipe(folder, "pipe.csv");
   tests::make_loop(folder, "loop.csv");
-  const std::string place = "/case.yaml:4:58: shape.file: ";
+  const std::string place = "/case.yaml:4:58: fluid.body_fitted[0].shape.file: ";
   const auto expect = [&](const std::string& file, const std::string& what) {
     const std::string mistake = mistake_of_path(folder.write("case.yaml", wall_of(file)));
     EXPECT_NE(mistake.find(place), std::string::npos) << mistake;
