@@ -16,7 +16,7 @@ using tests::mistake_in;
 /// A solid alone.
 struct Solid {
   std::string law = "neo_hookean", left = "clamped", right = "{kind: traction, value: [0, 0]}",
-              initial = "{v: [0, 0]}", more = "";
+              initial = "{v: [0, 0]}", more = {};
 
   std::string text() const {
     return fmt::format(R"(time: {{end: 2}}
