@@ -189,8 +189,9 @@ TEST(Fluids, ABackgroundWithGridsOnItDoesNotFollowASolid) {
 }
 
 TEST(Fluids, ARunInOneDimensionKnowsOneGas) {
-  EXPECT_EQ(mistake_in(with("expect:", "reference: {kind: piston_1d}\nexpect:")),
-            "case.yaml:35:19: reference: `piston_1d` is computed with one gas and one solid; leave it out");
+  EXPECT_EQ(
+      mistake_in(with("expect:", "reference: {kind: piston_1d}\nexpect:")),
+      "case.yaml:35:19: reference.kind: `piston_1d` is computed with one gas and one solid; leave it out");
 }
 
 TEST(Fluids, AGasThatMeetsNoSolidIsRefused) {

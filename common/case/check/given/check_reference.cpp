@@ -48,10 +48,6 @@ void check_kind(const Case& problem, const Node& root) {
   if (problem.reference.kind == ReferenceKind::riemann && !problem.solids.empty())
     fail(node_at(root, {"reference", "kind"}).place, "reference",
          "`riemann` is a solution for a gas alone; leave it out");
-  if (problem.reference.computed() && problem.fluids.size() > 1)
-    fail(node_at(root, {"reference", "kind"}).place, "reference",
-         fmt::format("`{}` is computed with one gas and one solid; leave it out",
-                     name_of(problem.reference.kind)));
 }
 
 /// What is said of solids goes together, and is said of solids that deform.

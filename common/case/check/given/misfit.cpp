@@ -27,7 +27,8 @@ Found first_of(const Case& problem, Search... search) {
 
 Found not_one_of_each(const Case& problem) {
   if (problem.fluids.size() == 1 && problem.solids.size() == 1) return {};
-  return {{"reference", "is computed for one gas and one solid; leave it out"}};
+  return {{"reference.kind", fmt::format("`{}` is computed with one gas and one solid; leave it out",
+                                         name_of(problem.reference.kind))}};
 }
 
 // --- the piston
@@ -41,7 +42,7 @@ Found not_side_by_side(const Case& problem) {
       fluid.boundary[0].kind == BoundaryKind::interface && solid.boundary[1].kind == BoundaryKind::interface;
   if (straight && meets && solid.body_fitted.empty() && fluid.body_fitted.empty()) return {};
   return {
-      {"reference",
+      {"reference.kind",
        fmt::format("the one-dimensional run needs rectangles along x, the gas to the right of solid `{}`; "
                    "leave it out",
                    solid.name)}};
