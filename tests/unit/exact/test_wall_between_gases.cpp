@@ -163,6 +163,33 @@ TEST(WallBetweenGases, BeforeThePulseComesAllIsAtRest) {
   EXPECT_GT(wall.gas(-0.5, 0, 0).p, 1.9);  // the middle of the pulse
 }
 
+/// Whatever the wall is made of, gases that are compressed by the way of the wall take the momentum of the pulse and of its
+/// reflection: (z_left + z_right) u = 2 I, I the time integral of its pressure.
+TEST(WallBetweenGases, LongAfterThePulseTheElasticWallRestsWhereTheGasesHoldIt) {
+  WallBetweenGasesData data = data_with();
+  constexpr double impulse =
+      256 * 576.0 / 362880 * 0.8;  // of (4 s (1 - s))^4 over a length of 0.8, a = p = size = 1
+  const double z = 1.4 + std::sqrt(5.0 / 3 * 0.4);
+  for (const double thickness : {0.5, 0.01}) {
+    data.thickness = thickness;
+    const WallBetweenGases wall(data);
+    for (const double t : {40.0, 1e3, 1e300}) {
+      for (const double x : {0.0, 0.5 * thickness, thickness}) {
+        EXPECT_NEAR(wall.solid(x, 0, t).u[0], 2 * impulse / z, 1e-12) << thickness << " " << t << " " << x;
+        EXPECT_NEAR(wall.solid(x, 0, t).v[0], 0, 1e-12) << thickness << " " << t << " " << x;
+      }
+    }
+  }
+}
+
+TEST(WallBetweenGases, AWallTooThinForItsEchoesIsToldItsMass) {
+  WallBetweenGasesData data = data_with();
+  data.thickness = 1e-6;
+  EXPECT_THROW(WallBetweenGases{data}, std::invalid_argument);
+  data.mass = data.rho_bar * data.thickness;
+  EXPECT_NO_THROW(WallBetweenGases{data});
+}
+
 TEST(WallBetweenGases, DataWithoutASolutionAreRefused) {
   WallBetweenGasesData data = data_with();
   data.rho_right = 0;
