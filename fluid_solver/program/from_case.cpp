@@ -109,7 +109,12 @@ GasSolver gas_at_start(const Case& problem, const FluidSpec& spec,
                        const std::shared_ptr<const exact::Solution>& reference) {
   GasSolver solver = solver_of(problem, spec, reference);
   if (is_chosen(problem, reference)) solver.force(field_of(reference));
-  solver.assign_initial_conditions(data_of(spec.initial_from_reference, spec.initial, reference, "initial"));
+  const StateField initial = data_of(spec.initial_from_reference, spec.initial, reference, "initial");
+  try {
+    solver.assign_initial_conditions(initial);
+  } catch (const UserMistake& mistake) {  // between the points at which `check` looked
+    throw UserMistake(fmt::format("{}: {}.initial: {}", problem.path, spec.path, mistake.what()));
+  }
   if (has_budget(problem, spec, reference)) solver.note_edges();
   return solver;
 }

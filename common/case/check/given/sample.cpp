@@ -1,5 +1,6 @@
 #include "common/case/check/given/sample.hpp"
 
+#include <algorithm>
 #include <cstddef>
 
 #include "common/case/grids/grid_points.hpp"
@@ -7,32 +8,69 @@
 
 namespace fsi {
 
-std::vector<Vec2> sample_points(const GridSpec& grid, std::optional<Side> side) {
+namespace {
+
+/// Every so many points of n, so that about `samples` remain.
+int stride(int n, int samples) {
+  return std::max(1, (n - 1) / samples);
+}
+
+/// Whether a place is in the body that a grid is to cover.
+bool in_body(const SolidSpec& solid, const Vec2& x) {
+  if (fitted_grids(solid).empty()) return true;
+  const CurveSpec& curve = solid.body_fitted.front().curve;
+  return curve.closed() && grid::encloses(curve.x, x);
+}
+
+constexpr int samples_of_body = 16;  // in each direction
+
+}  // namespace
+
+std::vector<Vec2> sample_points(const GridSpec& grid, std::optional<Side> side, double t) {
   constexpr int samples = 8;  // in each direction
   std::vector<Vec2> points;
   for (int b = 0; b <= samples; ++b) {
-    if (side) {
-      points.push_back(side_point(grid, *side, b * (points_along(grid, *side) - 1) / samples));
-      continue;
-    }
     for (int a = 0; a <= samples; ++a) {
-      points.push_back(position(grid, a * (grid.n1 - 1) / samples, b * (grid.n2 - 1) / samples, 0));
+      int i = a * (grid.n1 - 1) / samples, j = b * (grid.n2 - 1) / samples;
+      if (side == Side::left || side == Side::right) i = side == Side::left ? 0 : grid.n1 - 1;
+      if (side == Side::bottom || side == Side::top) j = side == Side::bottom ? 0 : grid.n2 - 1;
+      if (side && (direction_of(*side) == 0 ? a : b) > 0) continue;  // one row of the sample is enough
+      points.push_back(position(grid, i, j, t));
     }
   }
   return points;
 }
 
 std::vector<Vec2> sample_points(const SolidSpec& solid) {
-  constexpr int samples = 16;  // of a grid, in each direction
-  const CurveSpec* curve = solid.body_fitted.empty() ? nullptr : &solid.body_fitted.front().curve;
-  std::vector<Vec2> points = curve == nullptr ? std::vector<Vec2>() : outline_points(*curve);
-  for (int b = 0; b <= samples; ++b) {
-    for (int a = 0; a <= samples; ++a) {
-      const Vec2 x = place(solid.grid, static_cast<double>(a) / samples, static_cast<double>(b) / samples, 0);
-      if (curve == nullptr || (curve->closed() && grid::encloses(curve->x, x))) points.push_back(x);
+  std::vector<Vec2> points;
+  if (!fitted_grids(solid).empty()) {
+    constexpr std::size_t most = 64;
+    const std::vector<Vec2> outline = outline_points(solid.body_fitted.front().curve);
+    for (std::size_t k = 0; k < outline.size(); k += std::max<std::size_t>(1, outline.size() / most))
+      points.push_back(outline[k]);
+  }
+  const GridSpec& grid = solid.grid;
+  for (int b = 0; b <= samples_of_body; ++b) {
+    for (int a = 0; a <= samples_of_body; ++a) {
+      const Vec2 x =
+          position(grid, a * (grid.n1 - 1) / samples_of_body, b * (grid.n2 - 1) / samples_of_body, 0);
+      if (in_body(solid, x)) points.push_back(x);
     }
   }
   return points;
+}
+
+std::vector<BodyCell> sample_cells(const SolidSpec& solid) {
+  const GridSpec& grid = solid.grid;
+  std::vector<BodyCell> cells;
+  for (int j = 0; j + 1 < grid.n2; j += stride(grid.n2, samples_of_body)) {
+    for (int i = 0; i + 1 < grid.n1; i += stride(grid.n1, samples_of_body)) {
+      const Vec2 x = position(grid, i, j, 0), x1 = position(grid, i + 1, j, 0), x2 = position(grid, i, j + 1, 0);
+      if (in_body(solid, x) && in_body(solid, x1) && in_body(solid, x2))
+        cells.push_back({.x = x, .edge1 = x1 - x, .edge2 = x2 - x});
+    }
+  }
+  return cells;
 }
 
 std::vector<Vec2> outline_points(const CurveSpec& curve) {

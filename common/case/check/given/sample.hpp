@@ -1,5 +1,6 @@
 #pragma once
-/// The points at which checks look at what a case gives as functions of place.
+/// The points at which checks look at what a case gives as functions of place: points of its grids, for others the run does
+/// not have.
 
 #include <optional>
 #include <vector>
@@ -9,11 +10,19 @@
 
 namespace fsi {
 
-/// Some points of a grid at t = 0, or of one side of it, the corners among them.
-std::vector<Vec2> sample_points(const GridSpec& grid, std::optional<Side> side = {});
+/// Some points of a grid at time t, or of one side of it, the corners among them.
+std::vector<Vec2> sample_points(const GridSpec& grid, std::optional<Side> side = {}, double t = 0);
 
 /// Some points of a body, its outline's among them.
 std::vector<Vec2> sample_points(const SolidSpec& solid);
+
+/// The first corner of a cell and its two edges from there.
+struct BodyCell {
+  Vec2 x, edge1, edge2;
+};
+
+/// Some cells of a body; none of one that stands on a wall.
+std::vector<BodyCell> sample_cells(const SolidSpec& solid);
 
 /// All points of an outline.
 std::vector<Vec2> outline_points(const CurveSpec& curve);
