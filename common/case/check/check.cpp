@@ -61,8 +61,9 @@ void check_grid(const GridSpec& grid, const Node& node, const std::string& path,
   const auto is_sound = [](const SampledCell& cell) { return cell.area > 0 && std::isfinite(cell.area); };
   const auto wrong = std::ranges::find_if_not(cells, is_sound);
   if (wrong == cells.end()) return;
-  if (std::ranges::all_of(
-          cells, [](const SampledCell& cell) { return cell.area < 0 && std::isfinite(cell.area); })) {
+  if (t == 0 && std::ranges::all_of(cells, [](const SampledCell& cell) {
+        return cell.area < 0 && std::isfinite(cell.area);
+      })) {
     fail(node.place, path,
          "`map` is left-handed: where r grows to the right, s grows downwards; write 1 - s in the place of "
          "s, so that bottom and top change places, or 1 - r in that of r, so that left and right do");
@@ -106,11 +107,12 @@ void check_fluid(const Case& problem, const FluidSpec& fluid, const Node& root) 
   for (const Side side : all_sides) {
     const BoundarySpec& spec = fluid.boundary[static_cast<std::size_t>(side)];
     if (!spec.state) continue;
-    constexpr int times = 32;
-    for (int k = 0; k <= times; ++k)
-      check_state(*spec.state, sample_points(fluid.grid, side),
+    for (int k = 0; k < times_of_known_places(fluid); ++k) {
+      const double t = looked_at_time(problem, k);
+      check_state(*spec.state, sample_points(fluid.grid, side, t),
                   node_at(node, {"boundary", name_of(side), "state"}),
-                  fmt::format("{}.boundary.{}.state", path, name_of(side)), problem.time.end * k / times);
+                  fmt::format("{}.boundary.{}.state", path, name_of(side)), t);
+    }
   }
 }
 

@@ -16,6 +16,7 @@
 #include "common/case/schema/boundary_facts.hpp"
 #include "common/case/schema/laws.hpp"
 #include "common/core/choices.hpp"
+#include "common/grid/geometry/outline.hpp"
 
 namespace fsi {
 
@@ -60,19 +61,38 @@ bool stays(const VectorExpressions& u) {
   return none(u.c1) && none(u.c2);
 }
 
-/// What is clamped says so at the end of the line that is there.
+/// The distance of a place from a side of a grid.
+double distance_from_side(const GridSpec& grid, Side side, const Vec2& x) {
+  constexpr int samples = 64;
+  return grid::distance_to(points_on_side(grid, side, samples + 1), x);
+}
+
+/// The ends of the line that are nearer to this side than to any other.
+std::vector<std::size_t> ends_at(const SolidSpec& solid, Side side) {
+  std::vector<std::size_t> ends;
+  for (const std::size_t end : {0U, 1U}) {
+    const Vec2& x = end == 0 ? solid.beam->line.front() : solid.beam->line.back();
+    const double own = distance_from_side(solid.grid, side, x);
+    const auto is_nearer = [&](Side other) { return distance_from_side(solid.grid, other, x) < 0.999 * own; };
+    if (std::ranges::none_of(all_sides, is_nearer)) ends.push_back(end);
+  }
+  return ends;
+}
+
+/// A side that is clamped says so of the ends of the line that are there.
 void check_held_side(const SolidSpec& solid, Side side, const Node& node) {
   const BoundarySpec& spec = solid.boundary[static_cast<std::size_t>(side)];
   if (spec.kind == BoundaryKind::none || schema::solid_boundary(spec.kind).holds != Hold::motion) return;
-  const Vec2 x = side_point(solid.grid, side, points_along(solid.grid, side) / 2);
-  const std::vector<Vec2>& line = solid.beam->line;
-  const bool last = (line.back() - x).norm() < (line.front() - x).norm();
-  const BeamEnd kind = solid.beam->ends[last ? 1 : 0];
-  if (kind == BeamEnd::clamped || kind == BeamEnd::guided) return;
-  fail(node.place, fmt::format("solids.{}.boundary.{}", solid.name, name_of(side)),
+  const std::string path = fmt::format("solids.{}.boundary.{}", solid.name, name_of(side));
+  const std::vector<std::size_t> ends = ends_at(solid, side);
+  if (ends.empty())
+    fail(node.place, path, "clamps nothing: no end of the beam's line is at this side; write free here");
+  const auto is_free = [&](std::size_t end) { return solid.beam->ends[end] == BeamEnd::free; };
+  if (!std::ranges::all_of(ends, is_free)) return;
+  fail(node.place, path,
        fmt::format(
-           "clamps nothing: the {} end of the beam there is {}; write `beam: {{ends: [{}]}}`, or free here",
-           last ? "last" : "first", name_of(kind), last ? ".., clamped" : "clamped, .."));
+           "clamps nothing: the {} end of the beam there is free; write `beam: {{ends: [{}]}}`, or free here",
+           ends.front() == 1 ? "last" : "first", ends.front() == 1 ? ".., clamped" : "clamped, .."));
 }
 
 /// A beam is held at its ends and loaded by gases and its body force: what else a side of its grid says would be

@@ -9,7 +9,6 @@
 #include <string_view>
 #include <vector>
 
-#include "common/case/schema/laws.hpp"
 #include "common/core/input/suggest.hpp"
 
 namespace fsi {
@@ -115,16 +114,13 @@ void check_errors(const Expected& expected) {
         in_ticks(expected.quantity)));
   if (expected.words.size() < 2) return;
   const bool of_gas = std::ranges::find(errors_of_gas, expected.words[1]) != errors_of_gas.end();
-  const bool is_there =
-      of_gas
-          ? !problem.fluids.empty() && (!reference.in_formulas() || reference.fluid)
-          : std::ranges::any_of(problem.solids, [](const SolidSpec& one) { return is_continuum(one.law); }) &&
-                (!reference.in_formulas() || reference.u);
+  const bool is_there = of_gas ? !problem.fluids.empty() && (!reference.in_formulas() || reference.fluid)
+                               : !problem.solids.empty() && (!reference.in_formulas() || reference.u);
   if (!is_there)
     expected.refuse(
         fmt::format("{} is measured for a {} that the `reference` describes, and the case has none; "
                     "leave it out",
-                    in_ticks(expected.quantity), of_gas ? "gas" : "solid that deforms by a law"));
+                    in_ticks(expected.quantity), of_gas ? "gas" : "solid"));
 }
 
 void check_quantity(const Expected& expected) {

@@ -27,8 +27,13 @@ int points_along(const GridSpec& grid, Side side) {
   return direction_of(side) == 0 ? grid.n2 : grid.n1;
 }
 
-Vec2 side_point(const GridSpec& grid, Side side, int k) {
+Vec2 side_point(const GridSpec& grid, Side side, int k, double t) {
   const int end = at_upper_end(side) ? (direction_of(side) == 0 ? grid.n1 : grid.n2) - 1 : 0;
+  return direction_of(side) == 0 ? position(grid, end, k, t) : position(grid, k, end, t);
+}
+
+Vec2 inner_point(const GridSpec& grid, Side side, int k) {
+  const int end = at_upper_end(side) ? (direction_of(side) == 0 ? grid.n1 : grid.n2) - 2 : 1;
   return direction_of(side) == 0 ? position(grid, end, k, 0) : position(grid, k, end, 0);
 }
 

@@ -14,8 +14,10 @@ Vec2 place(const GridSpec& grid, double r, double s, double t);
 Vec2 position(const GridSpec& grid, int i, int j, double t);
 /// Number of points of a side.
 int points_along(const GridSpec& grid, Side side);
-/// Point k of a side at t = 0.
-Vec2 side_point(const GridSpec& grid, Side side, int k);
+/// Point k of a side at time t.
+Vec2 side_point(const GridSpec& grid, Side side, int k, double t = 0);
+/// Neighbour of point k of a side towards the inside.
+Vec2 inner_point(const GridSpec& grid, Side side, int k);
 /// n points along a side at t = 0, evenly in the grid's parameter, component-major.
 std::vector<double> points_on_side(const GridSpec& grid, Side side, int n);
 

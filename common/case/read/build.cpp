@@ -130,9 +130,13 @@ void check_program(const SolidSpec& solid, const Node& node, const std::string& 
 
 /// Whether its ends alone hold every motion of a beam that does not deform.
 bool holds_itself(const BeamSpec& beam) {
-  const auto is_there = [&](BeamEnd kind) { return std::ranges::count(beam.ends, kind); };
-  return is_there(BeamEnd::clamped) > 0 || is_there(BeamEnd::pinned) == 2 ||
-         (is_there(BeamEnd::pinned) == 1 && is_there(BeamEnd::guided) == 1);
+  const auto count = [&](BeamEnd kind) { return std::ranges::count(beam.ends, kind); };
+  if (count(BeamEnd::clamped) > 0 || count(BeamEnd::pinned) == 2) return true;
+  if (count(BeamEnd::guided) < 2) return count(BeamEnd::pinned) == 1 && count(BeamEnd::guided) == 1;
+  const std::size_t n = beam.line.size();
+  const Vec2 first = (beam.line[1] - beam.line[0]).normalized(),
+             last = (beam.line[n - 1] - beam.line[n - 2]).normalized();
+  return std::fabs(cross(first, last)) > 1e-6;  // two guided ends move across their lines, which differ
 }
 
 /// A beam may have no mass where its ends, or the gas, hold every motion: nothing resists the sliding of a free

@@ -1,5 +1,6 @@
 /// What `check` says of beams that cannot be.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <string>
@@ -103,7 +104,9 @@ TEST(Beams, WithoutAGasNeedAStep) {
 
 TEST(Beams, WithoutAGasAndWithoutMassAreHeldByTheirEnds) {
   const auto of_ends = [](const char* ends) {
-    return std::vector<std::string>{"solids.bar.rho=0", std::string("solids.bar.beam.ends=") + ends};
+    std::vector<std::string> settings{fmt::format("solids.bar.beam.ends={}", ends)};
+    settings.emplace_back("solids.bar.rho=0");
+    return settings;
   };
   for (const char* ends : {"[clamped, free]", "[pinned, pinned]", "[guided, pinned]"})
     EXPECT_EQ(mistake_in(alone, of_ends(ends)), "") << ends;
@@ -116,13 +119,32 @@ TEST(Beams, WithoutAGasAndWithoutMassAreHeldByTheirEnds) {
         << ends;
 }
 
+TEST(Beams, OfNoMassMayHaveGuidedEndsThatAreNotParallel) {
+  EXPECT_EQ(mistake_in(alone, {"solids.bar.rho=0", "solids.bar.beam.ends=[guided, guided]",
+                               "solids.bar.beam.line=[[0, 0], [0.6, 0.1], [0.9, 0.4], [1, 1]]",
+                               "solids.bar.grid.y=[0, 1]"}),
+            "");
+}
+
 TEST(Beams, AreNotClampedByTheSideOfTheirGrid) {
-  EXPECT_EQ(mistake_in(alone, {"solids.bar.boundary.left=clamped"}), "");
+  const auto said = [](const char* ends, const char* side) {
+    return mistake_in(alone, {fmt::format("solids.bar.beam.ends={}", ends),
+                              fmt::format("solids.bar.boundary.{}=clamped", side)});
+  };
+  EXPECT_EQ(said("[clamped, free]", "left"), "");
+  EXPECT_EQ(said("[pinned, pinned]", "right"), "");
+  EXPECT_NE(said("[clamped, free]", "right")
+                .find("solids.bar.boundary.right: clamps nothing: the last end of the beam there is free; "
+                      "write `beam: "
+                      "{ends: [.., clamped]}`"),
+            std::string::npos);
   EXPECT_NE(
-      mistake_in(alone, {"solids.bar.boundary.right=clamped"})
-          .find("solids.bar.boundary.right: clamps nothing: the last end of the beam there is free; write "
-                "`beam: {ends: [.., clamped]}`"),
+      said("[clamped, clamped]", "top").find("clamps nothing: no end of the beam's line is at this side"),
       std::string::npos);
+  const std::vector<std::string> arch{"solids.bar.beam.line=[[0, 0], [0.3, 0.5], [0.7, 0.5], [1, 0]]",
+                                      "solids.bar.grid.y=[0, 1]", "solids.bar.beam.ends=[clamped, pinned]",
+                                      "solids.bar.boundary.bottom=clamped"};
+  EXPECT_EQ(mistake_in(alone, arch), "");
 }
 
 }  // namespace

@@ -100,6 +100,13 @@ TEST_F(PistonCase, WhatVariesAcrossThePistonIsRefused) {
   expect_mistake("slip_wall", driven, "solids.solid.initial.v: ", "    initial: {v: [0, 1e-3 * x]}");
 }
 
+TEST_F(PistonCase, LongSidesThatAreFeltAreRefused) {
+  const auto with = [](const std::string& sides) { return "outflow, bottom: " + sides + "}\n  #"; };
+  read(with("outflow, top: slip_wall"), driven);
+  expect_mistake(with("{kind: far_field, state: {rho: 1, v: [0, 0], p: 1 / 1.4}}, top: symmetry"), driven,
+                 "fluid.boundary.bottom: is felt in the one-dimensional");
+}
+
 TEST_F(PistonCase, AGasDrivenFromItsRightSideIsRefused) {
   const auto state = [](const std::string& rho, const std::string& v) {
     return "{kind: dirichlet, state: {rho: " + rho + ", v: [" + v + ", 0], p: 1 / 1.4}}";

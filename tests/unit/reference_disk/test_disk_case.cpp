@@ -108,6 +108,11 @@ TEST_F(DiskCase, AnotherMotionOfTheSolidIsRefused) {
   expect_mistake([this] { return read(rotation, "omega_0: 0.3"); }, "solids.disk.initial.v: ");
 }
 
+TEST_F(DiskCase, ADiskAtRestIsNotTheOneThatTurns) {
+  expect_mistake([this] { return read("[0, 0]", "omega_0: omega_0"); }, "solids.disk.initial.v: ");
+  EXPECT_NO_THROW(read("[0, 0]", "omega_0: 0"));
+}
+
 TEST_F(DiskCase, AnOutlineThatIsNotTheUnitCircleIsRefused) {
   const auto with = [this](const std::string& circle) {
     return read(rotation, "omega_0: omega_0", "14", "interface", circle);

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -26,100 +28,131 @@ struct GivenSide {
   const BoundarySpec& spec;
   const Node& node;
   std::string path;
-  std::vector<Vec2> points;
-  double spacing;  ///< of its points [length]
+
+  /// Of a key of its section, or its own where a word says it all.
+  const Node& node_of(const std::string& key) const { return node_at(node, {key}); }
+  std::string path_of(const std::string& key) const {
+    return node.find(key) == nullptr ? path : fmt::format("{}.{}", path, key);
+  }
 };
 
-GivenSide given_side(const GridSpec& grid, Side side, const BoundarySpec& spec, const Node& boundary,
-                     const std::string& path) {
+/// A point of a side of a solid and its neighbour inside.
+struct SidePoint {
+  Vec2 x, inner;
+};
+
+GivenSide given_side(Side side, const BoundarySpec& spec, const Node& boundary, const std::string& path) {
   return {.spec = spec,
           .node = node_at(boundary, {name_of(side)}),
-          .path = fmt::format("{}.{}", path, name_of(side)),
-          .points = sample_points(grid, side),
-          .spacing = (side_point(grid, side, 1) - side_point(grid, side, 0)).norm()};
-}
-
-/// The outline of a solid with a shape of its own.
-GivenSide given_outline(const BodyFittedSpec& outline, const Node& node, const std::string& path) {
-  return {.spec = outline.boundary[static_cast<std::size_t>(outline.side)],
-          .node = node,
-          .path = path,
-          .points = outline_points(outline.curve),
-          .spacing = outline.curve.spacing};
+          .path = fmt::format("{}.{}", path, name_of(side))};
 }
 
 [[noreturn]] void fail_at_side(const GivenSide& side, const std::string& key, const std::string& values,
                                const Vec2& x, double t) {
-  fail(node_at(side.node, {key}).place, fmt::format("{}.{}", side.path, key),
+  fail(side.node_of(key).place, side.path_of(key),
        fmt::format("is {} at ({:.4g}, {:.4g}), t = {:.4g}; must be finite", values, x[0], x[1], t));
 }
 
-void check_values(const Case& problem, const GivenSide& side) {
-  const auto check = [&](const std::string& key, const VectorExpressions& given, const Vec2& x, double t) {
+void check_values(const GivenSide& side, const Vec2& x, double t) {
+  const auto check = [&](const std::string& key, const VectorExpressions& given) {
     const double c1 = given.c1(x[0], x[1], t), c2 = given.c2(x[0], x[1], t);
     if (!std::isfinite(c1) || !std::isfinite(c2))
       fail_at_side(side, key, fmt::format("({}, {})", c1, c2), x, t);
   };
   const BoundarySpec& spec = side.spec;
-  for (int k = 0; k < looked_at_times; ++k) {
-    const double t = looked_at_time(problem, k);
-    for (const Vec2& x : side.points) {
-      if (spec.vector) check("value", *spec.vector, x, t);
-      if (spec.velocity) check("velocity", *spec.velocity, x, t);
-      for (const auto& [key, given] : spec.vectors) check(key, given, x, t);
-      for (const auto& [key, given] : spec.fields) {
-        const double value = given(x[0], x[1], t);
-        if (!std::isfinite(value)) fail_at_side(side, key, fmt::to_string(value), x, t);
-      }
-    }
+  if (spec.vector) check("value", *spec.vector);
+  if (spec.velocity) check("velocity", *spec.velocity);
+  for (const auto& [key, given] : spec.vectors) check(key, given);
+  for (const auto& [key, given] : spec.fields) {
+    const double value = given(x[0], x[1], t);
+    if (!std::isfinite(value)) fail_at_side(side, key, fmt::to_string(value), x, t);
   }
 }
 
-/// A displacement that does not begin as the body does would tear its first cell in no time.
-void check_fits(const GivenSide& side, const GivenVector& u) {
+/// A displacement that does not begin where the body does is a jump over the first cell, which must bear it.
+void check_jump(const SolidSpec& solid, const GivenSide& side, const SidePoint& point, const GivenVector& u) {
   if (schema::solid_boundary(side.spec.kind).holds != Hold::motion || !side.spec.vector || !u) return;
-  constexpr double tolerance = 0.05;  // of the distance of points, as of an outline (check_starts.cpp)
-  const GivenVector given = given_by(*side.spec.vector);
-  for (const Vec2& x : side.points) {
-    const Vec2 own = u(x, 0), of_side = given(x, 0);
-    if ((of_side - own).norm() <= tolerance * side.spacing) continue;
-    fail(node_at(side.node, {"value"}).place, side.path + ".value",
-         fmt::format(
-             "is ({:.3g}, {:.3g}) at ({:.4g}, {:.4g}), t = 0, where the solid starts with the displacement "
-             "({:.3g}, {:.3g}); let it begin there, or give that displacement as `initial: {{u: [.., ..]}}`",
-             of_side[0], of_side[1], x[0], x[1], own[0], own[1]));
-  }
+  const Vec2 of_side = given_by(*side.spec.vector)(point.x, 0), own = u(point.x, 0);
+  const Vec2 inwards = point.inner - point.x;
+  const Mat2 F =
+      Mat2::Identity() + (u(point.inner, 0) - of_side) * inwards.transpose() / inwards.squaredNorm();
+  const std::string wrong = unbearable(solid, F);
+  if (wrong.empty()) return;
+  fail(side.node_of("value").place, side.path_of("value"),
+       fmt::format(
+           "{} at once in the cell at ({:.4g}, {:.4g}): it begins with ({:.3g}, {:.3g}), and the solid with "
+           "({:.3g}, {:.3g}); let it grow from there, or let `initial.u` be the same there",
+           wrong, point.x[0], point.x[1], of_side[0], of_side[1], own[0], own[1]));
 }
 
-void check_solid_sides(const Case& problem, const SolidSpec& solid, const Node& node) {
-  const std::string path = "solids." + solid.name;
-  std::vector<GivenSide> sides;
-  if (fitted_grids(solid).empty()) {
-    for (const Side side : all_sides)
-      sides.push_back(given_side(solid.grid, side, solid.boundary[static_cast<std::size_t>(side)],
-                                 node_at(node, {"boundary"}), path + ".boundary"));
-  } else {
-    sides.push_back(given_outline(solid.body_fitted.front(), node_at(node, {"body_fitted", "boundary"}),
-                                  path + ".body_fitted.boundary"));
+/// The points of a side of the grid of a solid, or of its outline, at which its data are looked at.
+std::vector<SidePoint> points_of(const GridSpec& grid, Side side) {
+  constexpr int samples = 16;
+  std::vector<SidePoint> points;
+  const int n = points_along(grid, side);
+  for (int b = 0; b <= samples; ++b) {
+    const int k = b * (n - 1) / samples;
+    points.push_back({.x = side_point(grid, side, k), .inner = inner_point(grid, side, k)});
   }
+  return points;
+}
+
+std::vector<SidePoint> points_of(const BodyFittedSpec& fitted) {
+  constexpr std::size_t samples = 64;
+  const std::vector<Vec2> outline = outline_points(fitted.curve);
+  std::vector<SidePoint> points;
+  for (std::size_t k = 0; k + 1 < outline.size(); k += std::max<std::size_t>(1, outline.size() / samples)) {
+    const Vec2 along = (outline[k + 1] - outline[k]).normalized();
+    const Vec2 inwards(-along[1], along[0]);  // the body is to the left
+    points.push_back({.x = outline[k], .inner = outline[k] + fitted.spacing * inwards});
+  }
+  return points;
+}
+
+void check_solid_side(const Case& problem, const SolidSpec& solid, const GivenSide& side,
+                      const std::vector<SidePoint>& points) {
   const GivenVector u = initial_displacement(problem, solid);
-  for (const GivenSide& side : sides) {
-    check_values(problem, side);
-    check_fits(side, u);
+  for (int k = 0; k < looked_at_times; ++k)
+    for (const SidePoint& point : points) check_values(side, point.x, looked_at_time(problem, k));
+  for (const SidePoint& point : points) check_jump(solid, side, point, u);
+}
+
+void check_sides_of_solid(const Case& problem, const SolidSpec& solid, const Node& node) {
+  const std::string path = "solids." + solid.name;
+  if (!fitted_grids(solid).empty()) {
+    const BodyFittedSpec& outline = solid.body_fitted.front();
+    check_solid_side(problem, solid,
+                     {.spec = outline.boundary[static_cast<std::size_t>(outline.side)],
+                      .node = node_at(node, {"body_fitted", "boundary"}),
+                      .path = path + ".body_fitted.boundary"},
+                     points_of(outline));
+    return;
+  }
+  for (const Side side : all_sides)
+    check_solid_side(problem, solid,
+                     given_side(side, solid.boundary[static_cast<std::size_t>(side)],
+                                node_at(node, {"boundary"}), path + ".boundary"),
+                     points_of(solid.grid, side));
+}
+
+void check_sides_of_gas(const Case& problem, const FluidSpec& fluid, const Node& node) {
+  for (const Side side : all_sides) {
+    const GivenSide given = given_side(side, fluid.boundary[static_cast<std::size_t>(side)],
+                                       node_at(node, {"boundary"}), fluid.path + ".boundary");
+    for (int k = 0; k < times_of_known_places(fluid); ++k) {
+      const double t = looked_at_time(problem, k);
+      for (const Vec2& x : sample_points(fluid.grid, side, t)) check_values(given, x, t);
+    }
   }
 }
 
 }  // namespace
 
 void check_side_data(const Case& problem, const Node& root) {
-  for (const FluidSpec& fluid : problem.fluids) {
-    const Node& boundary = node_at(fluid_section_of(root, fluid.name), {"boundary"});
-    for (const Side side : all_sides)
-      check_values(problem, given_side(fluid.grid, side, fluid.boundary[static_cast<std::size_t>(side)],
-                                       boundary, fluid.path + ".boundary"));
-  }
+  for (const FluidSpec& fluid : problem.fluids)
+    check_sides_of_gas(problem, fluid, fluid_section_of(root, fluid.name));
   for (const SolidSpec& solid : problem.solids)
-    if (is_continuum(solid.law)) check_solid_sides(problem, solid, node_at(root, {"solids", solid.name}));
+    if (is_continuum(solid.law)) check_sides_of_solid(problem, solid, node_at(root, {"solids", solid.name}));
 }
 
 }  // namespace fsi

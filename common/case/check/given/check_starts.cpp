@@ -55,13 +55,14 @@ void check_outline_stays(const SolidSpec& solid, const Formula& u) {
 }
 
 /// The law has a stress wherever the body starts.
-void check_strain(const SolidSpec& solid, const GivenVector& u, const std::vector<Vec2>& points,
-                  const Node& node, const std::string& path) {
+void check_strain(const SolidSpec& solid, const Formula& displacement) {
   if (!is_continuum(solid.law)) return;
-  for (const Vec2& x : points) {
-    const std::string wrong = unbearable(solid, u, x, 0);
+  const GivenVector u = given_by(*displacement.value);
+  for (const BodyCell& cell : sample_cells(solid)) {
+    const std::string wrong = unbearable(solid, deformation_gradient(cell, u, 0));
     if (!wrong.empty())
-      fail(node.place, path, fmt::format("{} at ({:.4g}, {:.4g}), t = 0", wrong, x[0], x[1]));
+      fail(displacement.node.place, displacement.path,
+           fmt::format("{} in the cell at ({:.4g}, {:.4g}), t = 0", wrong, cell.x[0], cell.x[1]));
   }
 }
 
@@ -81,7 +82,7 @@ void check_starts(const Case& problem, const Node& root) {
     if (u == nullptr || !solid.initial_u) continue;
     const Formula displacement{solid.initial_u, *u, path + ".initial.u"};
     check_finite(displacement, points);
-    check_strain(solid, given_by(*solid.initial_u), points, *u, path + ".initial.u");
+    check_strain(solid, displacement);
     if (!problem.fluids.empty() && !solid.body_fitted.empty()) check_outline_stays(solid, displacement);
   }
 }

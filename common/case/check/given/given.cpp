@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 
 #include "common/case/schema/law_numbers.hpp"
@@ -9,18 +11,6 @@
 namespace fsi {
 
 namespace {
-
-/// F = I + du/dx by central differences; not finite beside the edge of what a formula is made for.
-Mat2 deformation_gradient(const GivenVector& u, const Vec2& x, double t) {
-  constexpr double step = 1e-5;
-  const double e = step * (1 + x.norm());
-  Mat2 F = Mat2::Identity();
-  for (int d = 0; d < 2; ++d) {
-    const Vec2 along = e * Vec2::Unit(d);
-    F.col(d) += (u(x + along, t) - u(x - along, t)) / (2 * e);
-  }
-  return F;
-}
 
 /// Whether P(F) of the solid's law is finite.
 bool has_stress(const SolidSpec& solid, const Mat2& F) {
@@ -35,6 +25,11 @@ bool has_stress(const SolidSpec& solid, const Mat2& F) {
 }
 
 }  // namespace
+
+int times_of_known_places(const FluidSpec& fluid) {
+  const auto meets_solid = [](const BoundarySpec& side) { return side.kind == BoundaryKind::interface; };
+  return std::ranges::any_of(fluid.boundary, meets_solid) ? 1 : looked_at_times;
+}
 
 GivenVector given_by(const VectorExpressions& formulas) {
   return [formulas](const Vec2& x, double t) {
@@ -75,9 +70,15 @@ GivenVector initial_displacement(const Case& problem, const SolidSpec& solid) {
   return [](const Vec2&, double) { return Vec2(Vec2::Zero()); };
 }
 
-std::string unbearable(const SolidSpec& solid, const GivenVector& u, const Vec2& x, double t) {
-  const Mat2 F = deformation_gradient(u, x, t);
-  if (!F.allFinite()) return "";
+Mat2 deformation_gradient(const BodyCell& cell, const GivenVector& u, double t) {
+  Mat2 edges, moved;
+  edges << cell.edge1, cell.edge2;
+  const Vec2 u_0 = u(cell.x, t);
+  moved << u(cell.x + cell.edge1, t) - u_0, u(cell.x + cell.edge2, t) - u_0;
+  return Mat2::Identity() + moved * edges.inverse();
+}
+
+std::string unbearable(const SolidSpec& solid, const Mat2& F) {
   const double J = F.determinant();
   if (!(J > 0)) return fmt::format("turns the material inside out (det F = {:.3g})", J);
   if (has_stress(solid, F)) return "";

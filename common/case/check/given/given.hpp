@@ -6,6 +6,7 @@
 #include <string>
 
 #include "common/case/case.hpp"
+#include "common/case/check/given/sample.hpp"
 #include "common/core/types.hpp"
 #include "common/exact/solution.hpp"
 
@@ -16,12 +17,16 @@ using GivenVector = std::function<Vec2(const Vec2& x, double t)>;
 /// The same of a state of the gas.
 using GivenGas = std::function<exact::GasState(const Vec2& x, double t)>;
 
-/// At so many times from the start to the end a case's data are looked at.
+/// At so many times from the start to the end a case's data are looked at, after the start a little before round ones: a
+/// step does not come upon those by chance, where sin(t - 1) / (t - 1) has no value.
 inline constexpr int looked_at_times = 17;
 /// The k-th of them.
 inline double looked_at_time(const Case& problem, int k) {
-  return problem.time.end * k / (looked_at_times - 1);
+  return problem.time.end * k / (looked_at_times - 1) * (1 - 1e-6);
 }
+
+/// At how many of them the places of a gas's sides are known: those of a grid that solids move, at the start alone.
+int times_of_known_places(const FluidSpec& fluid);
 
 /// Of formulas.
 GivenVector given_by(const VectorExpressions& formulas);
@@ -38,7 +43,10 @@ GivenVector reference_displacement(const ReferenceSpec& reference);
 /// Displacement of a solid at the start.
 GivenVector initial_displacement(const Case& problem, const SolidSpec& solid);
 
-/// det F > 0, and a stress of the law, at a point x of a solid displaced by u(x, t). Returns what is wrong there, or "".
-std::string unbearable(const SolidSpec& solid, const GivenVector& u, const Vec2& x, double t);
+/// det F > 0, and a stress of the law. Returns what is wrong with a deformation gradient, or "".
+std::string unbearable(const SolidSpec& solid, const Mat2& F);
+
+/// The deformation gradient that a grid sees in a cell displaced by u(x, t).
+Mat2 deformation_gradient(const BodyCell& cell, const GivenVector& u, double t);
 
 }  // namespace fsi

@@ -30,12 +30,12 @@ std::vector<Vec2> sample_points(const GridSpec& grid, std::optional<Side> side, 
   constexpr int samples = 8;  // in each direction
   std::vector<Vec2> points;
   for (int b = 0; b <= samples; ++b) {
+    if (side) {
+      points.push_back(side_point(grid, *side, b * (points_along(grid, *side) - 1) / samples, t));
+      continue;
+    }
     for (int a = 0; a <= samples; ++a) {
-      int i = a * (grid.n1 - 1) / samples, j = b * (grid.n2 - 1) / samples;
-      if (side == Side::left || side == Side::right) i = side == Side::left ? 0 : grid.n1 - 1;
-      if (side == Side::bottom || side == Side::top) j = side == Side::bottom ? 0 : grid.n2 - 1;
-      if (side && (direction_of(*side) == 0 ? a : b) > 0) continue;  // one row of the sample is enough
-      points.push_back(position(grid, i, j, t));
+      points.push_back(position(grid, a * (grid.n1 - 1) / samples, b * (grid.n2 - 1) / samples, t));
     }
   }
   return points;
@@ -65,7 +65,8 @@ std::vector<BodyCell> sample_cells(const SolidSpec& solid) {
   std::vector<BodyCell> cells;
   for (int j = 0; j + 1 < grid.n2; j += stride(grid.n2, samples_of_body)) {
     for (int i = 0; i + 1 < grid.n1; i += stride(grid.n1, samples_of_body)) {
-      const Vec2 x = position(grid, i, j, 0), x1 = position(grid, i + 1, j, 0), x2 = position(grid, i, j + 1, 0);
+      const Vec2 x = position(grid, i, j, 0), x1 = position(grid, i + 1, j, 0),
+                 x2 = position(grid, i, j + 1, 0);
       if (in_body(solid, x) && in_body(solid, x1) && in_body(solid, x2))
         cells.push_back({.x = x, .edge1 = x1 - x, .edge2 = x2 - x});
     }

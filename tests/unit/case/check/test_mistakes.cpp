@@ -207,8 +207,8 @@ const Mistake values[] = {
      "case.yaml:29:10: expect.t: cannot be met: min, 2, is above max, 1"},
     {"ErrorsOfASolidThatTheReferenceLeavesOut", "expect: {status: completed}",
      "reference: {kind: expressions, fluid: {rho: 1, v: [0, 0], p: 1}}\nexpect: {errors.u_bar: {max: 1}}",
-     "case.yaml:30:24: expect: `errors.u_bar` is measured for a solid that deforms by a law that the "
-     "`reference` describes, and the case has none; leave it out"},
+     "case.yaml:30:24: expect: `errors.u_bar` is measured for a solid that the `reference` "
+     "describes, and the case has none; leave it out"},
     {"ErrorsWithoutAReference", "status: completed", "errors.rho: {max: 1}",
      "case.yaml:29:22: expect: `errors.rho` is measured against a reference solution, and the case has none; "
      "write a `reference`, or leave it out (`fsi converge` compares grids without one)"},
