@@ -133,9 +133,13 @@ def _act(arguments):
         print(version.describe())
         return DONE
     interrupts.listen()
-    options, unknown = verbs.parser(arguments[0]).parse_known_args(arguments)
+    parser = verbs.parser(arguments[0])
+    options, unknown = parser.parse_known_args(arguments)
     if unknown:
-        raise UserMistake(f"{options.verb}: it takes no {' '.join(unknown)}; {paths.COMMAND} {options.verb} --help says what it takes")
+        from fsi_launch.command import completion
+        option = completion.meant(parser, options.verb, unknown)
+        hint = f" (did you mean {option}?)" if option else ""
+        raise UserMistake(f"{options.verb}: it takes no {' '.join(unknown)}{hint}; {paths.COMMAND} {options.verb} --help says what it takes")
     return ACTS[options.verb](options)
 
 

@@ -39,6 +39,12 @@ class Completion(unittest.TestCase):
         self.begun = "elastic_p"
         self.assertEqual(self.offered("fsi", "run"), {"elastic_piston"})
 
+    def test_options_that_are_meant(self):
+        parser = verbs.parser()
+        for verb, words, option in (("run", ["--output", "DIR"], "--out"), ("run", ["--overwite"], "--overwrite"),
+                                    ("plot", ["x.yaml", "--att=0.5"], "--at"), ("run", ["--zzz"], None), ("run", ["x"], None)):
+            self.assertEqual(completion.meant(parser, verb, words), option, words)
+
 
 if __name__ == "__main__":
     unittest.main()
