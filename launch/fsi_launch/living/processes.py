@@ -49,6 +49,14 @@ def signal_to(pid, number):
         os.kill(pid, number)
 
 
+def namespace():
+    """What pids are numbers of: each container has processes of its own, and may share folders with others. 0 where nobody says."""
+    try:
+        return Path("/proc/self/ns/pid").stat().st_ino
+    except OSError:
+        return 0
+
+
 def start_time(pid):
     """Start of a living process in clock ticks since boot, which with the pid identifies it for good; 0 when there is none."""
     try:

@@ -27,7 +27,7 @@ GAS = "fluid_solver"
 SOLID = "solid_solver_"             # and the name of its law
 ONE_RANK = ("solid_solver_rigid", "solid_solver_beam")      # few numbers, no grid
 SHARED = Path("/dev/shm")           # what ranks share: Open MPI leaves its part there, and its folder in /tmp, where mpirun is killed
-FOLDER = "amp-fsi-ranks-"           # and who began with it: pid, its start, something new
+FOLDER = "amp-fsi-ranks-"           # and who began with it: namespace of its pid, pid, its start, something new
 MOST = 64
 LEAST_POINTS = 20000                # a rank, where `auto` chooses
 EXTRA = []                          # words for every rank (tests)
@@ -155,8 +155,8 @@ def memory(number, mpirun=None, programs=None):
         return
     where = SHARED if os.access(SHARED, os.W_OK) else Path("/tmp")
     _forget_dead(where)
-    with tempfile.TemporaryDirectory(prefix=f"{FOLDER}{os.getpid()}-{processes.start_time(os.getpid())}-", dir=where,
-                                     ignore_cleanup_errors=True) as folder:
+    own = f"{FOLDER}{processes.namespace()}-{os.getpid()}-{processes.start_time(os.getpid())}-"
+    with tempfile.TemporaryDirectory(prefix=own, dir=where, ignore_cleanup_errors=True) as folder:
         yield dict.fromkeys(known.folders, folder) | _preloaded(Path(folder), programs or paths.BIN)
 
 
@@ -168,10 +168,10 @@ def _preloaded(folder, programs):
 
 
 def _forget_dead(where):
-    """Removes what is left of launchers of this user's that were killed with SIGKILL."""
-    for folder in where.glob(f"{FOLDER}*"):
+    """Removes what is left of launchers of this user's that were killed with SIGKILL; of those of other containers nobody here knows."""
+    for folder in where.glob(f"{FOLDER}{processes.namespace()}-*"):
         with contextlib.suppress(OSError, ValueError):      # gone meanwhile; a name of somebody else's
-            pid, born = map(int, folder.name.removeprefix(FOLDER).split("-")[:2])
+            pid, born = map(int, folder.name.removeprefix(FOLDER).split("-")[1:3])
             if folder.lstat().st_uid == os.getuid() and processes.start_time(pid) != born:
                 shutil.rmtree(folder, ignore_errors=True)
 

@@ -52,7 +52,7 @@ class Entry:
         self.run = run
         self.key = "" if protection == "off" else f"{protection}:{os.urandom(KEY_BYTES).hex()}"
         self.content = {"run": run, "dir": str(directory), "case": case, "pid": os.getpid(),
-                        "born": processes.start_time(os.getpid()), "key": self.key, "participants": list(participants)} | ({"network": network} if network else {})
+                        "born": processes.start_time(os.getpid()), "pids": processes.namespace(), "key": self.key, "participants": list(participants)} | ({"network": network} if network else {})
 
     def __enter__(self):
         _make_folder(self.path.parent)
@@ -79,10 +79,14 @@ def running_in(directory):
 
 
 def _forget_dead_runs(entries):
-    """Removes what launchers left behind that were killed with SIGKILL. Another process may have their number by now."""
+    """Removes what launchers left behind that were killed with SIGKILL. Another process may have their number by now; those of other
+    containers have numbers of their own."""
+    here = processes.namespace()
     for path in entries.glob("*.json"):
         try:
             entry = json.loads(path.read_text(encoding="utf-8"))
+            if entry.get("pids", here) != here:
+                continue
             born = processes.start_time(int(entry["pid"]))
         except (OSError, ValueError, KeyError, TypeError):
             continue

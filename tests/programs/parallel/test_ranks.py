@@ -34,7 +34,7 @@ if not MISSING and ranks.other_mpi():
 
 def memory_of(run):
     """The folder in memory that the ranks of a run share; None when there is none."""
-    return next(Path("/dev/shm").glob(f"amp-fsi-ranks-{run.process.pid}-*"), None)
+    return next(Path("/dev/shm").glob(f"amp-fsi-ranks-*-{run.process.pid}-*"), None)
 
 
 # As LASTING, with a solid of two ranks.
@@ -258,7 +258,7 @@ class Faults(OnRanks):
         run.process.kill()
         os.kill(mpirun, signal.SIGKILL)
         run.wait()  # the next run with ranks, perhaps one of another test, frees what is left
-        strange = Path(f"/dev/shm/amp-fsi-ranks-{os.getpid()}x")    # of somebody else
+        strange = Path(f"/dev/shm/amp-fsi-ranks-{os.stat("/proc/self/ns/pid").st_ino}-{os.getpid()}x")    # of somebody else
         strange.mkdir()
         self.addCleanup(strange.rmdir)
         other = self.launch(*self.lasting, out="other")

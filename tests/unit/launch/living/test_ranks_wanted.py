@@ -2,6 +2,7 @@
 """Who gets how many ranks and which cores by --ranks, and what is said where that cannot be."""
 
 import json
+import os
 import sys
 import unittest
 from pathlib import Path
@@ -12,7 +13,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from launcher import InScratch  # noqa: E402
 from fsi_launch import paths  # noqa: E402
 from fsi_launch.failure import UserMistake  # noqa: E402
-from fsi_launch.living import ranks  # noqa: E402
+from fsi_launch.living import processes, ranks  # noqa: E402
 from fsi_launch.results import verdict  # noqa: E402
 
 
@@ -141,6 +142,31 @@ class Wanted(InScratch):
         for first, later in ((stopped, ended), (ended, stopped)):
             left.write_text(json.dumps({"reason": later.format(0)}), encoding="utf-8")
             self.assertIn("stopped", verdict._of_ranks("fluid", self.folder, first.format(1)))
+
+
+class LeftBehind(InScratch):
+    """What launchers leave that were killed; others in containers may share the folder, whose pids are numbers of other processes."""
+
+    def test_folders_of_dead_launchers_go_and_those_of_the_living_and_of_other_containers_stay(self):
+        here, living = processes.namespace(), os.getpid()
+        born = processes.start_time(living)
+        dead = self.folder / f"{ranks.FOLDER}{here}-{living}-{born + 1}-a"
+        stay = [self.folder / f"{ranks.FOLDER}{space}-{living}-{start}-a" for space, start in ((here, born), (here + 1, born + 1))]
+        for folder in (dead, *stay):
+            folder.mkdir()
+        ranks._forget_dead(self.folder)  # noqa: SLF001
+        self.assertEqual(sorted(self.folder.iterdir()), sorted(stay))
+
+    def test_a_run_has_a_folder_that_others_leave_alone(self):
+        with mock.patch.object(ranks, "SHARED", self.folder), mock.patch.object(ranks, "told", return_value=ranks.TOLD["4"]), \
+                ranks.memory(2) as names:
+            folder = Path(names["OMPI_MCA_orte_tmpdir_base"])
+            ranks._forget_dead(self.folder)  # noqa: SLF001
+            self.assertTrue(folder.is_dir())
+            with mock.patch.object(processes, "namespace", return_value=1):
+                ranks._forget_dead(self.folder)  # noqa: SLF001
+            self.assertTrue(folder.is_dir())
+        self.assertFalse(folder.exists())
 
 
 if __name__ == "__main__":
