@@ -25,6 +25,7 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from comparing import Comparing  # noqa: E402
 from running import BIN, EndToEnd, FSI, PATIENT, processes, until  # noqa: E402
 from fsi_launch.living import ranks  # noqa: E402
+from fsi_launch.living.processes import namespace  # noqa: E402
 from many_on_ranks import LASTING, RECUT, compare_all, compare_in_turn, kill_again_and_again, restart_all  # noqa: E402
 
 MISSING = [what for what, there in (("libfsi_ranks_mpi.so", (BIN / "libfsi_ranks_mpi.so").is_file()),
@@ -258,7 +259,7 @@ class Faults(OnRanks):
         run.process.kill()
         os.kill(mpirun, signal.SIGKILL)
         run.wait()  # the next run with ranks, perhaps one of another test, frees what is left
-        strange = Path(f"/dev/shm/amp-fsi-ranks-{os.stat("/proc/self/ns/pid").st_ino}-{os.getpid()}x")    # of somebody else
+        strange = Path(f"/dev/shm/{ranks.FOLDER}{namespace()}-{os.getpid()}x")    # of somebody else
         strange.mkdir()
         self.addCleanup(strange.rmdir)
         other = self.launch(*self.lasting, out="other")
