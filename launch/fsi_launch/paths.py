@@ -3,6 +3,7 @@
 import os
 import re
 import shlex
+import shutil
 import subprocess
 from pathlib import Path
 
@@ -30,7 +31,8 @@ def build(names):
     wanted = [f"bin/{name}" for name in dict.fromkeys(names) if name in _targets() - _built]
     if not wanted:
         return
-    code = subprocess.run([ROOT / "launch" / "fsi", "--build", *wanted], stdin=subprocess.DEVNULL, check=False).returncode
+    leash = ["setpriv", "--pdeathsig", "TERM"] if shutil.which("setpriv") else []   # ends with this command, even if that is killed
+    code = subprocess.run([*leash, ROOT / "launch" / "fsi", "--build", *wanted], stdin=subprocess.DEVNULL, check=False).returncode
     if code != 0:
         raise SystemExit(code)
     _built.update(names)

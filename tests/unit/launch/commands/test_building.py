@@ -2,6 +2,7 @@
 """What the command configures and builds, and for which instruction set; cmake and ninja are stand-ins that write down how they were
 called."""
 
+import itertools
 import os
 import shutil
 import signal
@@ -22,10 +23,10 @@ printf 'CMAKE_HOME_DIRECTORY:INTERNAL=%s\\nFSI_MARCH:STRING=%s\\n' "$PWD" "$marc
 if [[ $march == nonsense ]]; then echo "Error: nonsense"; exit 1; fi
 printf 'build bin/%s: LINK\\n' fsi_case fsi_start fluid_solver coupler solid_solver_neo_hookean reference_piston >"$build/build.ninja"
 """
-# Builds for ever where it is told, by $BUILDING, whom to tell its pid.
+# Builds for ever what $ENDLESS names where it is told, by $BUILDING, whom to tell its pid.
 NINJA = """#!/bin/bash
 echo "ninja ${*:5}" >>"$CALLS"
-if [[ -n ${BUILDING:-} ]]; then
+if [[ -n ${BUILDING:-} && $* == *"$ENDLESS"* ]]; then
   echo $$ >"$BUILDING"
   exec sleep 1000000
 fi
@@ -80,6 +81,13 @@ class Building(InScratch):
                                 text=True, check=False)
         return self.calls.read_text().splitlines(), answer.stderr
 
+    def put_checker(self):
+        """A case can be read, as if its checker had been built."""
+        programs = self.folder / "build" / "release" / "bin"
+        programs.mkdir(parents=True)
+        (programs / "fsi_case").write_text(CASE)
+        (programs / "fsi_case").chmod(0o755)
+
     def configured(self, march=None):
         return [call for call in self.build(march)[0] if not call.startswith("ninja")]
 
@@ -109,10 +117,7 @@ class Building(InScratch):
         self.assertEqual(self.configured(), ["--preset release"])
 
     def test_a_run_builds_what_it_needs_and_nothing_else(self):
-        programs = self.folder / "build" / "release" / "bin"
-        programs.mkdir(parents=True)
-        (programs / "fsi_case").write_text(CASE)
-        (programs / "fsi_case").chmod(0o755)
+        self.put_checker()
         calls, said = self.build(verb="run")
         self.assertEqual(calls[1:], ["ninja bin/fsi_case bin/fsi_xdmf", "ninja bin/fluid_solver bin/coupler bin/fsi_start bin/reference_piston"])
         self.assertIn("the program fluid_solver is not in", said)   # the stand-in has built nothing
@@ -126,11 +131,13 @@ class Building(InScratch):
         self.assertEqual(self.build(missing="python3-matplotlib clang-format-16")[0][-1:], ["ninja bin/fsi_case"])
 
     def test_a_build_ends_with_the_command_that_is_killed(self):
+        self.put_checker()
         begun = self.folder / "begun"
         os.mkfifo(begun)
-        for number in (signal.SIGTERM, signal.SIGKILL):
-            with subprocess.Popen([self.folder / "launch" / "fsi", "check", "nothing"], env=self.environment() | {"BUILDING": str(begun)},
-                                  stderr=subprocess.DEVNULL) as process:
+        for number, target in itertools.product((signal.SIGTERM, signal.SIGKILL), ("fsi_case", "coupler")):   # for the launcher, and by it
+            environment = self.environment() | {"BUILDING": str(begun), "ENDLESS": f"bin/{target}"}
+            with self.subTest(number.name, target=target), \
+                    subprocess.Popen([self.folder / "launch" / "fsi", "run", "nothing"], env=environment, stderr=subprocess.DEVNULL) as process:
                 ninja = os.pidfd_open(int(begun.read_text(encoding="ascii")))
                 process.send_signal(number)
             ended(ninja)
