@@ -106,6 +106,14 @@ std::string times_left_out(const OutputSpec& output, double end) {
                      fmt::join(output.left_out, ", "), end);
 }
 
+/// What the reference says of a body that has no errors: `--solid disk=rigid` may be what makes it so.
+std::string reference_left_out(const Case& problem) {
+  const auto has_errors = [](const SolidSpec& solid) { return is_continuum(solid.law); };
+  const bool has_one = std::ranges::any_of(problem.solids, has_errors);
+  if (problem.solids.empty() || has_one || !problem.reference.u) return "";
+  return "\n  reference.u: no errors by it; a beam, a rigid body and a program of one's own have none";
+}
+
 }  // namespace
 
 bool is_coupled(const Case& problem) {
@@ -179,8 +187,7 @@ std::string summary_line(const Case& problem) {
       fmt::format("{}: valid; {}, t = 0 to {}; memory {}about {}", problem.path, fmt::join(parts, ", "),
                   problem.time.end, levels ? "at most " : "", bytes_text(total_memory(problem)));
   for (const FluidSpec& fluid : problem.fluids) line += added_points(fluid);
-  line += times_left_out(problem.output, problem.time.end);
-  return line;
+  return line + times_left_out(problem.output, problem.time.end) + reference_left_out(problem);
 }
 
 std::vector<std::pair<std::string, std::string>> list_cases(const std::string& folder) {

@@ -161,6 +161,13 @@ TEST(OutputTimes, AfterTheEndAreLeftOut) {
   EXPECT_EQ(none_left.output.times, std::vector<double>{0.1});
 }
 
+TEST(Reference, OfABodyThatHasNoErrorsIsSaidToBeLeftOut) {
+  const std::string path = FSI_ROOT "/configs/moving_together_disk.yaml";
+  EXPECT_EQ(summary_line(load_case(path)).find("reference.u"), std::string::npos);
+  const std::string rigid = summary_line(load_case(path, {}, {"disk=rigid"}));
+  EXPECT_NE(rigid.find("reference.u: no errors by it"), std::string::npos) << rigid;
+}
+
 TEST(Parameters, MayUseEachOtherInAnyOrderAndTheResolution) {
   const std::string text = R"(
 parameters: {a: 2 * b, b: c + 1, c: 1 / h}
