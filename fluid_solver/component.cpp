@@ -19,13 +19,14 @@ namespace {
 /// The lowest pressure the update may leave, as part of the largest initial one.
 constexpr double floor_part = 1e-10;
 
-/// Spacings of a grid at rest whose points, ghosts included, lie on an unrotated lattice up to round-off.
+/// Spacings, both positive, of a grid at rest whose points, ghosts included, lie on an unrotated lattice up to round-off.
 std::optional<Spacing> lattice_of(const grid::MovingGrid& grid) {
   if (grid.moves()) return std::nullopt;
   const ConstFieldView x = grid.x();
   const Layout& shape = grid.layout();
   const double dx = (x(0, shape.n1 - 1, 0) - x(0, 0, 0)) / (shape.n1 - 1);
   const double dy = (x(1, 0, shape.n2 - 1) - x(1, 0, 0)) / (shape.n2 - 1);
+  if (!(dx > 0 && dy > 0)) return std::nullopt;  // turned by 180 degrees, it is a map like others
   const double tolerance = 1e-11 * (std::fabs(dx) + std::fabs(dy));
   for (int j = -Layout::ghosts; j < shape.n2 + Layout::ghosts; ++j) {
     for (int i = -Layout::ghosts; i < shape.n1 + Layout::ghosts; ++i) {

@@ -9,6 +9,7 @@
 #include "common/case/check/check_ends.hpp"
 #include "common/case/check/check_expectations.hpp"
 #include "common/case/check/check_geometry.hpp"
+#include "common/case/check/check_images.hpp"
 #include "common/case/check/check_interfaces.hpp"
 #include "common/case/check/check_overlap.hpp"
 #include "common/case/check/check_places.hpp"
@@ -232,6 +233,7 @@ void check_case(const Case& problem, const Node& root) {
                    .owner = node_at(root, {"solids", solid.name}),
                    .path = "solids." + solid.name});
   }
+  check_images(problem, root);
   check_reference(problem, root);
   check_starts(problem, root);
   check_side_data(problem, root);

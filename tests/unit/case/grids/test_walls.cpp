@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/case/grids/composite_from_case.hpp"
+#include "common/core/failure.hpp"
 #include "common/grid/overlap/composite_grid.hpp"
 #include "tests/unit/case/cases.hpp"
 

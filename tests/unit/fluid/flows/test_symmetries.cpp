@@ -76,8 +76,10 @@ TEST(Eq1Symmetry, AMirroredGasStaysTheMirrorImage) {
   }
 }
 
-TEST(Eq30Mapping, ATurnedBoxGivesTheTurnedSolution) {
-  const double angle = 0.7, c = std::cos(angle), s = std::sin(angle);
+class Eq30TurnedBox : public testing::TestWithParam<double> {};
+
+TEST_P(Eq30TurnedBox, GivesTheTurnedSolution) {
+  const double c = std::cos(GetParam()), s = std::sin(GetParam());
   const StateField original = [](double x, double y, double) {
     return State{1, 0.2 * bump(x, y), 0, 1 + bump(x, y)};
   };
@@ -105,6 +107,8 @@ TEST(Eq30Mapping, ATurnedBoxGivesTheTurnedSolution) {
   }
   EXPECT_LT(difference, 1e-12);  // round-off of the metrics
 }
+
+INSTANTIATE_TEST_SUITE_P(Angles, Eq30TurnedBox, testing::Values(0.7, pi / 2, pi, -pi / 2));
 
 TEST(Eq31ClosedBox, SymmetrySidesLoseNothing) {
   const StateField blast = [](double x, double y, double) { return State{1, 0, 0, 1 + 20 * bump(x, y)}; };
