@@ -92,8 +92,7 @@ std::string configuration_xml(const std::string& run, double participant_lease_s
   </Internal>
 </Domain></CycloneDDS>)",
                   ways.interface, ways.message, ways.fragment, escaped(run), ways.peers, participant_lease_s);
-  const char* environment =
-      std::getenv("CYCLONEDDS_URI");  // NOLINT(concurrency-mt-unsafe): nobody sets it here
+  const char* environment = std::getenv(more_settings);  // NOLINT(concurrency-mt-unsafe): nobody sets it here
   if (environment != nullptr && *environment != '\0') xml += std::string(",") + environment;
   return xml;
 }

@@ -5,6 +5,7 @@
 #include <malloc.h>
 
 #include <cctype>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <map>
@@ -24,7 +25,7 @@ constexpr int lock_step_depth = 8;
 constexpr int lasting_depth = 64;
 constexpr int asking_depth = 16;
 
-/// The latest line of Cyclone's log. A flood of malformed packets costs no more than this.
+/// The latest line of Cyclone's log. A flood of malformed packets costs no more than this. What it dies of is said at once.
 class LastLine {
  public:
   static LastLine& instance() {
@@ -42,6 +43,7 @@ class LastLine {
     auto& line = *static_cast<LastLine*>(self);
     std::string text(data->message, data->size);
     while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back())) != 0) text.pop_back();
+    if ((data->priority & DDS_LC_FATAL) != 0) std::fprintf(stderr, "bus: %s\n", text.c_str());
     const std::lock_guard lock(line.mutex_);
     line.text_ = std::move(text);
   }
@@ -63,13 +65,23 @@ void keep_freed_memory() {
   mallopt(M_TRIM_THRESHOLD, 128 << 20);
 }
 
+[[noreturn]] void fail_to_join(dds_entity_t error, const std::string& run, const std::string& advice) {
+  throw PeerLost(fmt::format("cannot join run '{}' on the bus: {} ({}){}", run, dds_strretcode(error),
+                             last_log_line(), advice));
+}
+
+/// Without its interface there is no domain.
+std::string advice_on_domain(const std::string& network) {
+  if (last_log_line().find("interface") == std::string::npos) return "";
+  if (network.empty()) return "; is the loopback interface up? as root: ip link set lo up";
+  return fmt::format("; this machine needs an interface that has the address {}", network);
+}
+
 /// A machine has places for 32 programs in one domain; past them, creation fails.
-dds_entity_t checked_place(dds_entity_t handle, const std::string& run) {
-  if (handle >= 0) return handle;
-  throw PeerLost(fmt::format(
-      "cannot join run '{}' on the bus: {} ({}). Domain {} of this machine may be full (32 programs): end "
-      "other runs, or give this run another name",
-      run, dds_strretcode(handle), last_log_line(), domain_of(run)));
+std::string advice_on_participant(const std::string& run) {
+  return fmt::format(
+      ". Domain {} of this machine may be full (32 programs): end other runs, or give this run another name",
+      domain_of(run));
 }
 
 /// The plugins lie in a folder beside the library itself (Debian: libddsc0debian/).
@@ -143,7 +155,8 @@ std::shared_ptr<const Entity> join_domain(const std::string& run, double partici
   }
   const std::uint32_t id = domain_of(run);
   const dds_entity_t handle =
-      checked_place(dds_create_domain(id, configuration_xml(run, participant_lease_s, network).c_str()), run);
+      dds_create_domain(id, configuration_xml(run, participant_lease_s, network).c_str());
+  if (handle < 0) fail_to_join(handle, run, advice_on_domain(network));
   auto entity = std::make_shared<const Entity>(handle, "domain");
   domain = {run, entity};
   return entity;
@@ -151,7 +164,9 @@ std::shared_ptr<const Entity> join_domain(const std::string& run, double partici
 
 Entity create_participant(const std::string& run, const RunKey& key, const std::string& role) {
   const Qos qos = participant_qos(run, key, role);
-  return {checked_place(dds_create_participant(domain_of(run), qos.get(), nullptr), run), "participant"};
+  const dds_entity_t handle = dds_create_participant(domain_of(run), qos.get(), nullptr);
+  if (handle < 0) fail_to_join(handle, run, advice_on_participant(run));
+  return {handle, "participant"};
 }
 
 Qos writer_qos(Delivery delivery) {

@@ -191,5 +191,25 @@ TEST(Configuration, OfSeveralMachinesTakesTheInterfaceOfItsOwnAddressAndAsksAllO
   EXPECT_FALSE(says(several, "lo\"") || says(several, "127.0.0.1")) << several;
 }
 
+TEST(Configuration, IsNotThatOfOtherProgramsOfTheMachine) {
+  const std::string alone = configuration_xml("r", 10, "");
+  setenv("CYCLONEDDS_URI", "file:///nothing.xml", 1);
+  EXPECT_EQ(configuration_xml("r", 10, ""), alone);
+  setenv(more_settings, "<CycloneDDS/>", 1);
+  EXPECT_EQ(configuration_xml("r", 10, ""), alone + ",<CycloneDDS/>");
+  unsetenv("CYCLONEDDS_URI");
+  unsetenv(more_settings);
+}
+
+TEST(Configuration, WithAnAddressThatTheMachineDoesNotHaveSaysSo) {
+  try {
+    join_domain("r", 10, "203.0.113.1");  // of no machine: kept for documents
+    ADD_FAILURE() << "joined";
+  } catch (const PeerLost& lost) {
+    EXPECT_TRUE(says(lost.what(), "needs an interface that has the address 203.0.113.1")) << lost.what();
+    EXPECT_FALSE(says(lost.what(), "may be full")) << lost.what();
+  }
+}
+
 }  // namespace
 }  // namespace fsi::bus::test
