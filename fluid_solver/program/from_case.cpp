@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -30,21 +32,34 @@ StateField data_of(bool from_reference, const std::optional<GasExpressions>& for
                    const std::shared_ptr<const exact::Solution>& reference, const std::string& what) {
   if (from_reference && reference) return fluid::field_of(reference);
   if (!from_reference && formulas) return field_of(*formulas);
-  throw UserMistake(fmt::format(
-      "fluid: {} has no data; write a state {{rho: .., v: [.., ..], p: ..}} or a reference", what));
+  throw UserMistake(
+      fmt::format("{} has no data; write a state {{rho: .., v: [.., ..], p: ..}} or a reference", what));
 }
 
-Boundary boundary_of(const BoundarySpec& spec, Side side,
+/// Data of a side that are looked at whenever they are taken: what is no gas does not come in as one, at places and times at
+/// which `check` did not look.
+StateField looked_at(StateField given, std::string path) {
+  return [given = std::move(given), path = std::move(path)](double x, double y, double t) {
+    const State q = given(x, y, t);
+    if (q.rho > 0 && q.p > 0 && std::isfinite(q.rho + q.p + q.v1 + q.v2)) return q;
+    throw Failure(
+        ExitCode::user_mistake,
+        fmt::format("{}: rho = {:.4g}, v = ({:.4g}, {:.4g}), p = {:.4g} are no state of a gas; let them "
+                    "be finite, rho and p > 0, until time.end",
+                    path, q.rho, q.v1, q.v2, q.p),
+        {.t = t, .grid = {}, .position = {x, y}});
+  };
+}
+
+Boundary boundary_of(const BoundarySpec& spec, const std::string& path,
                      const std::shared_ptr<const exact::Solution>& reference) {
   BoundaryData data{.numbers = spec.numbers};
   if (std::ranges::any_of(schema::gas_boundary(spec.kind).keys, schema::takes_reference))
-    data.state =
-        data_of(spec.from_reference, spec.state, reference, fmt::format("boundary {}", name_of(side)));
+    data.state = looked_at(data_of(spec.from_reference, spec.state, reference, path), path);
   for (const auto& [key, field] : spec.fields)
     data.fields[key] = [field](double x, double y, double t) { return field(x, y, t); };
   std::optional<Boundary> boundary = boundary_from(spec.kind, data);
-  if (!boundary)
-    throw UserMistake(fmt::format("fluid: boundary {} has a condition for solids", name_of(side)));
+  if (!boundary) throw UserMistake(fmt::format("{} has a condition for solids", path));
   return *std::move(boundary);
 }
 
@@ -63,12 +78,12 @@ GasOptions options_of(const Case& problem, const FluidSpec& spec) {
           .cfl = problem.time.cfl};
 }
 
-std::array<Boundary, 4> boundaries_of(const std::array<BoundarySpec, 4>& specs,
+std::array<Boundary, 4> boundaries_of(const std::array<BoundarySpec, 4>& specs, const std::string& path,
                                       const std::shared_ptr<const exact::Solution>& reference) {
   std::array<Boundary, 4> boundaries;
   for (const Side side : all_sides) {
     const auto k = static_cast<std::size_t>(side);
-    boundaries[k] = boundary_of(specs[k], side, reference);
+    boundaries[k] = boundary_of(specs[k], fmt::format("{}.boundary.{}", path, name_of(side)), reference);
   }
   return boundaries;
 }
@@ -85,10 +100,12 @@ GasSolver solver_of(const Case& problem, const FluidSpec& spec,
                     const std::shared_ptr<const exact::Solution>& reference) {
   std::vector<GasPart> parts;
   parts.push_back({grid::MovingGrid(grid_from_case(spec.grid, meets_a_solid(spec.boundary)), 0),
-                   boundaries_of(spec.boundary, reference)});
+                   boundaries_of(spec.boundary, spec.path, reference)});
   const std::vector<grid::GridDescription> fitted = grids_from_case(spec.body_fitted);
   for (std::size_t k = 0; k < fitted.size(); ++k)
-    parts.push_back({grid::MovingGrid(fitted[k], 0), boundaries_of(spec.body_fitted[k].boundary, reference)});
+    parts.push_back({grid::MovingGrid(fitted[k], 0),
+                     boundaries_of(spec.body_fitted[k].boundary,
+                                   fmt::format("{}.body_fitted.{}", spec.path, fitted[k].name), reference)});
   return {std::move(parts), bodies_of(spec.body_fitted), options_of(problem, spec), 0};
 }
 
@@ -109,7 +126,8 @@ GasSolver gas_at_start(const Case& problem, const FluidSpec& spec,
                        const std::shared_ptr<const exact::Solution>& reference) {
   GasSolver solver = solver_of(problem, spec, reference);
   if (is_chosen(problem, reference)) solver.force(field_of(reference));
-  const StateField initial = data_of(spec.initial_from_reference, spec.initial, reference, "initial");
+  const StateField initial =
+      data_of(spec.initial_from_reference, spec.initial, reference, spec.path + ".initial");
   try {
     solver.assign_initial_conditions(initial);
   } catch (const UserMistake& mistake) {  // between the points at which `check` looked

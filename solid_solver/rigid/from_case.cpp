@@ -66,6 +66,7 @@ class Freedom {
   std::optional<Vec2> direction_;
 
   void slide(Side side, const Vec2& along) {
+    if (spec_.fixed) return;  // it moves nowhere, whatever its sides leave it
     constexpr double parallel = 1e-8;
     const bool same =
         !direction_ || std::abs(direction_->x() * along.y() - direction_->y() * along.x()) < parallel;

@@ -108,7 +108,7 @@ void check_fluid(const Case& problem, const FluidSpec& fluid, const Node& root) 
   for (const Side side : all_sides) {
     const BoundarySpec& spec = fluid.boundary[static_cast<std::size_t>(side)];
     if (!spec.state) continue;
-    for (int k = 0; k < times_of_known_places(fluid); ++k) {
+    for (int k = 0; k < times_of_known_values(fluid, side, *spec.state); ++k) {
       const double t = looked_at_time(problem, k);
       check_state(*spec.state, sample_points(fluid.grid, side, t),
                   node_at(node, {"boundary", name_of(side), "state"}),

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -63,11 +64,12 @@ void check_pair(const GridSpec& grid, const Pair& pair, double t, const Node& no
   }
 }
 
-void check_periods(const GridSpec& grid, int times, const Case& problem, const Node& node,
-                   const std::string& path) {
+/// `times_of`: at how many times the places of a side are known.
+void check_periods(const GridSpec& grid, const std::function<int(Side)>& times_of, const Case& problem,
+                   const Node& node, const std::string& path) {
   for (const Pair& pair : pairs) {
     if (!grid.periodic[static_cast<std::size_t>(direction_of(pair.low))]) continue;
-    for (int k = 0; k < times; ++k) {
+    for (int k = 0; k < times_of(pair.low); ++k) {
       check_pair(grid, pair, looked_at_time(problem, k), node_at(node, {"boundary", name_of(pair.low)}),
                  fmt::format("{}.boundary.{}", path, name_of(pair.low)));
     }
@@ -83,7 +85,7 @@ void check_straight_sides(const Case& problem, const FluidSpec& fluid, const Nod
   for (const Side side : all_sides) {
     if (!is_mirror(fluid.boundary[static_cast<std::size_t>(side)])) continue;
     const std::vector<Vec2> first = sample_points(fluid.grid, side, 0);
-    for (int k = 0; k < times_of_known_places(fluid); ++k) {
+    for (int k = 0; k < times_of_known_places(fluid, side); ++k) {
       const double t = looked_at_time(problem, k);
       check_mirror(first, sample_points(fluid.grid, side, t), t, node_at(node, {"boundary", name_of(side)}),
                    fmt::format("{}.boundary.{}", fluid.path, name_of(side)));
@@ -115,10 +117,13 @@ void check_images(const Case& problem, const Node& root) {
     const Node& node = fluid_section_of(root, fluid.name);
     check_straight_sides(problem, fluid, node);
     check_straight_curves(fluid, node_at(node, {"body_fitted"}));
-    check_periods(fluid.grid, times_of_known_places(fluid), problem, node, fluid.path);
+    const auto times_of = [&](Side side) { return times_of_known_places(fluid, side); };
+    check_periods(fluid.grid, times_of, problem, node, fluid.path);
   }
   for (const SolidSpec& solid : problem.solids)
-    check_periods(solid.grid, 1, problem, node_at(root, {"solids", solid.name}), "solids." + solid.name);
+    check_periods(
+        solid.grid, [](Side) { return 1; }, problem, node_at(root, {"solids", solid.name}),
+        "solids." + solid.name);
 }
 
 }  // namespace fsi

@@ -3,6 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <vector>
 
 #include "common/case/grids/composite_from_case.hpp"
 #include "common/case/grids/grid_points.hpp"
@@ -118,19 +122,40 @@ void check_initial(const SolidSpec& solid, const Node& node) {
                    solid.law == beam_law ? "beam" : "rigid solid"));
 }
 
+/// Of a solid with a shape only the walls on which its ends stand are sides of the body.
+std::vector<Side> sides_of_body(const SolidSpec& solid) {
+  if (solid.body_fitted.empty()) return {Side::left, Side::right, Side::bottom, Side::top};
+  const auto& walls = solid.body_fitted.front().curve.walls;
+  return walls ? std::vector<Side>{walls->begin(), walls->end()} : std::vector<Side>{};
+}
+
+/// Where a side lets a rigid body go: a straight way that is the same for all of them.
+void check_ways(const SolidSpec& solid, const Node& boundary, const std::string& path) {
+  constexpr double parallel = 1e-8;
+  std::optional<Vec2> way;
+  for (const Side side : sides_of_body(solid)) {
+    const BoundarySpec& spec = solid.boundary[static_cast<std::size_t>(side)];
+    if (solid.fixed || schema::solid_boundary(spec.kind).holds != Hold::normal) continue;
+    const Vec2 along =
+        (side_point(solid.grid, side, points_along(solid.grid, side) - 1) - side_point(solid.grid, side, 0))
+            .normalized();
+    if (way && std::abs(way->x() * along.y() - way->y() * along.x()) > parallel)
+      fail(
+          boundary.find(name_of(side))->place, fmt::format("{}.{}", path, name_of(side)),
+          "this side and another one let the body slide along different walls, so that it cannot move; write "
+          "`motion: fixed`, or free for one of them");
+    way = along;
+  }
+}
+
 void check_rigid(const SolidSpec& solid, const Node& node) {
-  const std::string path = "solids." + solid.name;
+  const std::string path = fmt::format("solids.{}.boundary", solid.name);
   const Node* boundary = node.find("boundary");
   if (boundary == nullptr) return;
-  for (const Side side : all_sides) {
-    // Of a solid with a shape only the walls on which its ends stand are sides of the body.
-    if (!solid.body_fitted.empty()) {
-      const auto& walls = solid.body_fitted.front().curve.walls;
-      if (!walls || std::ranges::find(*walls, side) == walls->end()) continue;
-    }
+  for (const Side side : sides_of_body(solid))
     check_rigid_side(solid.boundary[static_cast<std::size_t>(side)], solid.fixed,
-                     *boundary->find(name_of(side)), fmt::format("{}.boundary.{}", path, name_of(side)));
-  }
+                     *boundary->find(name_of(side)), fmt::format("{}.{}", path, name_of(side)));
+  check_ways(solid, *boundary, path);
 }
 
 }  // namespace

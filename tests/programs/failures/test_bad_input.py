@@ -90,6 +90,13 @@ class BadInput(EndToEnd):
         self.assertEqual(run.wait(), 2, run.stdout + run.stderr)
         self.assertRegex(run.stderr, r"case\.yaml: fluid\.initial: grid \"fluid\": initial state at \(0\.3, .*\): rho = -1")
 
+    def test_a_state_of_a_side_that_is_none_between_the_times_of_the_check_is_named_by_the_program(self):
+        run = self.launch("sod_tube", "--set", "grid.factor=2", "--set", "fluid.boundary.left={kind: far_field, state: "
+                          "{rho: 1, v: [0, 0], p: \"1 - 2 * (abs(sin(80 * pi * t)) > 0.1)\"}}", "--set", "expect={}")
+        self.assertEqual(run.wait(), 2, run.stdout + run.stderr)
+        self.assertRegex(run.stderr, r"fluid\.boundary\.left: rho = 1, v = \(0, 0\), p = -1 are no state of a gas")
+        self.assertEqual(run.summary()["failure"]["position"][0], 0)
+
     def test_wrong_expression(self):
         self.changed("lambda: density_ratio * c_p^2 / 3", "lambda: density_ratio * (c_p^2 / 3")
 

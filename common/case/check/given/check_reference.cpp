@@ -175,7 +175,7 @@ void check_gas(const Case& problem, const FluidSpec& fluid, const GivenGas& gas,
     check_gas_data(gas, sample_points(fluid.grid), 0, node_at(node, {"initial"}), fluid.path + ".initial");
   for (const Side side : all_sides) {
     if (!fluid.boundary[static_cast<std::size_t>(side)].from_reference) continue;
-    for (int k = 0; k < times_of_known_places(fluid); ++k) {
+    for (int k = 0; k < times_of_known_places(fluid, side); ++k) {
       const double t = looked_at_time(problem, k);
       check_gas_data(gas, sample_points(fluid.grid, side, t), t, node_at(node, {"boundary", name_of(side)}),
                      fmt::format("{}.boundary.{}", fluid.path, name_of(side)));

@@ -139,7 +139,7 @@ void check_sides_of_gas(const Case& problem, const FluidSpec& fluid, const Node&
   for (const Side side : all_sides) {
     const GivenSide given = given_side(side, fluid.boundary[static_cast<std::size_t>(side)],
                                        node_at(node, {"boundary"}), fluid.path + ".boundary");
-    for (int k = 0; k < times_of_known_places(fluid); ++k) {
+    for (int k = 0; k < times_of_known_places(fluid, side); ++k) {
       const double t = looked_at_time(problem, k);
       for (const Vec2& x : sample_points(fluid.grid, side, t)) check_values(given, x, t);
     }

@@ -4,8 +4,11 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 
+#include "common/case/check/check_ends.hpp"
 #include "common/case/schema/law_numbers.hpp"
 
 namespace fsi {
@@ -26,9 +29,20 @@ bool has_stress(const SolidSpec& solid, const Mat2& F) {
 
 }  // namespace
 
-int times_of_known_places(const FluidSpec& fluid) {
-  const auto meets_solid = [](const BoundarySpec& side) { return side.kind == BoundaryKind::interface; };
-  return std::ranges::any_of(fluid.boundary, meets_solid) ? 1 : looked_at_times;
+int times_of_known_places(const FluidSpec& fluid, Side side) {
+  const auto meets_solid = [&](Side other) {
+    return fluid.boundary[static_cast<std::size_t>(other)].kind == BoundaryKind::interface;
+  };
+  return meets_solid(side) || std::ranges::any_of(sides_beside(side), meets_solid) ? 1 : looked_at_times;
+}
+
+int times_of_known_values(const FluidSpec& fluid, Side side, const GasExpressions& given) {
+  const auto depends_on_place = [](const Expression* formula) {
+    return formula->uses("x") || formula->uses("y") || formula->uses("r");
+  };
+  const std::array formulas{&given.rho, &given.v1, &given.v2, &given.p};
+  return std::ranges::any_of(formulas, depends_on_place) ? times_of_known_places(fluid, side)
+                                                         : looked_at_times;
 }
 
 GivenVector given_by(const VectorExpressions& formulas) {

@@ -25,8 +25,11 @@ inline double looked_at_time(const Case& problem, int k) {
   return problem.time.end * k / (looked_at_times - 1) * (1 - 1e-6);
 }
 
-/// At how many of them the places of a gas's sides are known: those of a grid that solids move, at the start alone.
-int times_of_known_places(const FluidSpec& fluid);
+/// At how many of them the places of a gas's side are known: where a solid moves its ends, at the start alone.
+int times_of_known_places(const FluidSpec& fluid, Side side);
+
+/// At how many of them what is given there can be looked at: everywhere the same, it needs no places.
+int times_of_known_values(const FluidSpec& fluid, Side side, const GasExpressions& given);
 
 /// Of formulas.
 GivenVector given_by(const VectorExpressions& formulas);

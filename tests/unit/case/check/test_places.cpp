@@ -1,5 +1,6 @@
 // Probes without a value, and laws that a case cannot have.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <string>
@@ -51,6 +52,22 @@ TEST(StateOfABoundary, IsLookedAtUntilTheEnd) {
       "sod_tube", {"fluid.boundary.left={kind: imposed, state: {rho: 1, v: [0, 0], p: 1 - 10 * t}}"});
   EXPECT_NE(message.find("fluid.boundary.left: is "), std::string::npos) << message;
   EXPECT_NE(message.find("must be > 0"), std::string::npos) << message;
+}
+
+TEST(StateOfABoundary, IsLookedAtUntilTheEndBesideASolidToo) {
+  const auto piston = [](const std::string& side, const std::string& p) {
+    return mistake_of(
+        "rigid_piston",
+        {fmt::format("fluid.boundary.{}={{kind: far_field, state: {{rho: 1, v: [0, 0], p: {}}}}}", side, p)});
+  };
+  EXPECT_NE(piston("right", "1 - 10 * t").find("fluid.boundary.right: is "), std::string::npos)
+      << piston("right", "1 - 10 * t");
+  EXPECT_NE(piston("right", "1 - 10 * t * y").find("fluid.boundary.right: is "),
+            std::string::npos);  // stands opposite to the piston
+  // The piston moves the places of this side: what is the same at all of them can be looked at.
+  EXPECT_NE(piston("top", "1 - 10 * t").find("fluid.boundary.top: is "), std::string::npos)
+      << piston("top", "1 - 10 * t");
+  EXPECT_EQ(piston("top", "1 - 10 * t * (x < -1e9)"), "");
 }
 
 TEST(CaseProbe, OutsideTheGasIsRefusedAndOnItsRimFine) {
@@ -148,6 +165,18 @@ TEST(CaseLaw, ABeamNeedsItsSectionAndHasAMotionOfItsOwn) {
   EXPECT_NE(mistake_of("rotating_disk", {}, {"disk=beam"}).find("law `beam` needs the section `beam:"),
             std::string::npos);
   EXPECT_EQ(mistake_of("beam", {}, {"beam=beam"}), "");
+}
+
+TEST(CaseLaw, ARigidBodyBetweenCrossingWaysCannotMove) {
+  const std::string left = "solids.solid.boundary.left=slip_wall";
+  const std::string message = mistake_of("rigid_piston", {left});
+  EXPECT_NE(
+      message.find(
+          "solids.solid.boundary.bottom: this side and another one let the body slide along different walls"),
+      std::string::npos)
+      << message;
+  EXPECT_EQ(mistake_of("rigid_piston", {left, "solids.solid.motion=fixed"}), "");
+  EXPECT_EQ(mistake_of("rigid_piston", {"parameters.angle=30"}), "");
 }
 
 TEST(CaseLaw, LoadedSideCannotBeRigid) {
