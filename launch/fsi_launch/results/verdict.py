@@ -9,6 +9,9 @@ from fsi_launch.failure import DONE, INTERRUPTED, OUTPUT_FAILED, PEER_LOST, TERM
 
 DISK_SIGNALS = (-signal.SIGXFSZ,)   # a file grew larger than the shell allows
 
+# The words of a program whose peer's process is there no more (common/bus/peers/peer.cpp).
+DEAD = re.compile(r"(?:the )?(\S+) \(pid \d+(?: on \S+)?\) has died")
+
 # Where in a run something failed, as the programs report it (common/io/place_json.hpp).
 PLACE = ("program", "step", "t", "interface", "grid", "point", "position", "reference_position")
 
@@ -74,10 +77,22 @@ def _of_ranks(name, directory, reason):
     return next((one for one in reversed(chain) if not one.endswith(": it has ended")), chain[-1])
 
 
+def _label(name, case):
+    program = case.programs.get(name, name)
+    return name if program == name else f"{name} ({program})"
+
+
+def _seen_dead(ending, case, part):
+    """The participant that this one saw dead before its own end was known: mpirun has its time to tell of its ranks."""
+    found = DEAD.fullmatch(part.get("reason") or "")
+    return found.group(1) if found and found.group(1) in case.programs and part.get("origin", ending.name) == ending.name else None
+
+
 def _explain(ending, case, directory, part):
     """(exit code, reason) of the run from the ending that caused it. `part`: what that program left."""
-    program = case.programs.get(ending.name, ending.name)
-    label = ending.name if program == ending.name else f"{ending.name} ({program})"
+    label = _label(ending.name, case)
+    if dead := _seen_dead(ending, case, part):
+        return PEER_LOST, f"lost {_label(dead, case)}: {ending.name} saw that it had died{_last_words(directory, dead)}"
     if ending.lost():
         name = signal.Signals(-ending.code).name
         code = OUTPUT_FAILED if ending.code in DISK_SIGNALS else PEER_LOST
@@ -101,11 +116,11 @@ def _explain(ending, case, directory, part):
     return code, f"{ending.name}: {reason}"
 
 
-def _record(ending, parts, code, what):
+def _record(ending, parts, code, what, case):
     """The failure of a run for summary.json. `origin`: the participant where it began."""
     part = parts.get(ending.name, {})
     known = part.get("failure") or {}
-    return {"origin": part.get("origin") or ending.name, "told_by": ending.name, "exit_code": code,
+    return {"origin": _seen_dead(ending, case, part) or part.get("origin") or ending.name, "told_by": ending.name, "exit_code": code,
             "signal": signal.Signals(-ending.code).name if ending.lost() else None,
             "what": known.get("what") or part.get("reason") or what} | {key: known.get(key) for key in PLACE}
 
@@ -124,12 +139,12 @@ def judge(outcome, case, directory, parts):
     origins = {name: part["origin"] for name, part in parts.items() if part.get("origin")}
     if cause := root_cause(outcome.endings, origins):
         code, reason = _explain(cause, case, directory, parts.get(cause.name, {}))
-        return Verdict(code, "failed", reason, _record(cause, parts, code, reason))
+        return Verdict(code, "failed", reason, _record(cause, parts, code, reason, case))
     for part in parts.values():
         if part.get("status") == "stopped":
             return Verdict(DONE, "stopped", part.get("reason") or "stopped on request")
     if not parts:   # a program of somebody else's, alone
         ending = next(one for one in outcome.endings if one.name in case.programs)
         reason = f"lost {ending.name}: it ended without a word, and left no report{_last_words(directory, ending.name)}"
-        return Verdict(PEER_LOST, "failed", reason, _record(ending, parts, PEER_LOST, reason))
+        return Verdict(PEER_LOST, "failed", reason, _record(ending, parts, PEER_LOST, reason, case))
     return Verdict(DONE, "completed")

@@ -143,6 +143,14 @@ class Verdict(InScratch):
         found = verdict.judge(Outcome(endings), piston(), self.folder, {"fluid": heard, "coupler": own})
         self.assertEqual((found.code, found.reason), (4, f"coupler: {own['reason']}"))
 
+    def test_program_that_another_one_saw_dead_is_lost_also_where_mpirun_had_to_be_ended(self):
+        seen = {"reason": "fluid (pid 1695) has died", "origin": "coupler"}
+        heard = {"reason": "coupler ended the run: fluid (pid 1695) has died", "origin": "coupler"}
+        endings = [Ending("coupler", 4, 1.0), Ending("solid", 4, 1.1), Ending("fluid", 143, 9.0, ours=True)]
+        found = verdict.judge(Outcome(endings), piston(), self.folder, {"coupler": seen, "solid": heard})
+        self.assertEqual((found.code, found.reason.partition(":")[0]), (4, "lost fluid (fluid_solver)"))
+        self.assertEqual(found.failure["origin"], "fluid")
+
     def test_program_that_was_ending_already_when_it_was_asked_to_says_why(self):
         own = {"reason": "coupler (pid 7) has been silent for 4 s (time.peer_timeout); is it stopped?", "origin": "fluid"}
         heard = {"reason": f"fluid: {own['reason']}", "origin": "fluid"}
