@@ -42,6 +42,7 @@ CurveInterpolation::Place CurveInterpolation::locate(std::span<const double> fro
   double s = s_[nearest];
   std::size_t cell = cell_of(s);
   const Vec2 period = periodic_ ? period_of(from) : Vec2(Vec2::Zero());
+  const bool goes_round = closed_ && period.norm() <= same_place * length;  // a ring, whatever closes it
   const auto curve = [&] {
     const Weights w = weights(cell, widest, s);
     Vec2 sum = Vec2::Zero();
@@ -53,7 +54,7 @@ CurveInterpolation::Place CurveInterpolation::locate(std::span<const double> fro
     const Vec2 chord = vector_at(from, cell + 1) - vector_at(from, cell);
     const double change = (x - curve()).dot(chord) / chord.norm();
     s += change;
-    if (closed_ && !periodic_) s -= length * std::floor(s / length);
+    if (goes_round) s -= length * std::floor(s / length);
     s = std::clamp(s, 0.0, length);
     cell = cell_of(s);
     if (std::abs(change) < 1e-15 * length) break;

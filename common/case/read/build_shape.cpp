@@ -313,6 +313,9 @@ namespace {
 void inline_points(Node& shape, const std::string& owner, const std::string& folder) {
   for (config::Entry& entry : shape.entries) {
     if (entry.key != "file" || !entry.value.is_scalar()) continue;
+    if (shape.find("through") != nullptr)
+      fail(entry.value.place, owner + ".file",
+           "goes in the place of `through`, which is given too; leave out one of them");
     const std::string path = (std::filesystem::path(folder) / entry.value.text).string();
     const TextFile file = read_text_file(path, config::longest_file);
     if (!file.trouble.empty()) {

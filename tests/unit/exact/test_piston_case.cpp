@@ -98,6 +98,11 @@ TEST_F(PistonCase, WhatVariesAcrossThePistonIsRefused) {
   read("slip_wall", driven, "    initial: {v: [\"1e-3 * sin(x)\", 0]}");
   expect_mistake("slip_wall", driven, "solids.solid.initial.v: ", "    initial: {v: [1e-3 * y, 0]}");
   expect_mistake("slip_wall", driven, "solids.solid.initial.v: ", "    initial: {v: [0, 1e-3 * x]}");
+  const auto moved = [](const std::string& by) { return "{kind: displacement, value: [" + by + "]}"; };
+  expect_mistake("slip_wall", moved("0.1 * t^4 * (1 + y), 0"),
+                 "solids.solid.boundary.left.value: must depend on x alone");
+  expect_mistake("slip_wall", moved("0.1 * t^4, 0.1 * t^4"),
+                 "solids.solid.boundary.left.value: must depend on x alone");
 }
 
 TEST_F(PistonCase, LongSidesThatAreFeltAreRefused) {
@@ -114,6 +119,9 @@ TEST_F(PistonCase, AGasDrivenFromItsRightSideIsRefused) {
   EXPECT_FALSE(piston_from_case(read(state("1", "0"), driven)).wall);
   expect_mistake(state("1.1", "0"), driven, "fluid.boundary.right.state: ");
   expect_mistake(state("1", "\"-0.1 * t\""), driven, "fluid.boundary.right.state: ");
+  expect_mistake(state("1 + 0.1 * y", "0"), driven, "fluid.boundary.right.state: ");
+  expect_mistake("{kind: dirichlet, state: {rho: 1, v: [0, 0.3], p: 1 / 1.4}}", driven,
+                 "fluid.boundary.right.state: ");
 }
 
 TEST_F(PistonCase, ATurnedPistonIsNone) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
@@ -103,6 +104,13 @@ Found varies_across(const Case& problem) {
     if (*field && !is_along((*field)->c1, (*field)->c2, solid.grid, 0))
       return {{fmt::format("solids.{}.initial.{}", solid.name, key), words}};
   }
+  GridSpec left = solid.grid;
+  left.x_b = left.x_a;
+  const auto& drive = solid.boundary[0].vector;
+  for (int k = 0; drive && k < looked_at_times; ++k) {
+    if (!is_along(drive->c1, drive->c2, left, looked_at_time(problem, k)))
+      return {{fmt::format("solids.{}.boundary.left.value", solid.name), words}};
+  }
   return {};
 }
 
@@ -125,14 +133,18 @@ Found unquiet_end(const Case& problem) {
   const BoundarySpec& right = fluid.boundary[1];
   if (!right.state || !fluid.initial) return {};
   const double x = fluid.grid.x_b;
-  const auto apart = [x](const Expression& at_first, const Expression& given, double t) {
+  const auto apart = [&](const Expression& at_first, const Expression& given, double t) {
     const double value = at_first(x, 0, 0);
-    return !(std::fabs(given(x, 0, t) - value) <= tolerance * (1 + std::fabs(value)));
+    const double middle = (fluid.grid.y_a + fluid.grid.y_b) / 2;
+    return std::ranges::any_of(std::array{fluid.grid.y_a, middle, fluid.grid.y_b}, [&](double y) {
+      return !(std::fabs(given(x, y, t) - value) <= tolerance * (1 + std::fabs(value)));
+    });
   };
   for (int k = 0; k < looked_at_times; ++k) {
     const double t = looked_at_time(problem, k);
-    if (!apart(fluid.initial->rho, right.state->rho, t) && !apart(fluid.initial->v1, right.state->v1, t) &&
-        !apart(fluid.initial->p, right.state->p, t))
+    const GasExpressions &first = *fluid.initial, &given = *right.state;
+    if (!apart(first.rho, given.rho, t) && !apart(first.v1, given.v1, t) && !apart(first.v2, given.v2, t) &&
+        !apart(first.p, given.p, t))
       continue;
     return {{fluid.path + ".boundary.right.state",
              fmt::format(

@@ -208,6 +208,8 @@ TEST(CaseShape, MistakesSayWhereAndWhatToWrite) {
       {disk_case("{kind: circle, radius: 0.9, points: 70, spacing: h}"),
        "`points` or `spacing`, one of them"},
       {disk_case("{kind: spline}"), "give `through: [[x, y], ..]` or `file: NAME.csv`"},
+      {disk_case("{kind: spline, through: [[0.8, 0], [0, 0.9], [-0.8, 0], [0, -0.9]], file: nowhere.csv}"),
+       "leave out one of them"},
       {disk_case("{kind: spline, file: nowhere.csv}"), "cannot be read"},
       {disk_case(disk_outline, "{name: ring, solid: disk}",
                  "{lines: 8, map: [(0.8 - 0.6 * s) * cos(2 * pi * r), (0.8 - 0.6 * s) * sin(2 * pi * r)]}"),

@@ -134,6 +134,16 @@ TEST(CurveInterpolation, IsOfFourthOrderAlongClosedAndOpenCurves) {
   }
 }
 
+TEST(CurveInterpolation, GoesRoundARingThatPeriodicSidesClose) {
+  const auto from = ellipse(31), to = ellipse(81, 0.3);
+  const CurveInterpolation closed(from, to), periodic(from, to, true);
+  EXPECT_DOUBLE_EQ(periodic.largest_distance(), closed.largest_distance());
+  std::vector<double> by_closed(81), by_periodic(81);
+  closed.cubic(at(from, wavy), by_closed);
+  periodic.cubic(at(from, wavy), by_periodic);
+  EXPECT_LE(difference(by_periodic, by_closed), 1e-14);
+}
+
 TEST(CurveInterpolation, HandsOnValuesAtItsOwnPointsToTheBit) {
   const auto x = ellipse(41);
   auto reversed = x;
