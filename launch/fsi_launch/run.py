@@ -18,6 +18,7 @@ from fsi_launch.failure import (DONE, EXPECTATION_MISSED, Failure, NUMBERS_BROKE
 from fsi_launch.living.progress import Progress
 from fsi_launch.living.supervise import Outcome, Program, Supervisor
 from fsi_launch.living.watch import Monitor
+from fsi_launch.telling import tell
 
 
 FRAMES = 60     # of a movie
@@ -280,7 +281,7 @@ def _look_around(far, case, directory, request):
 
 def run(request):
     """Runs a case to its end. Throws UserMistake before anything is started; everything later is in the Result."""
-    say = (lambda text: None) if request.quiet else (lambda text: print(text, file=sys.stderr))
+    say = (lambda text: None) if request.quiet else tell
     case, directory, checkpoint = _begin(request, say)
     # Two that begin together may read the same time; then they would hear each other where the bus is not protected.
     identity = f"{case.name}-{time.strftime('%H%M%S')}-{time.time_ns() % 10**9:09d}-{os.getpid()}"
@@ -322,7 +323,7 @@ def run(request):
                                      f"t = {result['t']:g}{f': {reason}' if reason else ''}") from None
     _report(result, directory, missed, request.quiet, case.digest if code != USER_MISTAKE else None)
     if advice := advice_after(code, case.projection):
-        print(f"fsi: {advice}", file=sys.stderr)
+        tell(f"fsi: {advice}")
     return Result(EXPECTATION_MISSED if code == DONE and missed else code, directory, result)
 
 
@@ -337,8 +338,8 @@ def advice_after(code, projection):
 def _report(result, directory, missed, quiet, restarts):
     """Prints the summary, and each offence on a line of its own. `restarts`: digest of the case whose checkpoints would help."""
     if not quiet:
-        print(summary.describe(result, directory, shutil.get_terminal_size().columns if sys.stdout.isatty() else None), flush=True)
+        tell(summary.describe(result, directory, shutil.get_terminal_size().columns if sys.stdout.isatty() else None), sys.stdout)
     for line in missed + ([result["reason"]] if result["status"] == "failed" else []):
-        print(f"fsi: {line}", file=sys.stderr)
+        tell(f"fsi: {line}")
     if result["status"] != "completed" and restarts and (found := restart.latest(directory, digest=restarts)):
-        print(f"fsi: {paths.COMMAND} run --restart {shlex.quote(str(directory))} goes on from step {found.step}", file=sys.stderr)
+        tell(f"fsi: {paths.COMMAND} run --restart {shlex.quote(str(directory))} goes on from step {found.step}")

@@ -7,7 +7,6 @@ node of his own; each of the others one program, which the launcher reaches by s
 import os
 import re
 import shlex
-import sys
 from pathlib import Path
 
 from fsi_launch import case as cases
@@ -15,6 +14,7 @@ from fsi_launch import paths
 from fsi_launch.failure import DONE, UserMistake
 from fsi_launch.living import ranks
 from fsi_launch.living.hosts import COUPLER
+from fsi_launch.telling import tell
 
 CHECKPOINT_BEFORE = 120     # [s] before the end of the time that was asked for: two steps and a checkpoint
 TIME = r"\d+(:\d{1,2}){0,2}|\d+-\d{1,2}(:\d{1,2}){0,2}"     # as sbatch takes it
@@ -93,5 +93,5 @@ def main(options):
     if path.exists() and not options.overwrite:
         raise UserMistake(f"submit: {path} is there already; name another --out, or add --overwrite")
     path.write_text(text, encoding="utf-8")
-    print(f"{path}: sbatch {shlex.quote(str(path))} submits it (docs/scaling.md)", file=sys.stderr)
+    tell(f"{path}: sbatch {shlex.quote(str(path))} submits it (docs/scaling.md)")
     return DONE

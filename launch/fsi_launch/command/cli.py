@@ -8,6 +8,7 @@ from fsi_launch import paths, version
 from fsi_launch.command import verbs
 from fsi_launch.living import interrupts
 from fsi_launch.failure import DONE, Failure, INTERRUPTED, NOBODY_READS, OUTPUT_FAILED, TERMINATED, UserMistake
+from fsi_launch.telling import silence, tell
 
 USAGE = (paths.ROOT / "launch" / "usage.txt").read_text(encoding="utf-8")
 
@@ -119,9 +120,7 @@ ACTS = {"run": _run, "new": _new, "check": _check, "converge": _converge, "study
 
 def _nobody_reads():
     """Whoever read the output, as `head`, has gone: that is no failure to be told of. What is still to be written goes nowhere."""
-    nowhere = os.open(os.devnull, os.O_WRONLY)
-    os.dup2(nowhere, sys.stdout.fileno())
-    os.close(nowhere)
+    silence(sys.stdout)
     return NOBODY_READS
 
 
@@ -152,14 +151,16 @@ def main(arguments):
     except BrokenPipeError:
         return _nobody_reads()
     except Failure as failure:
-        print(f"fsi: {failure}", file=sys.stderr)
+        tell(f"fsi: {failure}")
         return failure.code
     except KeyboardInterrupt:
-        print("fsi: interrupted (Ctrl-C)", file=sys.stderr)
+        tell("fsi: interrupted (Ctrl-C)")
         return INTERRUPTED
     except interrupts.Terminated:
-        print("fsi: ended on request (SIGTERM)", file=sys.stderr)
+        tell("fsi: ended on request (SIGTERM)")
         return TERMINATED
     except OSError as error:
-        print(f"fsi: {error.filename or 'output'}: {error.strerror}", file=sys.stderr)
+        if error.filename is None:
+            silence(sys.stdout)
+        tell(f"fsi: {error.filename or 'output'}: {error.strerror}")
         return OUTPUT_FAILED

@@ -5,6 +5,8 @@ import shutil
 import sys
 import time
 
+from fsi_launch.telling import silence
+
 BAR = 24            # characters, at most
 SHORTEST_BAR = 8    # with fewer there is none
 LINE_EVERY = 5.0    # [s] between lines when the output is not a terminal
@@ -78,8 +80,7 @@ class Progress:
     def close(self):
         """Removes the bar."""
         if self._on_screen:
-            self._out.write("\r\033[K")
-            self._out.flush()
+            self._show("\r\033[K")
 
     def _speed(self):
         """(steps per second, time of the problem per second), or (0, 0) while unknown."""
@@ -117,8 +118,16 @@ class Progress:
 
     def _draw(self):
         if self._bar:
-            self._out.write("\r" + self.text(shutil.get_terminal_size().columns - 1) + "\033[K")
             self._on_screen = True
+            self._show("\r" + self.text(shutil.get_terminal_size().columns - 1) + "\033[K")
         else:
-            self._out.write(self.text(None) + "\n")
-        self._out.flush()
+            self._show(self.text(None) + "\n")
+
+    def _show(self, text):
+        """Where nothing can be shown any more, as on a terminal that was closed, the run goes on in silence."""
+        try:
+            self._out.write(text)
+            self._out.flush()
+        except OSError:
+            self._enabled = self._on_screen = False
+            silence(self._out)

@@ -5,7 +5,6 @@ Without a reference solution the grids are compared with each other (self_conver
 
 import json
 import math
-import sys
 import time
 from pathlib import Path
 
@@ -13,6 +12,7 @@ from fsi_launch import case as cases
 from fsi_launch.studies import self_convergence
 from fsi_launch.failure import DONE, EXPECTATION_MISSED, Failure, UserMistake
 from fsi_launch.run import Request, run
+from fsi_launch.telling import tell
 
 
 ROUND_OFF = 1e-13  # errors below it have no rate: fields of order one are exact there
@@ -110,7 +110,7 @@ def _run_levels(options, directory):
     summaries = []
     for j in options.levels:
         overrides = [*options.overrides, f"grid.factor={j}"]
-        print(f"level {j}: h = 1/{10 * j}", file=sys.stderr)
+        tell(f"level {j}: h = 1/{10 * j}")
         # An expectation made for one grid says nothing about the others: only the errors count here.
         result = run(Request(case=options.case, overrides=overrides, laws=options.laws, quiet=True, judge=False,
                              out=str(directory / f"level_{j}")))
@@ -132,7 +132,7 @@ def _compare_levels(options, case, directory):
     for suffix, content in (("txt", text), ("md", self_convergence.as_markdown(options.levels, rows)),
                             ("json", self_convergence.as_json(options.levels, rows))):
         (directory / f"converge.{suffix}").write_text(content, encoding="utf-8")
-    print(f"tables in {directory}", file=sys.stderr)
+    tell(f"tables in {directory}")
     return _judge({f"{row.quantity} of {row.solid} at t = {row.t:g}": row.orders[-1] if row.orders else None for row in rows
                    if any(_has_rate(difference) for difference in row.differences)}, options.min_rate)
 
@@ -141,8 +141,7 @@ def _judge(rates, least):
     """The exit code, after a line for every rate below `least`; None: nothing is asked."""
     low = {} if least is None else too_low(rates, least)
     for name, rate in low.items():
-        print(f"fsi: rate of {name} is {'unknown' if rate is None else f'{rate:.2f}'}, must be at least {least:g}",
-              file=sys.stderr)
+        tell(f"fsi: rate of {name} is {'unknown' if rate is None else f'{rate:.2f}'}, must be at least {least:g}")
     return EXPECTATION_MISSED if low else DONE
 
 
@@ -175,5 +174,5 @@ def main(options):
     print(text, end="")
     for suffix, content in (("txt", text), ("md", as_markdown(result)), ("json", json.dumps(result, indent=2) + "\n")):
         (directory / f"converge.{suffix}").write_text(content, encoding="utf-8")
-    print(f"tables in {directory}", file=sys.stderr)
+    tell(f"tables in {directory}")
     return _judge(fitted(result), options.min_rate)

@@ -9,7 +9,6 @@ import json
 import os
 import re
 import subprocess
-import sys
 import time
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -19,6 +18,7 @@ from fsi_launch.failure import DONE, EXPECTATION_MISSED, UserMistake
 from fsi_launch.living.supervise import leashed
 from fsi_launch.run import needed
 from fsi_launch.results.summary import aligned, value_at
+from fsi_launch.telling import tell
 
 LOOK = 0.05             # [s] between two looks at the runs that are going on
 STATISTICS = {"last": lambda values: values[-1], "min": min, "max": max}
@@ -132,7 +132,7 @@ def _make(waiting, options, done, total):
                 if entry[0].code == DONE:
                     _expect_shown(entry[0], options.show)
                 done += 1
-                print(_describe(entry[0], done, total), file=sys.stderr, flush=True)
+                tell(_describe(entry[0], done, total))
             time.sleep(LOOK)
     finally:
         for _, process, _ in going:
@@ -257,7 +257,7 @@ def main(options):
     directory.mkdir(parents=True, exist_ok=True)
     waiting = [trial for trial in found if not _finished(trial)]
     if done := len(found) - len(waiting):
-        print(f"{done} of {len(found)} runs are there already", file=sys.stderr)
+        tell(f"{done} of {len(found)} runs are there already")
     for trial in found:
         if trial.code == DONE:
             _expect_shown(trial, options.show)
@@ -270,5 +270,5 @@ def main(options):
     (directory / "study.json").write_text(json.dumps(result, indent=2) + "\n", encoding="utf-8")
     _write_csv(result, directory / "study.csv")
     drawn = _draw(result, directory)
-    print(f"tables{' and picture' if drawn else ''} in {directory}", file=sys.stderr)
+    tell(f"tables{' and picture' if drawn else ''} in {directory}")
     return next((trial.code for trial in found if trial.code != DONE), DONE)

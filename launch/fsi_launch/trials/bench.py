@@ -3,13 +3,13 @@
 import json
 import os
 import subprocess
-import sys
 import tempfile
 from pathlib import Path
 
 from fsi_launch import paths
 from fsi_launch.failure import DONE, Failure, INTERNAL_ERROR
 from fsi_launch.living.supervise import leashed
+from fsi_launch.telling import tell
 
 STANDARD = {  # what Google Benchmark itself reports; everything else is a counter of the benchmark's own
     "name", "family_index", "per_family_instance_index", "run_name", "run_type", "repetitions", "repetition_index",
@@ -53,7 +53,7 @@ def main(options):
         raise Failure(INTERNAL_ERROR, f"no benchmarks in {paths.BIN}")
     results = {}
     for program in programs:
-        print(f"running {program.name}", file=sys.stderr)
+        tell(f"running {program.name}")
         results[program.name] = _run_one(program, options)
         for entry in results[program.name].get("benchmarks", []):
             if entry.get("run_type") != "aggregate":
@@ -62,5 +62,5 @@ def main(options):
     path = Path(options.out)
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_text(json.dumps(results, indent=1) + "\n", encoding="utf-8")
-    print(f"all of it is in {path}", file=sys.stderr)
+    tell(f"all of it is in {path}")
     return DONE

@@ -10,7 +10,6 @@ import random
 import shutil
 import signal
 import subprocess
-import sys
 import tempfile
 import time
 from dataclasses import asdict, dataclass, field
@@ -22,6 +21,7 @@ from fsi_launch.failure import DONE, EXPECTATION_MISSED, Failure, INTERNAL_ERROR
 from fsi_launch.living import ranks
 from fsi_launch.living.processes import programs_of, until
 from fsi_launch.living.supervise import leashed
+from fsi_launch.telling import tell
 
 PEER_TIMEOUT = 4.0      # [s] of the runs: a stopped program is lost after it
 STOP_FOR = 1.0          # [s] and goes on as if nothing had been
@@ -267,8 +267,7 @@ def main(options):
             trial = task.result()
             done.append(trial)
             for flaw in trial.flaws:
-                print(f"trial {trial.number}, {trial.fault} ({trial.target}) after {trial.after:.2f} s: {flaw}",
-                      file=sys.stderr, flush=True)
+                tell(f"trial {trial.number}, {trial.fault} ({trial.target}) after {trial.after:.2f} s: {flaw}")
     done.sort(key=lambda trial: trial.number)
     flawed = [trial for trial in done if trial.flaws]
     print("\n".join(table(done)))
@@ -278,7 +277,7 @@ def main(options):
     if options.out:
         Path(options.out).write_text(json.dumps([asdict(trial) for trial in done], indent=1) + "\n", encoding="utf-8")
     if flawed:
-        print(f"fsi: what the flawed runs left is in {folder}", file=sys.stderr)
+        tell(f"fsi: what the flawed runs left is in {folder}")
         return EXPECTATION_MISSED
     shutil.rmtree(folder)
     return DONE

@@ -206,5 +206,52 @@ class Checkpointing(EndToEnd):
         self.assert_nothing_left(run)
 
 
+class Unwatched(EndToEnd):
+    """Nobody reads any more what the launcher says: that decides nothing."""
+
+    OFTEN = "from fsi_launch.living import progress\nprogress.LINE_EVERY = 0\n"
+    SHORT = ("elastic_piston", "--set", "grid.factor=2", "--set", "expect={}")
+
+    def assert_completed(self, run):
+        self.assertEqual(run.wait(), 0, run.stderr)
+        self.assertEqual(run.summary()["status"], "completed")
+        self.assert_nothing_left(run)
+
+    def test_pipes_whose_reader_is_gone(self):
+        run = self.launch(*self.SHORT, "--pause-at", "3", script=self.OFTEN)
+        run.until_paused()
+        run.process.stderr.close()
+        run.process.stdout.close()
+        run.ctl("resume")
+        self.assert_completed(run)
+
+    def test_full_disks(self):
+        for full in ("2>/dev/full", ">/dev/full 2>&1"):
+            self.before = ("sh", "-c", f'exec "$@" {full}', "sh")
+            self.assert_completed(self.launch(*self.SHORT, "--overwrite", script=self.OFTEN))
+
+    def test_failure_that_cannot_be_told(self):
+        self.before = ("sh", "-c", 'exec "$@" 2>/dev/full', "sh")
+        self.assertEqual(self.launch("no_such_case").wait(), 2)
+        self.assertEqual(self.launch("no_such_case", script="").wait(), 2)
+
+    def test_closed_terminal_ends_the_run_after_a_checkpoint(self):
+        terminal, other = os.openpty()
+        self.before = ("sh", "-c", f'exec setsid --ctty "$@" <{os.ttyname(other)} 2>&0', "sh")
+        run = self.launch(*LONG, script=PATIENT)
+        os.close(other)
+        run.until_stepping()
+        os.close(terminal)
+        self.assertEqual(run.wait(), 143, run.stderr)
+        self.assertEqual(run.summary()["reason"], "ended on request (SIGHUP)")
+        self.assertEqual(run.checkpoints()[-1:], [run.summary()["steps"] + 1])
+        self.before = ()
+        again = self.launch("--restart", str(run.directory), "--pause-at", str(run.checkpoints()[-1] + 3), out=None)
+        again.directory = run.directory
+        again.until_paused()
+        again.ctl("stop")
+        self.assertEqual(again.wait(), 0, again.stderr)
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -1,6 +1,5 @@
 """Pictures of the fields at the output times, solids in deformed position (the paper's figure 10)."""
 
-import sys
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
@@ -13,6 +12,7 @@ from matplotlib.patches import Rectangle
 from fsi_launch.plot.look import shading, style, units
 from fsi_launch.plot.reading import data, mesh
 from fsi_launch.plot.reading.scales import Scales
+from fsi_launch.telling import tell
 
 MOST_TIMES = 12        # pictures of fields; of a longer series, times evenly spread
 CONTOURS = 16          # lines, where they are asked for; an even number keeps off the zero of signed fields
@@ -270,7 +270,7 @@ def pictures(series, look):
     plan = _plan([replace(one, outputs=one.outputs[:count]) for one in series], look)
     shown = times_shown(count)
     if len(shown) < count:
-        print(f"fields: {len(shown)} of {count} output times are drawn; --at TIME draws others", file=sys.stderr, flush=True)
+        tell(f"fields: {len(shown)} of {count} output times are drawn; --at TIME draws others")
     for index in shown:
         yield f"fields_{index:04}", partial(_field_picture, plan, index)
 

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """The progress lines of the programs are understood, other lines are left alone."""
 
+import errno
 import io
 import sys
 import unittest
@@ -9,6 +10,16 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 import launcher  # noqa: E402,F401  the path of the launcher's modules
 from fsi_launch.living import progress  # noqa: E402
+
+
+class Gone(io.StringIO):
+    """A terminal that was closed; it counts how often it was written to."""
+
+    asked = 0
+
+    def write(self, text):
+        self.asked += 1
+        raise OSError(errno.EIO, "Input/output error")
 
 
 class Lines(unittest.TestCase):
@@ -30,6 +41,18 @@ class Lines(unittest.TestCase):
         shown.tick()
         shown.close()
         self.assertEqual(out.getvalue(), "")
+
+    def test_who_cannot_be_shown_anything_is_shown_nothing_more(self):
+        for ready in (True, False):
+            out = Gone()
+            out.isatty = lambda ready=ready: ready
+            shown = progress.Progress(out=out)
+            shown.hear("progress step=1 t=0.1 dt=0.1 limit=fluid t_end=1")
+            for _ in range(2):
+                shown._drawn = float("-inf")
+                shown.tick()
+            shown.close()
+            self.assertEqual(out.asked, 1)
 
 
 class Widths(unittest.TestCase):
