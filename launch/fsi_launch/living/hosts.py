@@ -105,7 +105,7 @@ def networks(asked):
 
 def _command(shell, host, word):
     """Of this machine. The other one gets a single line, as ssh passes it on."""
-    far = shlex.join([sys.executable, "-s", "-B", str(FAR), word])
+    far = shlex.join([sys.executable, "-s", "-P", "-B", str(FAR), word])
     return [*shlex.split(shell or os.environ.get("FSI_RSH") or SHELL), host.name, far]
 
 

@@ -62,6 +62,16 @@ class BadInput(EndToEnd):
             self.assertEqual((closed, answer.returncode), (closed, 0), answer.stderr)
             self.assertEqual(json.loads((folder / "summary.json").read_text(encoding="utf-8"))["status"], "completed")
 
+    def test_modules_of_the_current_folder_are_not_those_of_python(self):
+        for name in ("random", "json", "contextlib", "encodings", "fsi_launch"):
+            (self.folder / f"{name}.py").write_text("raise SystemExit('mine')\n", encoding="utf-8")
+        strange = {"PYTHONHOME": str(self.folder), "PYTHONPLATLIBDIR": "nowhere", "PYTHONINSPECT": "1", "PYTHONWARNINGS": "error",
+                   "PYTHONSTARTUP": str(self.folder / "random.py")}
+        for environment in ({}, strange):
+            answer = subprocess.run([FSI, "check", "elastic_piston"], cwd=self.folder, env=os.environ | {"FSI_BIN": str(BIN)} | environment,
+                                    stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
+            self.assertEqual((answer.returncode, answer.stderr), (0, ""))
+
     def test_program_of_somebody_else_that_is_not_there(self):
         for program, remedy in (("./nothere", "does not exist"), ("nothere", "write ./nothere for one in this folder")):
             self.assertIn(remedy, self.refused("spring_piston", "--set", f"solids.piston.program={program}"))
