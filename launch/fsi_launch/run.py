@@ -13,8 +13,9 @@ from pathlib import Path
 from fsi_launch import case as cases
 from fsi_launch import paths
 from fsi_launch.living import hosts, interrupts, ranks, registry
-from fsi_launch.results import probes, restart, summary, verdict
-from fsi_launch.failure import (DONE, EXPECTATION_MISSED, Failure, NUMBERS_BROKE, OUTPUT_FAILED, USER_MISTAKE, UserMistake)
+from fsi_launch.results import former, probes, restart, summary, verdict
+from fsi_launch.failure import (DONE, EXPECTATION_MISSED, Failure, INTERRUPTED, NUMBERS_BROKE, OUTPUT_FAILED, PEER_LOST, TERMINATED,
+                                USER_MISTAKE, UserMistake)
 from fsi_launch.living.progress import Progress
 from fsi_launch.living.supervise import Outcome, Program, Supervisor
 from fsi_launch.living.watch import Monitor
@@ -24,7 +25,7 @@ from fsi_launch.telling import tell
 FRAMES = 60     # of a movie
 COUPLER = "coupler"     # the participant of that name looks after the others
 OF_A_RUN = ("case.yaml", "summary.json", "log", "parts", "fields", "checkpoints", "last_state", "plots", "*.csv", "run.xmf",
-            "fluid.h5", "fluid_*.h5", "solid_*.h5", "reference.h5")
+            "fluid.h5", "fluid_*.h5", "solid_*.h5", "reference.h5", former.ASIDE)
 
 
 @dataclass
@@ -110,8 +111,8 @@ def _programs(case, directory, entry, checkpoint, reports, memory, request):
     far = hosts.wanted(request.hosts, case)
     networks = hosts.networks(far)
     cores = ranks.cores({name: number for name, number in asked.items() if name not in far})
-    for former in directory.glob("parts/*.rank*.json"):
-        former.unlink(missing_ok=True)
+    for left in directory.glob("parts/*.rank*.json"):
+        left.unlink(missing_ok=True)
     common = ["--case", str(directory / "case.yaml"), "--run-dir", str(directory), "--run", entry.run]
     if checkpoint:
         common += ["--restart", str(checkpoint.path)]
@@ -188,13 +189,16 @@ def _supervise(case, directory, programs, progress, tick):
     return outcome
 
 
-def _watched(case, directory, programs, run, request, say):
-    """(Outcome of all programs, {t, steps} they last said), while a person sees how far they are."""
+def _watched(case, directory, programs, run, request, say, checkpoint=None):
+    """(Outcome of all programs, {t, steps} they last said), while a person sees how far they are. The former record of a run that goes
+    on from a `checkpoint` counts until a step has been taken."""
     progress = Progress(request.progress and not request.quiet)
     with contextlib.ExitStack() as stack:
         monitor = stack.enter_context(Monitor(run, say)) if request.monitor else None
 
         def tick():
+            if checkpoint and (progress.reached() or {"steps": 0})["steps"] > checkpoint.step:
+                former.drop(directory)
             if monitor is None or not monitor.in_front():
                 progress.tick()
 
@@ -221,12 +225,12 @@ def needed(case):
     return [*case.programs.values(), "fsi_start", *filter(None, others)]
 
 
-def _resolved(request, path, former=None):
+def _resolved(request, path, own=None):
     """The checked Case, all of whose programs are there, built if need be."""
-    case = cases.resolve(path, request.overrides, request.laws, former)
+    case = cases.resolve(path, request.overrides, request.laws, own)
     if request.frames and not any(entry.startswith("output.every") for entry in request.overrides):
         overrides = [*request.overrides, f"output.every={case.end / FRAMES:.17g}"]
-        case = cases.resolve(path, overrides, request.laws, former)
+        case = cases.resolve(path, overrides, request.laws, own)
     paths.expect(case.programs)
     paths.build([*needed(case), *(["monitor"] if request.monitor else [])])
     ranks.expect_mpi(ranks.wanted(request.ranks, case))
@@ -248,8 +252,8 @@ def _begin(request, say):
             raise UserMistake("--restart goes on in the folder of the run; leave --out and --overwrite away")
         directory = Path(request.restart)
         restart.expect_run(directory)
-        former = str(directory / "case.yaml")
-        case = _resolved(request, request.case or former, former)
+        own = str(directory / "case.yaml")
+        case = _resolved(request, request.case or own, own)
         checkpoint = restart.choose(directory, say, case.digest)
         if request.pause_at is not None and request.pause_at < checkpoint.step:
             raise UserMistake(f"--pause-at {request.pause_at}: the run goes on from step {checkpoint.step}; write that or a later one")
@@ -258,11 +262,19 @@ def _begin(request, say):
                               "a restart can only go on")
         if case.end <= checkpoint.t * (1 + 1e-12):
             say("that is time.end: the run is complete; --set time.end=.. goes on to a later one")
-        restart.prepare(directory)
-    (directory / "case.yaml").write_text(case.text, encoding="utf-8")
-    if far := hosts.wanted(request.hosts, case):
-        _look_around(far, case, directory, request)
+        former.lay_aside(directory)
+    with former.kept(directory):
+        _write_case(case, directory)
+        if far := hosts.wanted(request.hosts, case):
+            _look_around(far, case, directory, request)
     return case, directory, checkpoint
+
+
+def _write_case(case, directory):
+    """DIR/case.yaml; one that is there is replaced."""
+    temporary = directory / "case.yaml.tmp"
+    temporary.write_text(case.text, encoding="utf-8")
+    temporary.replace(directory / "case.yaml")
 
 
 def _look_around(far, case, directory, request):
@@ -283,6 +295,26 @@ def run(request):
     """Runs a case to its end. Throws UserMistake before anything is started; everything later is in the Result."""
     say = (lambda text: None) if request.quiet else tell
     case, directory, checkpoint = _begin(request, say)
+    with former.kept(directory):
+        return _run(case, directory, checkpoint, request, say)
+
+
+def _refused(code, directory, result, checkpoint):
+    """Has a restart ended before it took a step? A solution that breaks in the first one is a result."""
+    return former.is_aside(directory) and code not in (DONE, NUMBERS_BROKE) and result["steps"] <= checkpoint.step
+
+
+def _put_back(code, directory, result):
+    """The end of a restart that took no step: the record is that of the run before it, and what went wrong is told here alone."""
+    former.put_back(directory)
+    tell(f"fsi: {result['reason']}")
+    if code in (INTERRUPTED, TERMINATED, PEER_LOST):
+        _advise_restart(directory, result["restart"]["step"])
+    return Result(code, directory, result)
+
+
+def _run(case, directory, checkpoint, request, say):
+    """A run whose folder is ready."""
     # Two that begin together may read the same time; then they would hear each other where the bus is not protected.
     identity = f"{case.name}-{time.strftime('%H%M%S')}-{time.time_ns() % 10**9:09d}-{os.getpid()}"
     say(f"{case.name}: {', '.join(case.programs.values())}")
@@ -296,7 +328,7 @@ def run(request):
         most = max(ranks.wanted(request.ranks, case).values(), default=1)
         with interrupts.held(), entered as entry, ranks.memory(most) as memory, interrupts.heard():
             programs = _programs(case, directory, entry, checkpoint, reports, memory, request)
-            outcome, told = _watched(case, directory, programs, identity, request, say)
+            outcome, told = _watched(case, directory, programs, identity, request, say, checkpoint)
         parts = summary.read_parts(directory, case.programs, _copies(reports))
     found = verdict.judge(outcome, case, directory, parts)
     code, status, reason = found.code, found.status, found.reason
@@ -306,6 +338,9 @@ def run(request):
         result["failure"] = found.failure
     if checkpoint:
         result["restart"] = {"step": checkpoint.step, "t": checkpoint.t}
+    if _refused(code, directory, result, checkpoint):
+        return _put_back(code, directory, result)
+    former.drop(directory)
     try:
         probes.merge(directory, case.programs)
         _write_xdmf(directory)
@@ -342,4 +377,8 @@ def _report(result, directory, missed, quiet, restarts):
     for line in missed + ([result["reason"]] if result["status"] == "failed" else []):
         tell(f"fsi: {line}")
     if result["status"] != "completed" and restarts and (found := restart.latest(directory, digest=restarts)):
-        tell(f"fsi: {paths.COMMAND} run --restart {shlex.quote(str(directory))} goes on from step {found.step}")
+        _advise_restart(directory, found.step)
+
+
+def _advise_restart(directory, step):
+    tell(f"fsi: {paths.COMMAND} run --restart {shlex.quote(str(directory))} goes on from step {step}")

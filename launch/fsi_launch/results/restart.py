@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from fsi_launch.living import processes, registry
+from fsi_launch.results import former
 from fsi_launch.failure import Failure, OUTPUT_FAILED, UserMistake
 
 CHUNK = 1 << 20
@@ -99,9 +100,10 @@ def expect_over(directory, option):
 
 def expect_run(directory):
     """In `directory` is a run that is over and has left checkpoints."""
-    if not (directory / "case.yaml").is_file():
+    if not (directory / "case.yaml").is_file() and not former.is_aside(directory):
         raise UserMistake(f"--restart {directory} holds no run; name the folder of a run")
     expect_over(directory, f"--restart {directory}")
+    former.put_back(directory)      # of a restart whose launcher was killed before the first step
     if not _folders(directory):
         raise UserMistake(f"--restart {directory} has no checkpoint; begin anew, with --set output.checkpoint_every=N")
 
@@ -112,10 +114,3 @@ def choose(directory, say, digest):
         raise Failure(OUTPUT_FAILED, f"none of the checkpoints of {directory} can be used; begin anew")
     say(f"goes on from the checkpoint of step {found.step}, t = {found.t:.6g}")
     return found
-
-
-def prepare(directory):
-    """Removes what a former end left: reports, and the last state before the solution diverged."""
-    for pattern in ("parts/*.json", "last_state/*", "summary.json"):
-        for path in directory.glob(pattern):
-            path.unlink()

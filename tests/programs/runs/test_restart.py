@@ -266,6 +266,53 @@ class AfterAnEnd(Interrupted):
         self.assertEqual(longer.summary()["t"], 0.9)
 
 
+class Refused(Interrupted):
+    """A restart that takes no step leaves the record of the run as it was."""
+
+    def record(self, run):
+        return {path.relative_to(run.directory).as_posix(): path.read_bytes() for pattern in ("*.json", "*.yaml", "*.csv", "parts/*", ".former*")
+                for path in run.directory.glob(pattern) if path.is_file() or path.name.startswith(".")}
+
+    def completed(self):
+        """A run that is complete, and its record."""
+        run = self.complete(*self.case(self.NAME, "--set", "output.every=0.1"))
+        return run, self.record(run)
+
+    def assert_refused(self, run, record):
+        """For want of an output."""
+        (run.directory / "fields" / "fluid_000001.h5").unlink()
+        again = self.restart(run, "--set", "time.end=0.9")
+        self.assertEqual(again.wait(), 5, again.stderr)
+        self.assertRegex(again.stderr, r"fsi: fluid: '.*fields/fluid_000001\.h5' ")
+        self.assertNotIn("fsi run --restart", again.stderr)
+        self.assertEqual(self.record(run), record)
+        self.assertEqual(run.summary()["status"], "completed")
+
+    def test_by_a_program(self):
+        self.assert_refused(*self.completed())
+
+    def test_after_the_launcher_of_another_one_was_killed(self):
+        run, record = self.completed()
+        killed = self.restart(run, "--set", "time.end=0.9", "--pause-at", str(run.checkpoints()[-1]))
+        killed.until_paused()
+        killed.process.kill()
+        killed.wait()
+        self.assertTrue(until(lambda: not killed.programs()))
+        self.assertFalse((run.directory / "summary.json").exists())
+        self.assert_refused(run, record)
+
+    def test_what_has_taken_a_step_counts(self):
+        run, record = self.completed()
+        step = run.checkpoints()[-1] + 2
+        again = self.restart(run, "--set", "time.end=0.9", "--pause-at", str(step))
+        again.until_paused()
+        self.assertTrue(until(lambda: not (run.directory / ".former").exists()))
+        again.process.send_signal(signal.SIGTERM)
+        self.assertEqual(again.wait(), 143, again.stderr)
+        self.assertEqual((again.summary()["status"], again.summary()["steps"]), ("failed", step))
+        self.assertEqual(self.record(again).keys(), record.keys())
+
+
 class Alive(EndToEnd):
     def test_run_whose_program_is_still_alive_is_not_touched(self):
         run = self.launch(*LONG)
