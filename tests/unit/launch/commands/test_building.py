@@ -142,6 +142,19 @@ class Building(InScratch):
                 process.send_signal(number)
             ended(ninja)
 
+    def test_a_checkout_that_cannot_be_written_is_used_as_it_is(self):
+        self.put_checker()
+        self.folder.chmod(0o755)
+        (self.folder / "build").chmod(0o555)
+        self.addCleanup((self.folder / "build").chmod, 0o755)
+        nobody = ["setpriv", "--reuid=65534", "--regid=65534", "--clear-groups"] if os.getuid() == 0 else []
+        for verb, code, said in (("check", 0, ""), ("run", 2, f"fsi: {self.folder}/build cannot be written by you, and lacks fsi_xdmf; "
+                                                              "ask its owner to build, or clone it\n")):
+            answer = subprocess.run([*nobody, self.folder / "launch" / "fsi", verb, "nothing"], env=self.environment() | {"MISSING": ""},
+                                    capture_output=True, text=True, check=False)
+            self.assertEqual((answer.returncode, answer.stderr), (code, said))
+        self.assertFalse(self.calls.exists())
+
     def test_a_check_builds_the_checker(self):
         self.assertEqual(self.build()[0][1:], ["ninja bin/fsi_case"])
 
