@@ -72,6 +72,14 @@ class BadInput(EndToEnd):
                                     stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
             self.assertEqual((answer.returncode, answer.stderr), (0, ""))
 
+    def test_a_current_folder_that_is_gone(self):
+        gone = self.folder / "gone"
+        gone.mkdir()
+        answer = subprocess.run(["bash", "-c", f"cd '{gone}'; rmdir '{gone}'; exec '{FSI}' check elastic_piston"], env=os.environ | {"FSI_BIN": str(BIN)},
+                                capture_output=True, text=True, check=False)
+        self.assertEqual((answer.returncode, answer.stdout), (2, ""), answer.stderr)
+        self.assertRegex(answer.stderr.splitlines()[-1], "^fsi: the current folder.* is gone or cannot be entered; go to another one$")
+
     def test_program_of_somebody_else_that_is_not_there(self):
         for program, remedy in (("./nothere", "does not exist"), ("nothere", "write ./nothere for one in this folder")):
             self.assertIn(remedy, self.refused("spring_piston", "--set", f"solids.piston.program={program}"))
