@@ -88,6 +88,7 @@ class Guard:
                     self._send(signal.SIGKILL)
         for pid in ranks.members(self._process.pid) if self._ranks > 1 else ():     # they do not outlive their mpirun
             processes.signal_to(pid, signal.SIGKILL)
+        processes.end_group(self._process.pid)
         self._memory.close()
         return {"code": self._process.wait(), "report": os.pread(self._report, os.fstat(self._report).st_size, 0).decode("utf-8", "replace")}
 

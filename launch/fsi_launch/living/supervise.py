@@ -200,6 +200,8 @@ class Supervisor:
         if name in self._ranked and name not in self._far:    # its ranks do not outlive it
             for pid in ranks.members(process.pid):
                 processes.signal_to(pid, signal.SIGKILL)
+        if name not in self._far:
+            processes.end_group(process.pid)
         code, cut = process.wait(), ""
         if name in self._far:
             code, cut = self._far_end(name, process, code)

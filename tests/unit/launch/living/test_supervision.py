@@ -11,7 +11,7 @@ from pathlib import Path
 from unittest import mock
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
-from launcher import InScratch, ROOT  # noqa: E402
+from launcher import InScratch, ROOT, ended  # noqa: E402
 from fsi_launch.living import interrupts, processes, supervise  # noqa: E402
 from fsi_launch.results.verdict import root_cause  # noqa: E402
 
@@ -195,6 +195,20 @@ class Supervision(InScratch):
                 "wait('asked'); linger(); sys.exit(143)")
         endings, _ = self.supervise(listen="a", a=slow)
         self.assertEqual(endings["a"].code, 143)
+
+    def test_what_a_program_has_started_does_not_outlive_it(self):
+        self.supervise(a="""
+if os.fork() == 0:
+    (folder / "pid").write_text(str(os.getpid()))
+    here("child")
+    rest()
+wait("child")
+""")
+        try:
+            child = os.pidfd_open(int((self.folder / "pid").read_text()))
+        except ProcessLookupError:
+            return
+        ended(child)
 
     def test_killed_launcher_takes_its_programs_along(self):
         report, inherited = os.pipe()
