@@ -333,7 +333,8 @@ def _run(case, directory, checkpoint, request, say):
     found = verdict.judge(outcome, case, directory, parts)
     code, status, reason = found.code, found.status, found.reason
     begun_from = {"t": checkpoint.t, "steps": checkpoint.step} if checkpoint else None
-    result = summary.merge(parts, case, status, reason, time.monotonic() - start, summary.last_known(directory, told, begun_from))
+    result = summary.merge(parts, case, status, reason, time.monotonic() - start, summary.last_known(directory, told, begun_from),
+                           {ending.name for ending in outcome.endings if ending.code == 0 and not ending.early})
     if found.failure:
         result["failure"] = found.failure
     if checkpoint:

@@ -72,9 +72,9 @@ def last_known(directory, told, begun_from=None):
     return max((one for one in found if one), key=lambda one: one["steps"], default=None)
 
 
-def merge(parts, case, status, reason, wall_s, known=None):
+def merge(parts, case, status, reason, wall_s, known=None, done=()):
     """The summary of a run, whatever became of it, from what its programs left. `case` is the launcher's Case; `known`: the
-    {t, steps} that count where the speaker left no report."""
+    {t, steps} that count where the speaker left no report; `done`: names of programs that ended with exit code 0."""
     participants = case.programs
     speaker = parts.get(case.speaker()) or max([*parts.values(), *([known] if known else [])], key=lambda part: part.get("t", 0), default={})
     summary = {
@@ -89,7 +89,7 @@ def merge(parts, case, status, reason, wall_s, known=None):
     if missing := next((part["reason"] for part in parts.values() if part.get("status") == "completed" and part.get("reason")), None):
         summary["errors_missing"] = missing
     for name, program in participants.items():
-        part = parts.get(name, {"status": "lost"})
+        part = parts.get(name, {"status": "completed" if name in done and status != "failed" else "lost"})
         summary["participants"][name] = {"program": program} | {
             key: part[key] for key in PARTICIPANT_KEYS if key in part}
     if noise := _noise(parts):

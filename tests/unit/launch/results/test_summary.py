@@ -57,6 +57,11 @@ class Summary(InScratch):
         self.assertEqual(merged(None, checkpoint), (0.1, 2))    # the table is of the former run
         self.assertEqual(merged(said, checkpoint), (0.4, 8))
 
+    def test_program_without_a_report_that_ended_well_is_not_lost(self):
+        for status, done, expected in (("completed", ["solid"], "completed"), ("completed", [], "lost"), ("failed", ["solid"], "lost")):
+            merged = summary.merge({}, piston(), status, "", 1.0, done=done)
+            self.assertEqual(merged["participants"]["solid"]["status"], expected)
+
     def test_who_limited_next_to_no_step_is_not_worth_a_word(self):
         self.assertEqual(summary.limiters({"time.growth": 2, "fluid": 996, "beam": 0, "output.times": 9}), "fluid 99 %, output.times 1 %")
         self.assertEqual(summary.limiters({}), "")
