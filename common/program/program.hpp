@@ -41,10 +41,10 @@ const SolidSpec& solid_of(const Setup& setup);
 /// The gas of the case this program stands for. @throws UserMistake
 const FluidSpec& fluid_of(const Setup& setup);
 
-/// Counts one finished macro step of size dt that ended at time `t`.
 /// What the monitor shows of who limited the steps.
 std::vector<wire::StepsLimited> limits_of(const io::Part& part);
 
+/// Counts one finished macro step of size dt that ended at time `t`.
 void count_step(io::Part& part, double t, double dt);
 
 /// Whether several ranks can compute a participant.
