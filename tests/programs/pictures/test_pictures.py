@@ -181,17 +181,20 @@ class Folders(unittest.TestCase):
         (self.run_ / "case.yaml").write_text("name: piston\n", encoding="utf-8")
         (self.run_ / "interface.csv").write_text("step,t [time],gap [length]\n0,0,0\n1,0.1,1e-3\n2,0.2,3e-3\n", encoding="utf-8")
 
-    def write_state(self, path):
+    def write_group(self, group, t):
         x1, x2 = np.meshgrid(np.linspace(0, 1, 5), np.linspace(0, 1, 4))
-        with h5py.File(path, "w") as file:
-            file.attrs["t"] = 0.2
-            for key, values in {"x1": x1, "x2": x2, "rho": 1 + x1, "p": 2 + x1, "v1": x1, "v2": x2}.items():
-                file[f"gas/{key}"] = values
+        group.attrs["t"] = t
+        for key, values in {"x1": x1, "x2": x2, "rho": 1 + x1, "p": 2 + x1, "v1": x1, "v2": x2}.items():
+            group[f"gas/{key}"] = values
 
-    def plot(self, folder):
+    def write_state(self, path):
+        with h5py.File(path, "w") as file:
+            self.write_group(file, 0.2)
+
+    def plot(self, folder, at=()):
         """Names of the pictures."""
         with contextlib.redirect_stdout(io.StringIO()) as printed:
-            plot.main(types.SimpleNamespace(directories=[folder], out=None, contours=False, movie=False, at=[], format="png"))
+            plot.main(types.SimpleNamespace(directories=[folder], out=None, contours=False, movie=False, at=list(at), format="png"))
         return [Path(line).stem for line in printed.getvalue().split("\n") if line]
 
     def test_tables_are_drawn_before_the_first_output_time(self):
@@ -200,6 +203,15 @@ class Folders(unittest.TestCase):
     def test_the_last_state_of_a_run_that_broke_is_drawn(self):
         self.write_state(self.run_ / "last_state" / "fluid.h5")
         self.assertEqual(self.plot(self.run_), ["fields_last", "interface"])
+
+    def test_pictures_have_the_numbers_of_their_outputs_whichever_are_drawn(self):
+        with h5py.File(self.run_ / "fluid.h5", "w") as file:
+            file.attrs["outputs"] = 3
+            for k in range(3):
+                self.write_group(file.create_group(f"{k:06}"), 0.1 * k)
+        for times, numbers in (((), (0, 1, 2)), ((0.1,), (1,)), ((0.2, 0.0), (0, 2))):
+            drawn = [name for name in self.plot(self.run_, times) if name.startswith("fields")]
+            self.assertEqual(drawn, [f"fields_{number:04}" for number in numbers])
 
     def test_a_part_of_a_run_is_refused_and_the_folder_of_the_run_named(self):
         with self.assertRaisesRegex(UserMistake, f"part of a run.*'{self.run_.resolve()}'"):

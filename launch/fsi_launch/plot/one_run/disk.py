@@ -206,11 +206,11 @@ def pictures(series, reference):
     if not (reference and gas and solid):
         return
     p_e = reference[min(reference)]["gas"]["p"][-1]  # of the gas at rest
-    for index, (of_gas, of_solid) in enumerate(zip(gas.outputs, solid.outputs)):
+    for of_gas, of_solid in zip(gas.outputs, solid.outputs):
         table = next((table for t, table in reference.items() if data.same_time(t, of_gas.t)), None)
         if table is None or of_gas.t == 0:
             continue
         exact = _gas_reference(table["gas"], p_e), _solid_reference(table["solid"])
         points = [_joined([_gas_points(grid, p_e) for grid in of_gas.grids]), _joined([_solid_points(grid) for grid in of_solid.grids])]
-        yield f"radius_{index:04}", partial(_picture, (points[0], exact[0]), (points[1], exact[1]), of_gas.t)
-        yield f"axis_{index:04}", partial(_axis_picture, of_gas.grids, of_solid.grids, exact, of_gas.t, p_e)
+        yield f"radius_{of_gas.number:04}", partial(_picture, (points[0], exact[0]), (points[1], exact[1]), of_gas.t)
+        yield f"axis_{of_gas.number:04}", partial(_axis_picture, of_gas.grids, of_solid.grids, exact, of_gas.t, p_e)

@@ -272,7 +272,7 @@ def pictures(series, look):
     if len(shown) < count:
         tell(f"fields: {len(shown)} of {count} output times are drawn; --at TIME draws others")
     for index in shown:
-        yield f"fields_{index:04}", partial(_field_picture, plan, index)
+        yield f"fields_{series[0].outputs[index].number:04}", partial(_field_picture, plan, index)
 
 
 def last_picture(series, look):

@@ -57,11 +57,12 @@ class Grid:
 
 class Output:
     """All grids of one program at one output time. `grids`: a list, or the function that reads them when they are first asked for: what
-    compares runs needs few times, and of a gas often nothing."""
+    compares runs needs few times, and of a gas often nothing. `number`: its place among all outputs of the run, from 0."""
 
-    def __init__(self, t, grids):
+    def __init__(self, t, grids, number=0):
         self.t = t
         self._grids = grids
+        self.number = number
 
     @functools.cached_property
     def grids(self):
@@ -157,7 +158,8 @@ def _grids_at(path, key):
 
 def _read_series(path, name):
     with _opened(path) as file:
-        outputs = [Output(float(file[key].attrs["t"]), functools.partial(_grids_at, path, key)) for key in sorted(file)]
+        outputs = [Output(float(file[key].attrs["t"]), functools.partial(_grids_at, path, key), number)
+                   for number, key in enumerate(sorted(file))]
     return Series(name, outputs, _is_of_gas(path))
 
 
@@ -194,7 +196,8 @@ def gas_of(series):
     def grids_of(outputs):
         return [grid for output in outputs for grid in output.grids]
 
-    outputs = [Output(together[0].t, functools.partial(grids_of, together)) for together in zip(*(one.outputs for one in gases))]
+    outputs = [Output(together[0].t, functools.partial(grids_of, together), together[0].number)
+               for together in zip(*(one.outputs for one in gases))]
     return Series(" and ".join(one.name for one in gases), outputs, True)
 
 
