@@ -20,7 +20,7 @@ from running import ROOT  # noqa: E402
 from fsi_launch import plot  # noqa: E402
 from fsi_launch.failure import UserMistake  # noqa: E402
 from fsi_launch.plot.look import caption, shading, style  # noqa: E402
-from fsi_launch.plot.one_run import disk, fields  # noqa: E402
+from fsi_launch.plot.one_run import disk, fields, grids  # noqa: E402
 from fsi_launch.plot.reading import data, mesh, scales  # noqa: E402
 from fsi_launch.plot.several_runs import outlines, several, side_by_side  # noqa: E402
 
@@ -280,6 +280,23 @@ class Levels(unittest.TestCase):
         self.assertEqual(len(lines), 4)
         self.assertTrue((lines[:, :, 0] == 0.5).all())
         np.testing.assert_allclose(sorted(lines[:, :, 1].ravel()), [0, 0.25, 0.25, 0.5, 0.5, 0.75, 0.75, 1])
+
+
+class Grids(unittest.TestCase):
+    """The picture of component grids."""
+
+    def gas(self, name):
+        return data.Series(name, [data.Output(0.0, [background()])], True)
+
+    def test_sides_that_go_on_at_the_opposite_one_are_not_called_open(self):
+        case = {f"fluid.boundary.{side}": kind for side, kind in (("left", "periodic"), ("right", "periodic"), ("top", "outflow"))}
+        kinds = [kind for kind, _ in grids._gas_sides([self.gas("fluid")], case | {"fluid.boundary.bottom.kind": "slip_wall"})]
+        self.assertEqual(kinds, ["periodic", "periodic", "wall", "open"])
+        _, axes = pyplot.subplots()
+        self.addCleanup(pyplot.close, axes.figure)
+        handles = grids._draw_sides(axes, [(kind, np.eye(2)) for kind in kinds])
+        self.assertEqual([handle.get_label() for handle in handles], ["wall", "open", "periodic"])
+        self.assertEqual(len({handle.get_linestyle() + str(handle.get_color()) for handle in handles}), 3)
 
 
 class SideBySide(unittest.TestCase):

@@ -190,14 +190,17 @@ SIDES = {"left": np.s_[:, 0], "right": np.s_[:, -1], "bottom": np.s_[0, :], "top
 SIDE_LOOKS = {  # of the gas: (label, line)
     "wall": {"color": "black", "linewidth": 1.8},
     "open": {"color": "black", "linewidth": 1.1, "linestyle": (0, (5, 4))},
+    "periodic": {"color": "#7a3fa0", "linewidth": 1.4, "linestyle": (0, (1, 1.5))},
     "surface of a body": {"color": style.SOLID_EDGE, "linewidth": 1.8},
 }
 
 
 def _side_kind(word):
-    """What a side of the gas is to the eye; periodic sides and those without a word are open."""
+    """What a side of the gas is to the eye; those without a word are open."""
     if word == "interface":
         return "surface of a body"
+    if word == "periodic":
+        return word
     return "wall" if word in WALLS else "open"
 
 
