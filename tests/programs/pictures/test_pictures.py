@@ -288,6 +288,11 @@ class Grids(unittest.TestCase):
     def gas(self, name):
         return data.Series(name, [data.Output(0.0, [background()])], True)
 
+    def test_two_gases_have_colours_of_their_own_and_one_those_it_always_had(self):
+        looks = grids._looks([self.gas("left"), self.gas("right")], 0)
+        self.assertEqual(len({colour for colour, _ in looks.values()}), 2)
+        self.assertEqual(grids._looks([self.gas("fluid")], 0)["fluid", "grid"][0], looks["left", "grid"][0])
+
     def test_sides_that_go_on_at_the_opposite_one_are_not_called_open(self):
         case = {f"fluid.boundary.{side}": kind for side, kind in (("left", "periodic"), ("right", "periodic"), ("top", "outflow"))}
         kinds = [kind for kind, _ in grids._gas_sides([self.gas("fluid")], case | {"fluid.boundary.bottom.kind": "slip_wall"})]

@@ -30,9 +30,9 @@ def _lines(grid, step):
 
 def _looks(series, index):
     """{(program, grid): (colour, label)} of all component grids: body-fitted ones differ from the background and from each other, bodies
-    of one grid from other bodies."""
+    of one grid from other bodies, gases from other gases."""
     looks, turn = {}, {style.GAS_GRIDS: 0, style.SOLID_GRIDS: 0}
-    bodies = 0
+    before = {True: 0, False: 0}    # gases, bodies
     for one in series:
         grids = one.outputs[index].grids
         colours = style.GAS_GRIDS if one.is_gas() else style.SOLID_GRIDS
@@ -40,11 +40,12 @@ def _looks(series, index):
         if not one.has_an_inside():
             looks |= {(one.name, grid.name): (style.SOLID_EDGE, one.name) for grid in grids}
             continue
-        plain = len(grids) == 1 and (one.is_gas() or bodies == 0)
-        bodies += not one.is_gas()
+        first = before[one.is_gas()] == 0
+        plain, other_gas = len(grids) == 1 and first, one.is_gas() and not first
+        before[one.is_gas()] += 1
         for grid in grids:
             colour = background
-            if not (plain or grid.is_cartesian()):
+            if other_gas or not (plain or grid.is_cartesian()):
                 colour = fitted[turn[colours] % len(fitted)]
                 turn[colours] += 1
             looks[one.name, grid.name] = colour, f"{'gas' if one.is_gas() else one.name}: {grid.name}"
