@@ -15,7 +15,7 @@ from PIL import Image
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from running import ROOT  # noqa: E402
 from fsi_launch.plot.look import drawing, style, units  # noqa: E402
-from fsi_launch.plot.one_run import curves, movie  # noqa: E402
+from fsi_launch.plot.one_run import curves, fields, movie  # noqa: E402
 from fsi_launch.plot.reading import data, scales  # noqa: E402
 from fsi_launch.plot.several_runs import study  # noqa: E402
 
@@ -72,6 +72,20 @@ class Drawing(unittest.TestCase):
         self.assertEqual(len(seen[0]), 1)
         self.assertGreater(len(seen[1]), 3)
         self.assertEqual(seen[2], [])
+
+    def test_bars_are_as_high_as_their_panels_and_thin_domains_take_no_more_room_than_they_need(self):
+        heights = []
+        for box in ((0, 2, 0, 1), (0, 5, 0, 1), (0, 100, 0, 1)):
+            figure, (axes, *_) = fields.panels(3, box, 0.8)
+            style.bar(figure, axes, axes.scatter([0, 1], [0, 1], c=[1.0, 2.0]), "p")
+            style.save(figure, self.folder / "bar.png")
+            panel, bar = axes.get_position(), figure.axes[-1].get_position()
+            self.assertAlmostEqual(bar.height, panel.height)
+            self.assertAlmostEqual(bar.y0, panel.y0)
+            self.assertGreater(panel.height, 0.5 / 3)
+            heights.append(figure.get_figheight())
+        self.assertEqual(sorted(heights, reverse=True), heights)
+        self.assertEqual(axes.get_aspect(), "auto")     # of equal scale nothing could be seen
 
     def test_long_numbers_keep_apart(self):
         figure, axes = pyplot.subplots(figsize=(4.8, 2))

@@ -29,6 +29,8 @@ MARGIN = 0.06       # around a picture [inch]
 NUMBER = 0.55       # room of a number beside its neighbours [inch]
 LETTER = 0.075      # one of them, and what is free between two numbers [inch]
 NARROW = 1.1        # axes [inch]
+BAR = 0.12          # width of a colour bar, where nothing else sets it [inch]
+TICK = 0.22         # room of a number along it [inch]
 BEYOND = 1.5        # how far texts may reach beyond a figure [inch]
 
 
@@ -117,6 +119,15 @@ def _lay_out(figure):
         figure._suptitle.set_y(0.99)                    # noqa: SLF001
 
 
+def _fit_bars(figure):
+    """Colour bars as high as their panels, which are lower than their places where both directions have one scale."""
+    for bar in figure.axes:
+        if panel := getattr(bar, "panel", None):
+            place, beside = bar.get_position(), panel.get_position()
+            bar.set_box_aspect(None)
+            bar.set_position([place.x0, beside.y0, BAR / figure.get_figwidth(), beside.height])
+
+
 def save(figure, path):
     """Writes a picture and forgets it. Its layout is made here: savefig would draw all of it twice to find its size. What lies within
     the axes has no say in it: of a mesh every cell would be looked at."""
@@ -131,6 +142,7 @@ def save(figure, path):
     for axes in figure.axes:        # the places as they are drawn; a picture of more than the figure would keep those before
         locator = axes.get_axes_locator()
         axes.apply_aspect(locator(axes, None) if locator else None)
+    _fit_bars(figure)
     _few_numbers(figure)
     if path.suffix == ".png":
         _save_drawn_part(figure, path)
@@ -168,9 +180,11 @@ def bar(figure, axes, mesh, label, constant=None):
     unit = 10.0 ** exponent
     shown = [constant]
     if constant is None:
-        ticks = MaxNLocator(6, steps=[1, 2, 5, 10]).tick_values((low - base) / unit, (high - base) / unit)
+        most = min(6, max(2, int(axes.get_position().height * figure.get_figheight() / TICK)))
+        ticks = MaxNLocator(most, steps=[1, 2, 5, 10]).tick_values((low - base) / unit, (high - base) / unit)
         shown = [tick for tick in ticks if low <= base + tick * unit <= high]
-    one = figure.colorbar(mesh, ax=axes, shrink=0.9, pad=0.02, aspect=18, ticks=[base + tick * unit for tick in shown])
+    one = figure.colorbar(mesh, ax=axes, pad=0.02, aspect=18, ticks=[base + tick * unit for tick in shown])
+    one.ax.panel = axes
     numbers = [f"{round(tick, 6) + 0.0 if constant is None else tick:.5g}" for tick in shown]
     one.ax.set_yticklabels([number.replace("-", "\N{MINUS SIGN}") for number in numbers])      # as along the axes
     one.outline.set_visible(False)

@@ -17,7 +17,9 @@ from fsi_launch.telling import tell
 MOST_TIMES = 12        # pictures of fields; of a longer series, times evenly spread
 CONTOURS = 16          # lines, where they are asked for; an even number keeps off the zero of signed fields
 SLOW = 0.05            # gas and solids of which one moves at less than this part of the other's speed have scales of their own: one would hide its waves
-RIM = 0.005            # around all points, part of the longer side of their box
+RIM = 0.005            # around all points, part of the longer side of their box,
+THIN_RIM = 0.05        # and at most this part of the side itself
+THIN = 0.1             # height over width of a domain below which the two directions have scales of their own
 ROUND_OFF = 1e-12      # variation, part of the values, that is no variation
 
 
@@ -63,8 +65,9 @@ def box_around(grids):
     """(x low, x high, y low, y high) around the used points, with room for the line of a rim."""
     x1 = np.concatenate([grid.x1[grid.used()] for grid in grids])
     x2 = np.concatenate([grid.x2[grid.used()] for grid in grids])
-    rim = RIM * max(np.ptp(x1), np.ptp(x2))
-    return x1.min() - rim, x1.max() + rim, x2.min() - rim, x2.max() + rim
+    sides = np.ptp(x1), np.ptp(x2)
+    rim1, rim2 = (min(RIM * max(sides), THIN_RIM * side) for side in sides)
+    return x1.min() - rim1, x1.max() + rim1, x2.min() - rim2, x2.max() + rim2
 
 
 def _arrangement(count, shape):
@@ -77,16 +80,20 @@ def _arrangement(count, shape):
 
 
 def panels(count, box, beside):
-    """(figure, axes) of equal scale, arranged so that the pictures are large, with room `beside` each [inch]."""
+    """(figure, axes) of equal scale unless they would be too thin, arranged so that the pictures are large, with room `beside` each
+    [inch]."""
     width, height = box[1] - box[0], box[3] - box[2]
+    thin = height < THIN * width
+    height = max(height, THIN * width)
     rows, columns = _arrangement(count, width / height)
     panel_width = 6.4 if columns == 1 else 4.0
-    panel_height = min(max(panel_width * height / width, 1.2), 6.0)
+    panel_height = min(panel_width * height / width, 6.0)
     panel_width = min(panel_width, panel_height * width / height)
-    size = ((panel_width + 0.5 + beside) * columns, (panel_height + 0.55) * rows + 0.3)
+    above = 0.75 if columns == 1 and beside else 0.55    # what stands over a bar is higher than a title
+    size = ((panel_width + 0.5 + beside) * columns, (panel_height + above) * rows + 0.3)
     figure, axes = pyplot.subplots(rows, columns, figsize=(max(size[0], 3.2), size[1]), squeeze=False)
     for one in axes.flat:
-        one.set_aspect("equal")
+        one.set_aspect("auto" if thin else "equal")
         one.set_xlim(box[0], box[1])
         one.set_ylim(box[2], box[3])
     style.name_axes(axes)
@@ -173,8 +180,9 @@ def outline(axes, grids):
 def _ground(axes):
     """What is neither gas nor solid, within the box around all points: walls, as the background's rectangle has them."""
     (left, right), (bottom, top) = axes.get_xlim(), axes.get_ylim()
-    rim = RIM / (1 + 2 * RIM) * max(right - left, top - bottom)
-    axes.add_patch(Rectangle((left + rim, bottom + rim), right - left - 2 * rim, top - bottom - 2 * rim, color=style.WALL_FILL, linewidth=0,
+    sides = right - left, top - bottom
+    rim1, rim2 = (min(RIM / (1 + 2 * RIM) * max(sides), THIN_RIM / (1 + 2 * THIN_RIM) * side) for side in sides)
+    axes.add_patch(Rectangle((left + rim1, bottom + rim2), sides[0] - 2 * rim1, sides[1] - 2 * rim2, color=style.WALL_FILL, linewidth=0,
                              zorder=0))
 
 
