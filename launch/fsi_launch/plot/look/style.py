@@ -29,6 +29,7 @@ MARGIN = 0.06       # around a picture [inch]
 NUMBER = 0.55       # room of a number beside its neighbours [inch]
 LETTER = 0.075      # one of them, and what is free between two numbers [inch]
 NARROW = 1.1        # axes [inch]
+LONG = 9            # letters above a colour bar, those of the formula too, that reach over the next one
 BAR = 0.12          # width of a colour bar, where nothing else sets it [inch]
 TICK = 0.22         # room of a number along it [inch]
 BEYOND = 1.5        # how far texts may reach beyond a figure [inch]
@@ -172,9 +173,22 @@ def short_numbers(low, high):
     return base, 0 if -1 <= exponent <= 2 else exponent
 
 
-def bar(figure, axes, mesh, label, constant=None):
-    """A colour bar with few short numbers, only one if the field is `constant`. Above it `label` and what must be
-    added to the numbers and multiplied with them."""
+def above_bar(label, low, high, constant=None):
+    """Lines above a colour bar: what must be added to its numbers, what they must be multiplied with, and `label`."""
+    base, exponent = (0.0, 0) if constant is not None else short_numbers(low, high)
+    lines = (f"${base:.10g} +$" if base else "", f"$\\times 10^{{{exponent}}}$" if exponent else "", label)
+    return [line for line in lines if line]
+
+
+def _lifted(lines, beside):
+    """They begin above those of the bar beside them where the uppermost of these is long and would meet one of them."""
+    meet = beside and beside[0].endswith("+$") and len(beside[0]) > LONG and len(lines) >= len(beside)
+    return [*lines, *[""] * len(beside)] if meet else lines
+
+
+def bar(figure, axes, mesh, label, constant=None, beside=()):
+    """A colour bar with few short numbers, only one if the field is `constant`, with the lines of `above_bar`; `beside`: those of a bar
+    between this one and the panel."""
     low, high = mesh.get_clim() if constant is None else (constant, constant)
     base, exponent = (0.0, 0) if constant is not None else short_numbers(low, high)
     unit = 10.0 ** exponent
@@ -189,5 +203,5 @@ def bar(figure, axes, mesh, label, constant=None):
     one.ax.set_yticklabels([number.replace("-", "\N{MINUS SIGN}") for number in numbers])      # as along the axes
     one.outline.set_visible(False)
     one.ax.tick_params(labelsize=8)
-    lines = (label, f"${base:.10g} +$" if base else "", f"$\\times 10^{{{exponent}}}$" if exponent else "")
-    one.ax.set_title("\n".join(line for line in lines if line), fontsize=7.5, loc="left", y=1)    # nothing lies in its way
+    lines = _lifted(above_bar(label, low, high, constant), beside)
+    one.ax.set_title("\n".join(lines), fontsize=7.5, loc="left", y=1)    # nothing lies in its way

@@ -192,7 +192,8 @@ def _draw(figure, axes, gas, solids, panel, look):
         colours = style.GAS_MAP if panel.one_scale() else style.SOLID_MAP
         drawn = _colour(axes, solids, panel.of_solid, colours, panel.solid_range, look)
         if not panel.one_scale():
-            style.bar(figure, axes, drawn, "solid" if gas else "", panel.solid_range[2])
+            beside = style.above_bar("gas", *panel.gas_range) if gas else ()
+            style.bar(figure, axes, drawn, "solid" if gas else "", panel.solid_range[2], beside)
     if gas:
         _ground(axes)
         drawn = _colour(axes, [gas], panel.of_gas, style.GAS_MAP, panel.gas_range, look)
