@@ -87,6 +87,17 @@ class Drawing(unittest.TestCase):
         self.assertEqual(sorted(heights, reverse=True), heights)
         self.assertEqual(axes.get_aspect(), "auto")     # of equal scale nothing could be seen
 
+    def test_what_is_added_to_a_bar_does_not_lie_over_the_name_of_the_next(self):
+        gas = style.above_bar("gas", 0.7142856, 0.7142858)
+        self.assertEqual([len(gas), gas[-1]], [3, "gas"])
+        short = style.above_bar("gas", 0.0, 1e-7)
+        for limits, beside, lines in (((0.0, 5e-4), gas, 2), ((0.7142856, 0.7142858), gas, 6), ((0.0, 1.0), gas, 1), ((0.0, 5e-4), short, 2)):
+            figure, axes = pyplot.subplots()
+            drawn = axes.scatter([0, 1], [0, 1], c=limits)
+            style.bar(figure, axes, drawn, "solid", beside=beside)
+            self.assertEqual(len(figure.axes[-1].get_title(loc="left").split("\n")), lines)
+            pyplot.close(figure)
+
     def test_long_numbers_keep_apart(self):
         figure, axes = pyplot.subplots(figsize=(4.8, 2))
         axes.set_xlim(-0.075, 0.138)
@@ -175,6 +186,9 @@ class Studies(unittest.TestCase):
 
 
 class Proposals(unittest.TestCase):
+    def setUp(self):
+        style.use()
+
     def test_what_was_proposed_is_drawn_beside_the_steps_taken_and_who_limited_them_is_no_curve(self):
         t = np.array([0.0, 0.1, 0.2, 0.3])
         table = data.Table("interface", {"t [time]": t, "dt [time]": np.array([0, 0.1, 0.1, 0.1]), "beam.gap [length]": 1e-3 * t,
@@ -183,6 +197,10 @@ class Proposals(unittest.TestCase):
         figure = curves._table_picture(table, scales.Scales(1, 1, 1))
         self.assertEqual([len(axes.lines) for axes in figure.axes], [2, 1])
         self.assertEqual([line.get_label() for line in figure.axes[0].lines], ["taken", "fluid"])
+        figure.draw_without_rendering()
+        panel, legend = figure.axes[0].get_window_extent(), figure.axes[0].get_legend().get_window_extent()
+        self.assertGreaterEqual(legend.x0, panel.x1 - 1)        # not over the curves
+        self.assertLessEqual(legend.x1, figure.axes[1].get_window_extent().x0)
 
     def test_a_body_without_stress_has_no_panels_of_tractions(self):
         t = np.array([0.0, 0.1, 0.2])

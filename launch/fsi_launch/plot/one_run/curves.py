@@ -192,7 +192,7 @@ def _proposals(axes, table, t):
     if np.nanmax(drawn) > FAR * np.nanmin(drawn):
         axes.set_yscale("log")
     axes.autoscale(axis="y")
-    axes.legend()
+    axes.legend(loc="upper left", bbox_to_anchor=(1, 1), handlelength=1.4, borderaxespad=0)     # beside the curves, which may lie anywhere
 
 
 def _drawn_alone(name, values, time):
