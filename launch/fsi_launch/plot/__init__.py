@@ -47,6 +47,12 @@ def _several(directories, out, options):
     return compare.pictures(directories, out, options.at)
 
 
+def _in_common_to_all_grids(directory, entries):
+    """Without the spacing where the picture is of several."""
+    from fsi_launch.plot.reading import data
+    return {key: value for key, value in entries.items() if key != "grid.factor"} if data.convergence(directory) else entries
+
+
 def _take_words(directories):
     """Labels and captions as the cases of these runs want them; of a convergence study its finest level counts."""
     from fsi_launch.plot.look import caption, units
@@ -57,7 +63,8 @@ def _take_words(directories):
     units.use_those_of([several.entries(text) for text in texts])
     names = {several.entries(text).get("name", "") for text in texts}
     in_common = names.pop() if len(texts) == len(directories) and len(names) == 1 else ""
-    caption.use(caption.of_case(texts[0], several.entries(texts[0])) if len(directories) == len(texts) == 1 else in_common)
+    alone = len(directories) == len(texts) == 1
+    caption.use(caption.of_case(texts[0], _in_common_to_all_grids(directories[0], several.entries(texts[0]))) if alone else in_common)
 
 
 def style_or_mistake():

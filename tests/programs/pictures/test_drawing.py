@@ -2,6 +2,7 @@
 """Pictures drawn by several processes are those of one, failures come out, and labels and curves are those of the case."""
 
 import errno
+import json
 import subprocess
 import sys
 import tempfile
@@ -14,10 +15,11 @@ from PIL import Image
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from running import ROOT  # noqa: E402
+from fsi_launch import plot  # noqa: E402
 from fsi_launch.plot.look import drawing, style, units  # noqa: E402
 from fsi_launch.plot.one_run import curves, fields, movie  # noqa: E402
 from fsi_launch.plot.reading import data, scales  # noqa: E402
-from fsi_launch.plot.several_runs import study  # noqa: E402
+from fsi_launch.plot.several_runs import convergence, study  # noqa: E402
 
 
 def picture(k):
@@ -171,6 +173,24 @@ class Units(unittest.TestCase):
         self.assertGreater(len(headings), 10)
         units.use("SI")
         self.assertEqual([heading for heading in sorted(headings) if units.heading(heading) == heading and "[rad]" not in heading], [])
+
+
+class Convergence(unittest.TestCase):
+    TABLE = {"case": "piston", "h": [0.05, 0.025], "errors": {"rho": [4e-4, 1e-4]}, "fitted": {"rho": 2.0}}
+
+    def test_the_number_under_the_triangle_lies_above_the_axis(self):
+        style.use()
+        [(_, figure)] = convergence.pictures(self.TABLE)
+        figure.draw_without_rendering()
+        one = next(text for text in figure.axes[0].texts if text.get_text() == "1")
+        self.assertGreater(one.get_window_extent().y0, figure.axes[0].get_window_extent().y0 + 4)
+
+    def test_no_single_spacing_stands_above_several(self):
+        with tempfile.TemporaryDirectory(prefix="fsi-drawing-") as scratch:
+            entries = {"name": "piston", "grid.factor": "4"}
+            self.assertEqual(plot._in_common_to_all_grids(Path(scratch), entries), entries)
+            (Path(scratch) / "converge.json").write_text(json.dumps(self.TABLE), encoding="utf-8")
+            self.assertEqual(plot._in_common_to_all_grids(Path(scratch), entries), {"name": "piston"})
 
 
 class Studies(unittest.TestCase):

@@ -10,6 +10,7 @@ ROUND_OFF = 1e-13                         # an error that stays below it has no 
 NAMES = {"rho": "$\\rho$", "v1": "$v_1$", "v2": "$v_2$", "T": "$T$", "u_bar": "$\\bar u$", "v_bar": "$\\bar v$",
          "P_bar": "$\\bar P$", "rho_mean": "$\\rho$, mean"}
 MARKERS = "os^vD<>ph*"
+BELOW = 0.1     # room under the triangle, part of the powers of ten of the axis: for its number
 
 
 def _triangle(axes, h, lowest):
@@ -19,7 +20,8 @@ def _triangle(axes, h, lowest):
     top = bottom * (high / low) ** 2
     axes.plot([low, high, high, low], [bottom, bottom, top, bottom], color="black", linewidth=0.9)
     axes.text(high * 1.02, np.sqrt(bottom * top), " 2", va="center")
-    axes.text(np.sqrt(low * high), bottom * 0.9, "1", va="top", ha="center")
+    axes.annotate("1", (np.sqrt(low * high), bottom), xytext=(0, -3), textcoords="offset points", va="top", ha="center")
+    axes.set_ylim(bottom=bottom * (axes.get_ylim()[0] / axes.get_ylim()[1]) ** BELOW)
 
 
 def _spacing(value):
