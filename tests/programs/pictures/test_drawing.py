@@ -11,13 +11,15 @@ from pathlib import Path
 
 import numpy as np
 from matplotlib import pyplot
+from matplotlib.cm import ScalarMappable
+from matplotlib.colors import Normalize
 from PIL import Image
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from running import ROOT  # noqa: E402
 from fsi_launch import plot  # noqa: E402
 from fsi_launch.plot.look import drawing, style, units  # noqa: E402
-from fsi_launch.plot.one_run import curves, fields, movie  # noqa: E402
+from fsi_launch.plot.one_run import curves, fields, movie, streamlines  # noqa: E402
 from fsi_launch.plot.reading import data, scales  # noqa: E402
 from fsi_launch.plot.several_runs import convergence, study  # noqa: E402
 
@@ -173,6 +175,21 @@ class Units(unittest.TestCase):
         self.assertGreater(len(headings), 10)
         units.use("SI")
         self.assertEqual([heading for heading in sorted(headings) if units.heading(heading) == heading and "[rad]" not in heading], [])
+
+
+class Streamlines(unittest.TestCase):
+    def test_all_panels_have_one_bar_and_solids_one_of_their_own_where_their_scale_is(self):
+        style.use()
+        solids = ScalarMappable(Normalize(0, 1))
+        for most, drawn, labels in (((1, 1), solids, [""]), ((1, 0.01), solids, ["solid", "gas"]), ((1, 0), None, [""])):
+            figure, panels = streamlines._panels(3, (0, 2, 0, 1))
+            streamlines._bars(figure, panels, most, drawn)
+            self.assertEqual([bar.get_title(loc="left").rpartition("\n")[2] for bar in figure.axes[4:]], labels)
+            with tempfile.TemporaryDirectory(prefix="fsi-drawing-") as scratch:
+                style.save(figure, Path(scratch) / "a.png")
+            for bar in figure.axes[4:]:
+                self.assertAlmostEqual(bar.get_position().y1, panels[0].get_position().y1)
+                self.assertAlmostEqual(bar.get_position().y0, panels[2].get_position().y0)
 
 
 class Convergence(unittest.TestCase):

@@ -123,8 +123,8 @@ def _lay_out(figure):
 def _fit_bars(figure):
     """Colour bars as high as their panels, which are lower than their places where both directions have one scale."""
     for bar in figure.axes:
-        if panel := getattr(bar, "panel", None):
-            place, beside = bar.get_position(), panel.get_position()
+        if panels := getattr(bar, "panels", []):
+            place, beside = bar.get_position(), Bbox.union([panel.get_position() for panel in panels if panel.get_visible()])
             bar.set_box_aspect(None)
             bar.set_position([place.x0, beside.y0, BAR / figure.get_figwidth(), beside.height])
 
@@ -187,18 +187,19 @@ def _lifted(lines, beside):
 
 
 def bar(figure, axes, mesh, label, constant=None, beside=()):
-    """A colour bar with few short numbers, only one if the field is `constant`, with the lines of `above_bar`; `beside`: those of a bar
-    between this one and the panel."""
+    """A colour bar of one or several `axes` with few short numbers, only one if the field is `constant`, with the lines of `above_bar`;
+    `beside`: those of a bar between this one and the panels."""
+    panels = list(np.atleast_1d(axes))
     low, high = mesh.get_clim() if constant is None else (constant, constant)
     base, exponent = (0.0, 0) if constant is not None else short_numbers(low, high)
     unit = 10.0 ** exponent
     shown = [constant]
     if constant is None:
-        most = min(6, max(2, int(axes.get_position().height * figure.get_figheight() / TICK)))
+        most = min(6, max(2, int(np.ptp([one.get_position().intervaly for one in panels]) * figure.get_figheight() / TICK)))
         ticks = MaxNLocator(most, steps=[1, 2, 5, 10]).tick_values((low - base) / unit, (high - base) / unit)
         shown = [tick for tick in ticks if low <= base + tick * unit <= high]
     one = figure.colorbar(mesh, ax=axes, pad=0.02, aspect=18, ticks=[base + tick * unit for tick in shown])
-    one.ax.panel = axes
+    one.ax.panels = panels
     numbers = [f"{round(tick, 6) + 0.0 if constant is None else tick:.5g}" for tick in shown]
     one.ax.set_yticklabels([number.replace("-", "\N{MINUS SIGN}") for number in numbers])      # as along the axes
     one.outline.set_visible(False)

@@ -113,20 +113,21 @@ def _largest(outputs):
     return max(grid.speed()[grid.used()].max() for output in outputs for grid in output.grids)
 
 
-def _solid_speed(axes, solids, most):
+def _solid_speed(axes, solids, most, colours):
     """What the colour bar needs; a solid that rests at all times (`most` is 0) is plain and needs none."""
     drawn = None
     for solid in solids:
         if not most:
             fields.fill(axes, solid.grids)
         for grid in solid.grids if most else ():
-            drawn = shading.shade(axes, grid, np.where(grid.used(), grid.speed(), 0), style.SOLID_MAP, (0, most)) or drawn
+            drawn = shading.shade(axes, grid, np.where(grid.used(), grid.speed(), 0), colours, (0, most)) or drawn
         fields.outline(axes, solid.grids)
     return drawn
 
 
-def _panel(figure, axes, moment, most):
-    """One time; `moment`: (gas, solids), `most`: their largest speeds at all times, which set the colours."""
+def _panel(axes, moment, most):
+    """One time; `moment`: (gas, solids), `most`: their largest speeds at all times, which set the colours. Returns what the colour bar of
+    the solids needs."""
     gas, solids = moment
     x, y = _lattice(gas)
     points = np.meshgrid(x, y)
@@ -139,10 +140,17 @@ def _panel(figure, axes, moment, most):
         with quick_tracing(), np.errstate(over="ignore"):  # where the flow is uniform the estimated error is none: a step without bound
             axes.streamplot(x, y, *hidden, color=speed, cmap=style.GAS_MAP, norm=Normalize(0, most[0]), density=DENSITY, linewidth=0.6,
                             arrowsize=0.6, minlength=SHORTEST)
-    style.bar(figure, axes, ScalarMappable(Normalize(0, most[0]), style.GAS_MAP), "gas")
-    if drawn := _solid_speed(axes, solids, most[1]):
-        style.bar(figure, axes, drawn, "solid")
     axes.set_title(units.moment(gas.t), loc="left")
+    return _solid_speed(axes, solids, most[1], style.GAS_MAP if most[0] == most[1] else style.SOLID_MAP)
+
+
+def _bars(figure, panels, most, of_solids):
+    """One bar for the gas and one for the solids, right of all panels; one for both where they have the same scale. `of_solids`: what
+    their bar needs, None where they rest."""
+    of_gas = ScalarMappable(Normalize(0, most[0]), style.GAS_MAP)
+    if of_solids and most[0] != most[1]:
+        style.bar(figure, panels, of_solids, "solid", beside=style.above_bar("gas", 0, most[0]))
+    style.bar(figure, panels, of_gas, "gas" if of_solids and most[0] != most[1] else "")
 
 
 def _panels(count, box):
@@ -150,7 +158,7 @@ def _panels(count, box):
     columns = min(2, count)
     rows = -(-count // columns)
     height = PANEL * (box[3] - box[2]) / (box[1] - box[0])
-    figure, axes = pyplot.subplots(rows, columns, figsize=((PANEL + 1.4) * columns, (height + 0.4) * rows + 0.3),
+    figure, axes = pyplot.subplots(rows, columns, figsize=((PANEL + 0.4) * columns + 1.6, (height + 0.4) * rows + 0.3),
                                    squeeze=False)
     for one in axes.flat:
         one.set_aspect("equal")
@@ -186,7 +194,7 @@ def _picture(series, gas, solids, moments, floor):
         most = [max(most)] * 2
     box = fields.box_around([grid for one in series for output in one.outputs for grid in output.grids])
     figure, axes = _panels(len(moments), box)
-    for one, index in zip(axes, moments):
-        _panel(figure, one, (gas.outputs[index], [solid.outputs[index] for solid in solids]), most)
+    drawn = [_panel(one, (gas.outputs[index], [solid.outputs[index] for solid in solids]), most) for one, index in zip(axes, moments)]
+    _bars(figure, axes, most, drawn[-1])
     figure.suptitle(f"streamlines of the gas; colours: {units.label('speed', fields.SPEED.unit)}", x=0.01, ha="left", fontsize=10)
     return figure
