@@ -21,7 +21,7 @@ from fsi_launch import plot  # noqa: E402
 from fsi_launch.plot.look import drawing, style, units  # noqa: E402
 from fsi_launch.plot.one_run import curves, fields, movie, streamlines  # noqa: E402
 from fsi_launch.plot.reading import data, scales  # noqa: E402
-from fsi_launch.plot.several_runs import convergence, study  # noqa: E402
+from fsi_launch.plot.several_runs import convergence, outlines, study  # noqa: E402
 
 
 def picture(k):
@@ -208,6 +208,14 @@ class Convergence(unittest.TestCase):
             self.assertEqual(plot._in_common_to_all_grids(Path(scratch), entries), entries)
             (Path(scratch) / "converge.json").write_text(json.dumps(self.TABLE), encoding="utf-8")
             self.assertEqual(plot._in_common_to_all_grids(Path(scratch), entries), {"name": "piston"})
+
+
+class Outlines(unittest.TestCase):
+    def test_the_later_an_outline_the_more_of_its_colour_it_has(self):
+        found = list(outlines.shades([0.5, 1.0, 2.0]).values())
+        self.assertTrue(0 < found[0] < found[1] < found[2] == 1)
+        self.assertEqual(outlines.shades([0.5]), {0.5: 1.0})
+        self.assertEqual((outlines._shaded("black", 1), outlines._shaded("black", 0)), ((0, 0, 0), (1, 1, 1)))
 
 
 class Studies(unittest.TestCase):

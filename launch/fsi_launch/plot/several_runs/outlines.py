@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from matplotlib import pyplot
+from matplotlib.colors import to_rgb
 from matplotlib.lines import Line2D
 
 from fsi_launch.plot.look import style, units
@@ -13,6 +14,7 @@ from fsi_launch.plot.several_runs import several
 HEADING = ("solid", "run", "other run", "t [time]", "largest distance [length]")
 COLOURS = ("#2b5ea8", "#1d8a3d", "#b5281e", "#8a5a00", "#7a3fa0", "#3b3b3b")
 LINES = ("-", "--", "-.", ":")
+PALEST = 0.4        # part of its colour that the earliest outline has, the rest is white
 AXES = (360, 300)   # size of the axes in the picture, roughly [points]
 LABEL = (52, 12)    # room that the name of a time takes [points]
 
@@ -66,6 +68,15 @@ def levels(places):
     return down
 
 
+def shades(times):
+    """{time: part of the colour}, the later the more."""
+    return dict(zip(times, np.linspace(PALEST, 1, len(times)) if len(times) > 1 else (1.0,)))
+
+
+def _shaded(colour, part):
+    return tuple(1 - part * (1 - channel) for channel in to_rgb(colour))
+
+
 def _name_times(axes, curves):
     """Times under the lowest points of their curves, on lines of their own where they would overlap.
     `curves`: {t: outlines}."""
@@ -73,9 +84,10 @@ def _name_times(axes, curves):
     (left, right), (bottom, top) = axes.get_xlim(), axes.get_ylim()
     scale = min(AXES[0] / (right - left), AXES[1] / (top - bottom))  # at least as large as the axes will be drawn
     down = levels([scale * at for at in lowest])
+    parts = shades(list(curves))
     for t, at, level in zip(curves, lowest, down):
         axes.annotate(units.moment(t), at, xytext=(0, -9 - level * LABEL[1]), textcoords="offset points", ha="center", va="top",
-                      fontsize=8, arrowprops={"arrowstyle": "-", "linewidth": 0.4, "color": "#888888"} if level else None,
+                      fontsize=8, color=_shaded("black", parts[t]), arrowprops={"arrowstyle": "-", "linewidth": 0.4, "color": "#888888"} if level else None,
                       zorder=4 - 0.01 * level, bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.5})   # over the lines to those below
     axes.set_ylim(bottom - max(down) * LABEL[1] / scale, top)
 
@@ -86,8 +98,8 @@ def _picture(name, bodies, names):
         return None
     figure, axes = pyplot.subplots(figsize=(7.4, 5.2))
     for k, body in enumerate(bodies):
-        for t in times:
-            axes.plot(*several.at(body.outlines, t).T, color=COLOURS[k % len(COLOURS)], linestyle=LINES[k % len(LINES)],
+        for t, part in shades(times).items():
+            axes.plot(*several.at(body.outlines, t).T, color=_shaded(COLOURS[k % len(COLOURS)], part), linestyle=LINES[k % len(LINES)],
                       linewidth=1.3)
     axes.set_aspect("equal")
     axes.margins(0.06, 0.1)
@@ -125,4 +137,5 @@ def pictures(series, told, out):
     if rows:
         several.write_table(HEADING, rows, out / "outlines.csv")
         for name, label, other, t, apart in rows:
-            print(f"{name}: outlines of {label} and {other} at t = {t:g} are up to {apart:.2e} apart")
+            far = f"{apart:.2e} {units.symbol('length')}".rstrip()
+            print(f"{name}: outlines of {label} and {other} at {units.moment(t)} are up to {far} apart")
