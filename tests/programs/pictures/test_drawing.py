@@ -181,7 +181,7 @@ class Streamlines(unittest.TestCase):
     def test_all_panels_have_one_bar_and_solids_one_of_their_own_where_their_scale_is(self):
         style.use()
         solids = ScalarMappable(Normalize(0, 1))
-        for most, drawn, labels in (((1, 1), solids, [""]), ((1, 0.01), solids, ["solid", "gas"]), ((1, 0), None, [""])):
+        for most, drawn, labels in (((1, 1), solids, [""]), ((1, 0.01), solids, ["solid", "gas"]), ((1, 0), None, ["gas"])):
             figure, panels = streamlines._panels(3, (0, 2, 0, 1))
             streamlines._bars(figure, panels, most, drawn)
             self.assertEqual([bar.get_title(loc="left").rpartition("\n")[2] for bar in figure.axes[4:]], labels)

@@ -147,10 +147,10 @@ def _panel(axes, moment, most):
 def _bars(figure, panels, most, of_solids):
     """One bar for the gas and one for the solids, right of all panels; one for both where they have the same scale. `of_solids`: what
     their bar needs, None where they rest."""
-    of_gas = ScalarMappable(Normalize(0, most[0]), style.GAS_MAP)
-    if of_solids and most[0] != most[1]:
+    of_both = of_solids and most[0] == most[1]
+    if of_solids and not of_both:
         style.bar(figure, panels, of_solids, "solid", beside=style.above_bar("gas", 0, most[0]))
-    style.bar(figure, panels, of_gas, "gas" if of_solids and most[0] != most[1] else "")
+    style.bar(figure, panels, ScalarMappable(Normalize(0, most[0]), style.GAS_MAP), "" if of_both else "gas")
 
 
 def _panels(count, box):
