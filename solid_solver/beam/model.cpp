@@ -1,5 +1,7 @@
 #include "solid_solver/beam/model.hpp"
 
+#include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -29,6 +31,14 @@ Section plate_section(double rho, double lambda, double mu, double d) {
           .EI = E * d * d * d / 12,
           .mass = rho * d,
           .inertia = rho * d * d * d / 12};
+}
+
+Mat2 plate_stress(double d, const Resultants& force, double y, double angle, double theta) {
+  const double axial = force.N / d - 12 * force.M * y / (d * d * d);
+  const double shear = 1.5 * force.Q / d * std::max(0.0, 1 - 4 * y * y / (d * d));
+  Mat2 S;
+  S << axial, shear, shear, 0;
+  return Eigen::Rotation2Dd(angle) * S * Eigen::Rotation2Dd(-angle - theta);
 }
 
 Line straight_line(const Vec2& from, const Vec2& to, int elements) {
@@ -95,6 +105,19 @@ double BeamModel::length() const {
   double sum = 0;
   for (const double l : lengths_) sum += l;
   return sum;
+}
+
+double BeamModel::angle_at(double s) const {
+  const int element = std::min(static_cast<int>(s), elements() - 1);
+  const double first = line_.alpha[static_cast<std::size_t>(element)];
+  return first + 2 * (s - element) * (angle(element) - first);
+}
+
+Middles BeamModel::middles_around(double s) const {
+  const int n = elements();
+  int first = static_cast<int>(std::floor(s - 0.5));
+  if (!line_.closed) first = std::clamp(first, 0, std::max(n - 2, 0));
+  return {.before = (first + n) % n, .after = (first + 1) % n, .part = s - 0.5 - first};
 }
 
 BeamModel::Strained BeamModel::strain(const Eigen::VectorXd& u, int element) const {
@@ -173,6 +196,12 @@ std::vector<Resultants> BeamModel::resultants(const Eigen::VectorXd& u) const {
   std::vector<Resultants> all;
   for (int element = 0; element < elements(); ++element) all.push_back(resultants(u, element));
   return all;
+}
+
+Resultants BeamModel::resultants_at(const Eigen::VectorXd& u, double s) const {
+  const auto [before, after, part] = middles_around(s);
+  const Resultants a = resultants(u, before), b = resultants(u, after);
+  return {.N = std::lerp(a.N, b.N, part), .Q = std::lerp(a.Q, b.Q, part), .M = std::lerp(a.M, b.M, part)};
 }
 
 std::vector<Resultants> BeamModel::resultants_along(const Eigen::VectorXd& u,

@@ -53,6 +53,18 @@ struct Resultants {
   double M = 0;  ///< bending moment [force*length/depth]
 };
 
+/// Nominal stress in the section of a plate of thickness d, at the distance y from its centre line: axial force and
+/// moment make it linear across the section, the shear force a parabola. P = S Lambda^T with a symmetric S: the shear
+/// stress acts on layers along the line as it does on sections.
+/// @param angle of the section at rest  @param theta its rotation
+Mat2 plate_stress(double d, const Resultants& force, double y, double angle, double theta);
+
+/// Two elements, and how far from the middle of the one to that of the other a place is.
+struct Middles {
+  int before = 0, after = 0;
+  double part = 0;  ///< less than 0 or more than 1 beyond the outermost middles of an open line
+};
+
 /// Force and stiffness of one element on its degrees of freedom: those of its first node, then of its second.
 struct ElementForce {
   std::array<Eigen::Index, 6> index{};    ///< among all degrees of freedom
@@ -79,6 +91,10 @@ class BeamModel {
   double length(int element) const { return lengths_[static_cast<std::size_t>(element)]; }
   /// Angle of the section in the middle of an element at rest.
   double angle(int element) const { return angles_[static_cast<std::size_t>(element)]; }
+  /// The same at a place on the line, in elements: linear between the nodes.
+  double angle_at(double s) const;
+  /// The elements whose middles are next to such a place.
+  Middles middles_around(double s) const;
 
   /// Lumped: diagonal.
   const Eigen::VectorXd& mass() const { return mass_; }
@@ -96,6 +112,9 @@ class BeamModel {
   double strain_energy(const Eigen::VectorXd& u) const;
   Resultants resultants(const Eigen::VectorXd& u, int element) const;
   std::vector<Resultants> resultants(const Eigen::VectorXd& u) const;
+  /// At a place on the line, in elements: those of the elements belong to their middles, and are linear between
+  /// these, and on to the ends.
+  Resultants resultants_at(const Eigen::VectorXd& u, double s) const;
   /// Those at u + change by the strains' derivative at u.
   std::vector<Resultants> resultants_along(const Eigen::VectorXd& u, const Eigen::VectorXd& change) const;
   /// Force on the nodes of a force per length at every node.

@@ -23,15 +23,15 @@ constexpr std::array<const char*, 12> quantities{"u1",  "u2",  "v1",    "v2", "P
 /// its two sides then does not share a line with other points.
 constexpr double beside = 0.01;
 
-/// Nominal stress at the distance y from the centre line: axial force and moment make it linear across the
-/// section, the shear force a parabola.
-/// @param angle of the section at rest  @param theta its rotation
-Mat2 nominal_stress(const Section& section, const Resultants& force, double y, double angle, double theta) {
-  const double d = std::sqrt(12 * section.EI / section.EA);
-  const double axial = force.N / d - 12 * force.M * y / (d * d * d);
-  const double shear = 1.5 * force.Q / d * std::max(0.0, 1 - 4 * y * y / (d * d));
-  const Vec2 along(std::cos(angle + theta), std::sin(angle + theta)), across(-along.y(), along.x());
-  return Vec2(std::cos(angle), std::sin(angle)) * (axial * along + shear * across).transpose();
+double thickness(const Section& section) {
+  return std::sqrt(12 * section.EI / section.EA);
+}
+
+/// At a place on the line, as the stress resultants; its logarithm is linear, so that it stays positive.
+double thickness_at(const BeamModel& model, double s) {
+  const auto [before, after, part] = model.middles_around(s);
+  const double first = thickness(model.section(before));
+  return first * std::pow(thickness(model.section(after)) / first, part);
 }
 
 /// Length of the outline that belongs to each point.
@@ -125,11 +125,10 @@ void BeamParticipant::advance(double t, double dt, int /*substeps*/, ProjectedSt
 
 void BeamParticipant::values_at(const Attached& point, const Vec2& x_bar, std::span<double> values) const {
   const BeamModel& model = motion_.model();
-  const int element = std::min(static_cast<int>(point.s), model.elements() - 1);
-  const Resultants force = model.resultants(motion_.u(), element);
+  const Resultants force = model.resultants_at(motion_.u(), point.s);
   const PointState at = state_of(motion_, point);
-  const double angle = model.angle(element), y = Vec2(-std::sin(angle), std::cos(angle)).dot(point.r);
-  const Mat2 P = nominal_stress(model.section(element), force, y, angle, at.theta);
+  const double angle = model.angle_at(point.s), y = Vec2(-std::sin(angle), std::cos(angle)).dot(point.r);
+  const Mat2 P = plate_stress(thickness_at(model, point.s), force, y, angle, at.theta);
   const Vec2 u = at.x - x_bar;
   std::ranges::copy(
       std::array<double, quantities.size()>{u[0], u[1], at.v[0], at.v[1], P(0, 0), P(0, 1), P(1, 0), P(1, 1),
@@ -192,8 +191,7 @@ double BeamParticipant::node_weight(int node) const {
   const BeamModel& model = motion_.model();
   if (spec_.rho > 0) return model.mass()[freedom_of(node)];
   const auto half = [&](int element) {
-    const Section& section = model.section(element);
-    return 0.5 * model.length(element) * std::sqrt(12 * section.EI / section.EA);
+    return 0.5 * model.length(element) * thickness(model.section(element));
   };
   const double before = node > 0 ? half(node - 1) : 0, after = node < model.elements() ? half(node) : 0;
   return before + after;

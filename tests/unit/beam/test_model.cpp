@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <array>
 #include <cmath>
 #include <utility>
@@ -124,6 +125,72 @@ TEST(BeamModel, AnEndMomentRollsItUpToACircle) {
   const Resultants middle = model.resultants(rolled.u(), 10);
   EXPECT_NEAR(middle.M, 2 * pi, 1e-6);
   EXPECT_NEAR(middle.Q, 0, 1e-6);
+}
+
+TEST(BeamModel, UnderAUniformLoadItsForcesAndMomentAreOfSecondOrderUpToItsEnds) {
+  constexpr double load = 1e-7;
+  for (const double s : {0.0, 0.33, 0.5, 1.0}) {
+    const auto errors = [&](int elements) {
+      const BeamModel model = straight(thick, elements);
+      const std::vector<Vec2> uniform(static_cast<std::size_t>(model.nodes()), Vec2(0, load));
+      Section massless = thick;
+      massless.mass = massless.inertia = 0;
+      const BeamMotion bent = at_rest(straight(massless, elements), cantilever, model.nodal_load(uniform));
+      const Resultants at = model.resultants_at(bent.u(), s * elements);
+      return std::array{std::abs(at.Q / load - (1 - s)), std::abs(at.M / load - (1 - s) * (1 - s) / 2)};
+    };
+    const auto coarse = errors(10), fine = errors(20);
+    for (const std::size_t k : {0U, 1U}) {
+      EXPECT_LE(coarse[k], 5e-3) << "at " << s;
+      EXPECT_LE(fine[k], coarse[k] / 3.5 + 1e-6) << "at " << s;
+    }
+  }
+}
+
+TEST(BeamModel, AtANodeItsForcesAndAngleAreTheSameFromBothDirections) {
+  constexpr double close = 1e-12;
+  for (const BeamModel& model : {straight(thick, 4), ring(thick, 0.7, 5)}) {
+    const Eigen::VectorXd u = bent(model);
+    const int n = model.elements();
+    for (int node = model.line().closed ? 0 : 1; node < n; ++node) {
+      const double before = (node > 0 ? node : n) - close, after = node + close;
+      const Resultants a = model.resultants_at(u, before), b = model.resultants_at(u, after);
+      for (const double jump : {a.N - b.N, a.Q - b.Q, a.M - b.M}) EXPECT_NEAR(jump, 0, 1e-10);
+      EXPECT_NEAR(std::remainder(model.angle_at(before) - model.angle_at(after), 2 * pi), 0, 1e-10);
+    }
+    for (int element = 0; element < n; ++element) {
+      EXPECT_NEAR(model.resultants_at(u, element + 0.5).M, model.resultants(u, element).M, 1e-13);
+      EXPECT_NEAR(model.angle_at(element + 0.5), model.angle(element), 1e-13);
+    }
+  }
+}
+
+TEST(BeamModel, ThatOfOneElementHasItsForcesEverywhere) {
+  const BeamModel model = straight(thick, 1);
+  const Eigen::VectorXd u = bent(model);
+  for (const double s : {0.0, 0.3, 1.0}) EXPECT_EQ(model.resultants_at(u, s).M, model.resultants(u, 0).M);
+}
+
+TEST(PlateStress, MakesTheForcesOfItsSectionAndNoMomentOnAnyPartOfIt) {
+  constexpr double d = 0.2, angle = 0.4, theta = 1.1;
+  const Resultants force{.N = 0.3, .Q = -0.7, .M = 0.05};
+  const Eigen::Rotation2Dd turn(theta), section(angle);
+  constexpr int parts = 400;
+  Vec2 sum = Vec2::Zero();
+  double moment = 0;
+  for (int k = 0; k < parts; ++k) {
+    const double y = d * ((k + 0.5) / parts - 0.5);
+    const Mat2 P = plate_stress(d, force, y, angle, theta);
+    const Vec2 pull = (turn * section).inverse() * (P.transpose() * (section * Vec2(1, 0)));
+    sum += d / parts * pull;
+    moment -= d / parts * y * pull[0];
+    const Mat2 FP = turn * P;  // of a section that does not strain
+    EXPECT_NEAR(FP(0, 1), FP(1, 0), 1e-13);
+  }
+  EXPECT_LE((sum - Vec2(force.N, force.Q)).norm(), 1e-5);
+  EXPECT_NEAR(moment, force.M, 1e-6);
+  const Mat2 outline = plate_stress(d, force, d / 2, angle, theta);
+  EXPECT_LE((outline.transpose() * (section * Vec2(0, 1))).norm(), 1e-13);
 }
 
 /// Angular frequencies in ascending order, from the stiffness at u.
