@@ -65,23 +65,22 @@ void keep_freed_memory() {
   mallopt(M_TRIM_THRESHOLD, 128 << 20);
 }
 
-[[noreturn]] void fail_to_join(dds_entity_t error, const std::string& run, const std::string& advice) {
-  throw PeerLost(fmt::format("cannot join run '{}' on the bus: {} ({}){}", run, dds_strretcode(error),
-                             last_log_line(), advice));
-}
-
-/// Without its interface there is no domain.
-std::string advice_on_domain(const std::string& network) {
-  if (last_log_line().find("interface") == std::string::npos) return "";
+/// What helps, by the words of Cyclone's log. A machine has places for 32 programs in one domain; past them, creation fails.
+std::string advice_on(const std::string& trouble, const std::string& run, const std::string& network) {
+  if (trouble.find("participant index") != std::string::npos)
+    return fmt::format(
+        ". Domain {} of this machine is full (32 programs): end other runs, or give this run another name",
+        domain_of(run));
+  if (trouble.find("interface") == std::string::npos) return "";
   if (network.empty()) return "; is the loopback interface up? as root: ip link set lo up";
   return fmt::format("; this machine needs an interface that has the address {}", network);
 }
 
-/// A machine has places for 32 programs in one domain; past them, creation fails.
-std::string advice_on_participant(const std::string& run) {
-  return fmt::format(
-      ". Domain {} of this machine may be full (32 programs): end other runs, or give this run another name",
-      domain_of(run));
+dds_entity_t checked_place(dds_entity_t handle, const std::string& run, const std::string& network = "") {
+  if (handle >= 0) return handle;
+  const std::string trouble = last_log_line();
+  throw PeerLost(fmt::format("cannot join run '{}' on the bus: {} ({}){}", run, dds_strretcode(handle),
+                             trouble, advice_on(trouble, run, network)));
 }
 
 /// The plugins lie in a folder beside the library itself (Debian: libddsc0debian/).
@@ -154,9 +153,8 @@ std::shared_ptr<const Entity> join_domain(const std::string& run, double partici
                               domain.run));
   }
   const std::uint32_t id = domain_of(run);
-  const dds_entity_t handle =
-      dds_create_domain(id, configuration_xml(run, participant_lease_s, network).c_str());
-  if (handle < 0) fail_to_join(handle, run, advice_on_domain(network));
+  const dds_entity_t handle = checked_place(
+      dds_create_domain(id, configuration_xml(run, participant_lease_s, network).c_str()), run, network);
   auto entity = std::make_shared<const Entity>(handle, "domain");
   domain = {run, entity};
   return entity;
@@ -164,9 +162,7 @@ std::shared_ptr<const Entity> join_domain(const std::string& run, double partici
 
 Entity create_participant(const std::string& run, const RunKey& key, const std::string& role) {
   const Qos qos = participant_qos(run, key, role);
-  const dds_entity_t handle = dds_create_participant(domain_of(run), qos.get(), nullptr);
-  if (handle < 0) fail_to_join(handle, run, advice_on_participant(run));
-  return {handle, "participant"};
+  return {checked_place(dds_create_participant(domain_of(run), qos.get(), nullptr), run), "participant"};
 }
 
 Qos writer_qos(Delivery delivery) {

@@ -246,7 +246,7 @@ TEST(Crowding, FullDomainIsSaidInWords) {
     word = crowd.back()->hear();
   }
   EXPECT_GT(crowd.size(), 16U);  // others may use ports of this domain, but not half of them
-  EXPECT_TRUE(says(word, "may be full")) << word;
+  EXPECT_TRUE(says(word, "is full (32 programs)")) << word;
   EXPECT_EQ(crowd.back()->end(), 4);
 }
 
