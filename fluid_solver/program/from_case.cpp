@@ -57,7 +57,7 @@ Boundary boundary_of(const BoundarySpec& spec, const std::string& path,
   if (std::ranges::any_of(schema::gas_boundary(spec.kind).keys, schema::takes_reference))
     data.state = looked_at(data_of(spec.from_reference, spec.state, reference, path), path);
   for (const auto& [key, field] : spec.fields)
-    data.fields[key] = [field](double x, double y, double t) { return field(x, y, t); };
+    data.fields[key] = [given = field](double x, double y, double t) { return given(x, y, t); };
   std::optional<Boundary> boundary = boundary_from(spec.kind, data);
   if (!boundary) throw UserMistake(fmt::format("{} has a condition for solids", path));
   return *std::move(boundary);
