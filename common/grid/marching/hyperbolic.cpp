@@ -26,6 +26,13 @@ std::size_t unknowns_of(const HyperbolicGrid& grid) {
   return static_cast<std::size_t>(grid.ends == Curve::closed ? grid.points - 1 : grid.points);
 }
 
+/// From 1, where a normal's part along the wall is half the foot's or more, to 0, where it is none; with its derivative.
+double share_of_wall(double along, double foot) {
+  if (2 * along >= foot) return 1;
+  const double z = std::max(0.0, 2 * along / foot);
+  return z * z * (3 - 2 * z);
+}
+
 }  // namespace
 
 HyperbolicMarch::HyperbolicMarch(HyperbolicGrid grid)
@@ -246,7 +253,9 @@ double HyperbolicMarch::concave_smoothing(std::size_t k, double d) const {
   return grid_.concave_smoothing * concave_share_ * excess(k) * depth() * d / (smooth * smooth);
 }
 
-/// Near an end that slides on a wall, normals turn into the wall's direction.
+/// Near an end that slides on a wall, normals turn into the wall's direction, that towards which the foot's normal
+/// points. Those that go less than half as far along it as the foot's do so less, and those that turn away from
+/// it, as beyond the tip of a flap, not at all.
 void HyperbolicMarch::blend_into_walls() {
   for (std::size_t end = 0; end < 2; ++end) {
     const std::optional<Vec2>& direction = grid_.walls[end];
@@ -255,11 +264,14 @@ void HyperbolicMarch::blend_into_walls() {
       shift_along_curve(end);
       continue;
     }
+    const auto at = [&](std::size_t k) { return end == 0 ? k : line_.size() - 1 - k; };
+    const double foot = line_[at(0)].normal.dot(*direction);
+    const Vec2 wall = foot < 0 ? Vec2(-*direction) : *direction;
     const std::size_t reach = std::min(static_cast<std::size_t>(grid_.blend), line_.size() / 2);
     for (std::size_t k = 0; k <= reach; ++k) {
-      LinePoint& here = line_[end == 0 ? k : line_.size() - 1 - k];
-      const Vec2 wall = here.normal.dot(*direction) < 0 ? Vec2(-*direction) : *direction;
-      const double blend = 1 - static_cast<double>(k) / static_cast<double>(reach + 1);
+      LinePoint& here = line_[at(k)];
+      const double way = 1 - static_cast<double>(k) / static_cast<double>(reach + 1);
+      const double blend = way * share_of_wall(here.normal.dot(wall), std::abs(foot));
       here.normal = ((1 - blend) * here.normal + blend * wall).normalized();
       here.blend = std::max(here.blend, blend);
     }

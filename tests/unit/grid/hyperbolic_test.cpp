@@ -336,6 +336,35 @@ TEST(HyperbolicMarch, LinesAroundARoundTipKeepTheirOrderWhenTheFlapBends) {
   }
 }
 
+/// Largest distance of a grid's points from the mirror images, in x = 0, of those that come from the other end of its
+/// lines, in spacings.
+double lopsidedness(ConstFieldView x, double spacing) {
+  double worst = 0;
+  const int last = x.layout.n1 - 1;
+  for (int j = 0; j < x.layout.n2; ++j) {
+    for (int i = 0; i <= last; ++i)
+      worst = std::max(worst, std::hypot(x(0, i, j) + x(0, last - i, j), x(1, i, j) - x(1, last - i, j)));
+  }
+  return worst / spacing;
+}
+
+// The normal at the tip is upright but for round-off, whose sign once said on which side of the flap its line came to lie.
+TEST(HyperbolicMarch, GridsAroundAFlapOnAWallAreAsSymmetricAsTheFlap) {
+  constexpr double spacing = 0.02;
+  const PlaneCurve flap =
+      rounded_polygon({.corners = {{0.05, 0}, {0.05, 0.2}, {-0.05, 0.2}, {-0.05, 0}}, .radius = 0.03});
+  for (const Side side : {Side::top, Side::bottom}) {
+    for (const int points : {31, 32}) {
+      const double nearer = side == Side::top ? 1 : 0.1;  // lines within the flap
+      HyperbolicGrid description = beam_grid(points, 9, side, nearer * spacing);
+      description.blend = 2 * description.lines;
+      const Marched grid = march(flap, description);
+      EXPECT_LT(lopsidedness(grid.x.view(), spacing), 1e-12) << points;
+      EXPECT_GT(cell_quality(grid.x.view()), 0.3) << points;
+    }
+  }
+}
+
 TEST(HyperbolicMarch, NamesGridCellPlaceAndTimeOfAFold) {
   try {
     march(beam_outline(), beam_grid(200, 10, Side::top, 0.02), 1.5);
