@@ -18,6 +18,12 @@ Vec2 point(const CuttingCurve& curve, int k) {
   return {curve.x[k], curve.y[k]};
 }
 
+/// Unit normal of a segment of the curve, into the region behind it.
+Vec2 normal_of(const CuttingCurve& curve, int segment) {
+  const Vec2 way = (point(curve, segment + 1) - point(curve, segment)).normalized();
+  return curve.domain_left ? Vec2(way[1], -way[0]) : Vec2(-way[1], way[0]);
+}
+
 /// First index k in [0, n] with a + k d >= value. Never inlined: the same value must give the same index
 /// wherever it is asked for, and a compiler may round a + k d differently from place to place.
 [[gnu::noinline]] int first_not_below(double value, double a, double d, int n) {
@@ -77,54 +83,62 @@ void CurveCut::cut(const CartesianGrid& grid, const CuttingCurve& curve, const s
   find_starts(curve, grid.n2, name, t);
 }
 
+/// Points on the curve, but for round-off, belong to the domain in every direction, so that a straight curve along a
+/// row or column cuts it cleanly: what cuts is the curve moved by a billionth of a cell into the region behind it.
+void CurveCut::withdraw(const CartesianGrid& grid, const CuttingCurve& curve) {
+  const double way = 1e-9 * std::min(grid.dx(), grid.dy());
+  const int last = curve.points - 1;
+  cutting_.clear();
+  for (int k = 0; k <= last; ++k) {
+    int before = k - 1, after = k;
+    if (curve.ends == Curve::closed && (k == 0 || k == last)) before = last - 1, after = 0;
+    const Vec2 sum = normal_of(curve, std::max(before, 0)) + normal_of(curve, std::min(after, last - 1));
+    cutting_.push_back(point(curve, k) + way * sum.normalized());
+  }
+}
+
 void CurveCut::collect(const CartesianGrid& grid, const CuttingCurve& curve, const std::string& name,
                        double t) {
   domain_left_ = curve.domain_left;
   segments_.clear();
   crossings_.clear();
   flips_.clear();
+  withdraw(grid, curve);
+  const Vec2 first = cutting_.front(), end = cutting_.back();
   const int last = curve.points - 1;
   const bool open = curve.ends == Curve::open && !curve.on_wall;
-  if (open) add_segment(grid, beyond(grid, point(curve, 0), name, t), point(curve, 0), 0, curve.domain_left);
-  for (int k = 0; k < last; ++k)
-    add_segment(grid, point(curve, k), point(curve, k + 1), k, curve.domain_left);
+  if (open) add_segment(grid, beyond(grid, first, name, t), first, 0);
+  for (std::size_t k = 0; k + 1 < cutting_.size(); ++k)
+    add_segment(grid, cutting_[k], cutting_[k + 1], static_cast<int>(k));
   if (curve.on_wall) {
-    const Vec2 first = point(curve, 0), end = point(curve, last), dip = into_wall(grid, curve);
-    add_segment(grid, end, end + dip, last - 1, curve.domain_left);
-    add_segment(grid, end + dip, first + dip, last - 1, curve.domain_left);
-    add_segment(grid, first + dip, first, 0, curve.domain_left);
+    const Vec2 dip = into_wall(grid, curve);
+    add_segment(grid, end, end + dip, last - 1);
+    add_segment(grid, end + dip, first + dip, last - 1);
+    add_segment(grid, first + dip, first, 0);
   }
-  if (open) {
-    add_segment(grid, point(curve, last), beyond(grid, point(curve, last), name, t), last - 1,
-                curve.domain_left);
-  }
+  if (open) add_segment(grid, end, beyond(grid, end, name, t), last - 1);
 }
 
 /// A row (and the left boundary) meets a segment where its ends lie on different sides, a point on it
 /// counting as before it: what one segment of a curve misses at a common point, the next one has.
-void CurveCut::add_segment(const CartesianGrid& grid, const Vec2& a, const Vec2& b, int segment,
-                           bool domain_left) {
+void CurveCut::add_segment(const CartesianGrid& grid, const Vec2& a, const Vec2& b, int segment) {
   segments_.push_back({a, b});
   const double low = std::min(a[1], b[1]), high = std::max(a[1], b[1]);
   const bool upward = b[1] > a[1];
   const int end = first_not_below(high, grid.y_a, grid.dy(), grid.n2);
   for (int j = first_not_below(low, grid.y_a, grid.dy(), grid.n2); j < end; ++j) {
     const double x = a[0] + (grid.y(j) - a[1]) * ((b[0] - a[0]) / (b[1] - a[1]));
-    const bool into_hole = upward == domain_left;
-    // Points on the curve, but for round-off, belong to the domain:
-    // a straight curve along a column cuts it cleanly.
-    const double slack = (into_hole ? 1e-9 : -1e-9) * grid.dx();
     crossings_.push_back({.row = j,
-                          .column = first_above(x + slack, grid.x_a, grid.dx(), grid.n1),
+                          .column = first_above(x, grid.x_a, grid.dx(), grid.n1),
                           .segment = segment,
                           .x = x,
-                          .into_hole = into_hole});
+                          .into_hole = upward == domain_left_});
   }
   if ((a[0] <= grid.x_a) == (b[0] <= grid.x_a)) return;
   const double y = a[1] + (grid.x_a - a[0]) * ((b[1] - a[1]) / (b[0] - a[0]));
   const bool rightward = b[0] > a[0];
   flips_.push_back(
-      {.row = first_above(y, grid.y_a, grid.dy(), grid.n2), .y = y, .into_hole = rightward != domain_left});
+      {.row = first_above(y, grid.y_a, grid.dy(), grid.n2), .y = y, .into_hole = rightward != domain_left_});
 }
 
 void CurveCut::sort_by_rows(int rows) {

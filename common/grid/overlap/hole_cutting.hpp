@@ -66,6 +66,7 @@ class CurveCut {
   };
 
   bool domain_left_ = true;
+  std::vector<Vec2> cutting_;  ///< the curve's points, as they cut
   std::vector<Segment> segments_;
   std::vector<Crossing> crossings_, sorted_;
   std::vector<std::size_t> first_;
@@ -74,7 +75,8 @@ class CurveCut {
 
   int depth(int i, int row) const;
   void collect(const CartesianGrid& grid, const CuttingCurve& curve, const std::string& name, double t);
-  void add_segment(const CartesianGrid& grid, const Vec2& a, const Vec2& b, int segment, bool domain_left);
+  void withdraw(const CartesianGrid& grid, const CuttingCurve& curve);
+  void add_segment(const CartesianGrid& grid, const Vec2& a, const Vec2& b, int segment);
   void sort_by_rows(int rows);
   void drop_touches(double tolerance);
   void find_starts(const CuttingCurve& curve, int rows, const std::string& name, double t);

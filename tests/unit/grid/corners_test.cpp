@@ -298,5 +298,29 @@ TEST(CurveCut, ACurveOnAWallIsClosedALittleBehindIt) {
   }
 }
 
+// Its four sides lie on lines of the background, but for round-off.
+TEST(CurveCut, PointsOnABoxBelongToTheDomainOnAllItsSides) {
+  const CartesianGrid background{.name = "gas", .n1 = 21, .n2 = 21, .x_a = -1, .x_b = 1, .y_a = -1, .y_b = 1};
+  constexpr int n = 4 * 8 + 1;
+  for (const bool domain_left : {false, true}) {
+    for (const double off : {0.0, 1e-15, -1e-15, 1e-13, -1e-13}) {
+      const double side = 0.4 + off;
+      auto x =
+          points_on(sharp({{side, side}, {-side, side}, {-side, -side}, {side, -side}}, Curve::closed), n);
+      if (domain_left) std::reverse(x.begin(), x.begin() + n), std::reverse(x.begin() + n, x.end());
+      CurveCut cut;
+      cut.cut(background, {.x = x.data(), .y = x.data() + n, .points = n, .domain_left = domain_left}, "box",
+              0);
+      for (int j = 0; j < background.n2; ++j) {
+        std::vector<Interval> holes;
+        cut.append_holes(j, background.n1, holes);
+        const bool within = j > 6 && j < 14;
+        EXPECT_EQ(holes.size(), within ? 1U : 0U) << j << " " << off;
+        for (const Interval& hole : holes) EXPECT_EQ(hole.end - hole.begin, 7) << j << " " << off;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace fsi::grid
