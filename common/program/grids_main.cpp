@@ -34,12 +34,11 @@ fsi::Field outline_of(const fsi::CurveSpec& curve) {
   return x;
 }
 
-/// A background and what is fitted before it, connected.
+/// A background and what is fitted before it, with the room that near curves leave each other, connected.
 void write_grids(const std::string& folder, const std::string& name, const GridSpec& background,
                  const std::vector<BodyFittedSpec>& fitted) {
-  std::vector<fsi::grid::MovingGrid> grids;
-  grids.emplace_back(fsi::grid_from_case(background, false), 0);
-  for (const BodyFittedSpec& spec : fitted) grids.emplace_back(fsi::grid_from_case(spec), 0);
+  std::vector<fsi::grid::MovingGrid> grids = fsi::grids_at_start(fitted);
+  grids.emplace(grids.begin(), fsi::grid_from_case(background, false), 0);
   std::optional<fsi::grid::CompositeGrid> composite;
   if (!fitted.empty()) {
     std::vector<fsi::ConstFieldView> bodies;

@@ -178,17 +178,26 @@ class Grids(InFolder):
         self.assertIn("no folder", self.fsi("check", "plate", "--plot", "nowhere/a.png", code=2).stderr)
 
     def test_they_are_those_of_a_run(self):
-        changes = ("--set", "grid.factor=2", "--set", "time.end=1e-3", "--set", "output.times=[0]")
-        run = self.complete("two_cylinders", *changes, "--no-progress")
-        subprocess.run([BIN / "fsi_grids", "two_cylinders", self.folder / "grids", "--set", "grid.factor=2"], check=True, cwd=ROOT)
-        files = sorted(path.name for path in run.directory.glob("*.h5"))
-        self.assertEqual(files, sorted(path.name for path in (self.folder / "grids").glob("*.h5")))
+        for case, factor in (("two_cylinders", 2), ("moving_together_corners", 1)):    # the latter's bodies leave each other little room
+            with self.subTest(case=case):
+                grids = ("--set", f"grid.factor={factor}")
+                times = ("--set", "time.end=1e-3", "--set", "output.times=[0]")
+                run = self.complete(case, *grids, *times, "--no-progress", out=f"run_{case}")
+                drawn = self.folder / case
+                subprocess.run([BIN / "fsi_grids", case, drawn, *grids], check=True, cwd=ROOT)
+                files = sorted(path.name for path in run.directory.glob("*.h5"))
+                self.assertEqual(files, sorted(path.name for path in drawn.glob("*.h5")))
+                self.expect_same_grids(run.directory, drawn, files if case == "two_cylinders" else ["fluid.h5"])    # rigid bodies have an outline
+
+    def expect_same_grids(self, computed, drawn, files):
+        """In the first output of a run and in a folder of grids."""
         for name in files:
-            with h5py.File(run.directory / name) as computed, h5py.File(self.folder / "grids" / name) as drawn:
-                self.assertEqual(list(computed["000000"]), list(drawn["000000"]))
-                for grid in computed["000000"]:
+            with h5py.File(computed / name) as one, h5py.File(drawn / name) as other:
+                self.assertEqual(list(one["000000"]), list(other["000000"]))
+                for grid in one["000000"]:
                     for key in ("x1", "x2", "kind"):
-                        np.testing.assert_array_equal(computed["000000"][grid][key], drawn["000000"][grid][key], f"{name} {grid} {key}")
+                        np.testing.assert_array_equal(one["000000"][grid][key], other["000000"][grid][key], f"{name} {grid} {key}")
+
 
 
 if __name__ == "__main__":
