@@ -105,6 +105,22 @@ def _expect_valid(options):
             raise UserMistake(f"level {j}: {mistake}") from None
 
 
+def _expect_finer(levels, coarse, fine):
+    """Grids of {name: points} on two levels that differ; those that do not are told. Throws UserMistake where none does."""
+    same = [name for name, points in fine.items() if points == coarse.get(name)]
+    if not same:
+        return
+    words = (f"level {levels[1]}: {', '.join(same)} with as many points as on level {levels[0]}: numbers that the case gives "
+             "for `points` or `spacing` do not follow grid.factor")
+    if same == list(fine):
+        raise UserMistake(f"{words}, so these grids are one and the same; leave them out, or write `spacing: h` or a part of h")
+    tell(words)
+
+
+def _points(summary):
+    return {name: entry["points"] for name, entry in summary["participants"].items() if "points" in entry}
+
+
 def _run_levels(options, directory):
     """Summaries of the runs, one per level. Throws the Failure of the first run that fails."""
     summaries = []
@@ -117,6 +133,8 @@ def _run_levels(options, directory):
         if result.code != DONE:
             raise Failure(result.code, f"level {j} failed; no table")
         _expect_errors(options.rates, result.summary["errors"])
+        if summaries:
+            _expect_finer(options.levels[len(summaries) - 1:], _points(summaries[-1]), _points(result.summary))
         summaries.append(result.summary)
     return summaries
 

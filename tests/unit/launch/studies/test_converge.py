@@ -5,6 +5,7 @@ import sys
 import unittest
 from pathlib import Path
 from types import SimpleNamespace
+from unittest import mock
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 import launcher  # noqa: E402,F401  the path of the launcher's modules
@@ -54,6 +55,16 @@ class Levels(unittest.TestCase):
     def test_two_are_enough_for_a_rate_with_a_reference_and_to_compare_without_and_one_for_errors(self):
         for levels, reference, rate in (([2, 4], "none", None), ([2, 4], "piston_1d", 1.9), ([4], "piston_1d", None)):
             converge._expect_enough(SimpleNamespace(levels=levels, min_rate=rate), SimpleNamespace(reference=reference))
+
+    def test_grids_that_do_not_follow_the_level_are_refused_or_told(self):
+        told = []
+        with mock.patch.object(converge, "tell", told.append):
+            converge._expect_finer([2, 4], {"fluid": 100, "solid": 50}, {"fluid": 400, "solid": 200})
+            self.assertEqual(told, [])
+            converge._expect_finer([2, 4], {"fluid": 100, "solid": 50}, {"fluid": 400, "solid": 50})
+            self.assertRegex(told[0], "level 4: solid with as many points as on level 2: ")
+            with self.assertRaisesRegex(UserMistake, "level 4: fluid, solid .* one and the same; .*`spacing: h`"):
+                converge._expect_finer([2, 4], {"fluid": 100, "solid": 50}, {"fluid": 100, "solid": 50})
 
 
 if __name__ == "__main__":
