@@ -119,9 +119,9 @@ TEST(Walls, MistakesNameThePlaceAndWhatToWrite) {
             "the wall of grid `floor` bends at (1, 0), between the ends"},
            {rounded, "along the wall of grid \"floor\", which bends"},
            {floor_case("[[0.7, 0], [0.7, 0.6], [0.98, 0.6], [0.98, 0]]"),
-            "turns too sharply at (0.98, 0.6) for the distance of its lines; write `grid: {factor: 8}` in "
-            "place of 2 "
-            "(tried: valid)"},
+            "reaches (1.02, 0) along the wall of grid \"floor\", which bends before; write `grid: {factor: "
+            "8}` in "
+            "place of 2 (tried: valid)"},
            {floor_case("[[0.7, 0], [0.7, 0.6], [0.99, 0.6], [0.99, 0]]"),
             "(tried in vain: write `grid: {factor: 4}` in place of 2"},
            {floor_case(panel, "[floor, floor]", "motion: free"), "nothing holds it there"}}) {
