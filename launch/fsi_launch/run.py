@@ -13,7 +13,7 @@ from pathlib import Path
 from fsi_launch import case as cases
 from fsi_launch import paths
 from fsi_launch.living import hosts, interrupts, ranks, registry
-from fsi_launch.results import former, probes, restart, summary, verdict
+from fsi_launch.results import folder, former, probes, restart, summary, verdict
 from fsi_launch.failure import (DONE, EXPECTATION_MISSED, Failure, INTERRUPTED, NUMBERS_BROKE, OUTPUT_FAILED, PEER_LOST, TERMINATED,
                                 USER_MISTAKE, UserMistake)
 from fsi_launch.living.progress import Progress
@@ -24,8 +24,6 @@ from fsi_launch.telling import tell
 
 FRAMES = 60     # of a movie
 COUPLER = "coupler"     # the participant of that name looks after the others
-OF_A_RUN = ("case.yaml", "summary.json", "log", "parts", "fields", "checkpoints", "last_state", "plots", "*.csv", "run.xmf",
-            "fluid.h5", "fluid_*.h5", "solid_*.h5", "reference.h5", former.ASIDE)
 
 
 @dataclass
@@ -57,49 +55,6 @@ class Result:
     code: int
     directory: Path
     summary: dict
-
-
-# --- the folder of the results
-
-
-def _free_name(name, stamp):
-    for count in range(1, 1000):
-        path = Path("runs") / (f"{name}-{stamp}" + (f"-{count}" if count > 1 else ""))
-        if not path.exists():
-            return path
-    raise Failure(OUTPUT_FAILED, "no free name for the results in runs/")
-
-
-def _remove_former_run(directory):
-    """Everything a run and its pictures leave (docs/output.md). Throws UserMistake if there is anything else."""
-    found = sorted(path for path in directory.iterdir() if not path.name.endswith((".part", ".tmp")))
-    if strangers := [path.name for path in found if not any(path.match(pattern) for pattern in OF_A_RUN)]:
-        raise UserMistake(f"--out {directory} also holds {', '.join(strangers[:3])}, which no run wrote; name a new folder, "
-                          "or move it away")
-    for path in directory.iterdir():
-        if path.is_dir() and not path.is_symlink():
-            shutil.rmtree(path)
-        else:
-            path.unlink()
-
-
-def _make_directory(request, name):
-    """The new folder of the results, with log/ in it."""
-    directory = Path(request.out) if request.out else _free_name(name, time.strftime("%Y%m%d-%H%M%S"))
-    if directory.exists() and not directory.is_dir():
-        raise UserMistake(f"--out {directory} is a file; name a folder")
-    if directory.is_dir() and any(directory.iterdir()):
-        if not (directory / "case.yaml").is_file() or not (directory / "log").is_dir():
-            raise UserMistake(f"--out {directory} is not empty and holds no run; name a new folder")
-        if not request.overwrite:
-            raise UserMistake(f"--out {directory} holds the results of a run; name a new folder or add --overwrite")
-        restart.expect_over(directory, f"--out {directory} --overwrite")
-        _remove_former_run(directory)
-    try:
-        (directory / "log").mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise Failure(OUTPUT_FAILED, f"cannot make {directory}: {error.strerror}") from None
-    return directory
 
 
 # --- the programs
@@ -241,16 +196,17 @@ def _resolved(request, path, own=None):
 
 
 def _begin(request, say):
-    """(Case, folder, checkpoint or None) of a run; the folder is ready."""
+    """(Case, folder, folders that were made for it or None, checkpoint or None) of a run; the folder is there."""
     if request.restart is None:
         if request.case is None:
             raise UserMistake("run: name a case, or a run with --restart DIR")
         case = _resolved(request, request.case)
-        directory, checkpoint = _make_directory(request, case.name), None
+        directory, made = folder.make(request.out, case.name, request.overwrite)
+        checkpoint = None
     else:
-        if request.out or request.overwrite:
+        if request.out is not None or request.overwrite:
             raise UserMistake("--restart goes on in the folder of the run; leave --out and --overwrite away")
-        directory = Path(request.restart)
+        directory, made = Path(request.restart), None
         restart.expect_run(directory)
         own = str(directory / "case.yaml")
         case = _resolved(request, request.case or own, own)
@@ -263,11 +219,7 @@ def _begin(request, say):
         if case.end <= checkpoint.t * (1 + 1e-12):
             say("that is time.end: the run is complete; --set time.end=.. goes on to a later one")
         former.lay_aside(directory)
-    with former.kept(directory):
-        _write_case(case, directory)
-        if far := hosts.wanted(request.hosts, case):
-            _look_around(far, case, directory, request)
-    return case, directory, checkpoint
+    return case, directory, made, checkpoint
 
 
 def _write_case(case, directory):
@@ -278,24 +230,21 @@ def _write_case(case, directory):
 
 
 def _look_around(far, case, directory, request):
-    """All machines see what the programs need. Throws UserMistake, and leaves no new folder then."""
+    """All machines see what the programs need. Throws UserMistake."""
     ranked = ranks.wanted(request.ranks, case)
     programs = {name: [paths.program(program), paths.program("fsi_start"), *([shutil.which("mpirun")] if name in ranked else [])]
                 for name, program in case.programs.items()}
-    try:
-        hosts.expect_all(far, request.remote_shell, directory, programs)
-    except UserMistake:
-        if not request.restart:
-            _remove_former_run(directory)
-            directory.rmdir()
-        raise
+    hosts.expect_all(far, request.remote_shell, directory, programs)
 
 
 def run(request):
     """Runs a case to its end. Throws UserMistake before anything is started; everything later is in the Result."""
     say = (lambda text: None) if request.quiet else tell
-    case, directory, checkpoint = _begin(request, say)
-    with former.kept(directory):
+    case, directory, made, checkpoint = _begin(request, say)
+    with folder.kept_if_begun(directory, made), former.kept(directory):
+        _write_case(case, directory)
+        if far := hosts.wanted(request.hosts, case):
+            _look_around(far, case, directory, request)
         return _run(case, directory, checkpoint, request, say)
 
 

@@ -57,6 +57,13 @@ def _port(text):
     return int(text)
 
 
+def _named(text):
+    """A name of a file or a folder."""
+    if not text:
+        raise argparse.ArgumentTypeError("'' is no name; write one, or leave the option away")
+    return text
+
+
 def _words(text):
     return [word for word in text.split(",") if word]
 
@@ -99,9 +106,9 @@ def _add_submit(verbs):
                       "partition's, without a checkpoint)")
     verb.add_argument("--option", metavar="OPTION", action="append", default=[], help="further option of sbatch, for each node, such as "
                       "--option=--partition=short (repeatable)")
-    verb.add_argument("--results", metavar="DIR", help="folder of the results, as --out of fsi run")
+    verb.add_argument("--results", type=_named, metavar="DIR", help="folder of the results, as --out of fsi run")
     verb.add_argument("--print", action="store_true", help="print the script")
-    verb.add_argument("--out", metavar="FILE", help="file of the script (default: CASE.sbatch)")
+    verb.add_argument("--out", type=_named, metavar="FILE", help="file of the script (default: CASE.sbatch)")
     verb.add_argument("--overwrite", action="store_true", help="replace that file")
 
 
@@ -109,7 +116,7 @@ def _add_gallery(verbs):
     verb = verbs.add_parser("gallery", description="Validated problems: without NAME lists them; with it runs the case, compares it with exact, "
                             "published or measured numbers, and writes a table and a picture. Exit 1 where a comparison fails.")
     verb.add_argument("problem", metavar="NAME", nargs="?", help="a folder of gallery/")
-    verb.add_argument("--out", metavar="DIR", help="folder of the run, the table and the picture (default: runs/gallery-NAME-TIME)")
+    verb.add_argument("--out", type=_named, metavar="DIR", help="folder of the run, the table and the picture (default: runs/gallery-NAME-TIME)")
     verb.add_argument("--compare", action="store_true", help="compare the run that is there in DIR/run, and make none")
     verb.add_argument("--overwrite", action="store_true", help="replace the run in DIR")
     verb.add_argument("--no-progress", dest="progress", action="store_false", help="no progress bar")
@@ -119,8 +126,8 @@ def _add_run(verbs):
     verb = verbs.add_parser("run", description="Runs a case: checks it, starts its programs, shows the progress, "
                             "and writes the results and summary.json to DIR.")
     _add_case(verb, nargs="?")
-    verb.add_argument("--out", metavar="DIR", help="folder of the results (default: runs/CASE-TIME)")
-    verb.add_argument("--restart", metavar="DIR", help="go on with the run in DIR from its last checkpoint; the numbers "
+    verb.add_argument("--out", type=_named, metavar="DIR", help="folder of the results (default: runs/CASE-TIME)")
+    verb.add_argument("--restart", type=_named, metavar="DIR", help="go on with the run in DIR from its last checkpoint; the numbers "
                       "are those of a run that was never interrupted. CASE may be left out; only time.end and "
                       "the time-outs, output but for its probes, and expect may be changed")
     verb.add_argument("--overwrite", action="store_true", help="replace the results of a former run in DIR")
@@ -165,7 +172,7 @@ def _add_converge(verbs):
     verb.add_argument("--rates", type=_words, metavar="NAME,..", default=[],
                       help="only these errors, e.g. rho,v1 (default: all)")
     verb.add_argument("--min-rate", type=float, metavar="R", help="exit 1 if a fitted rate is below R")
-    verb.add_argument("--out", metavar="DIR", help="folder of the runs and tables (default: runs/converge-CASE-TIME)")
+    verb.add_argument("--out", type=_named, metavar="DIR", help="folder of the runs and tables (default: runs/converge-CASE-TIME)")
 
 
 def _add_study(verbs):
@@ -179,7 +186,7 @@ def _add_study(verbs):
                       "interface.max_gap, or TABLE.COLUMN[:last|min|max] like forces_disk.angle:max (default: the errors, or where "
                       "the bodies are at the end)")
     verb.add_argument("--jobs", type=_jobs, metavar="N", default=1, help="runs at the same time (default: 1)")
-    verb.add_argument("--out", metavar="DIR", help="folder of the runs and tables (default: runs/study-CASE-TIME)")
+    verb.add_argument("--out", type=_named, metavar="DIR", help="folder of the runs and tables (default: runs/study-CASE-TIME)")
 
 
 def _add_test(verbs):
@@ -222,7 +229,7 @@ def _add_plot(verbs):
     verb.add_argument("--movie", action="store_true", help="also an animated file, one frame per output (.mp4, .gif without "
                       "ffmpeg)")
     verb.add_argument("--format", choices=("png", "pdf", "svg"), default="png", help="of the pictures (default: png)")
-    verb.add_argument("--out", metavar="DIR", help="folder of the pictures (default: plots in the first DIR)")
+    verb.add_argument("--out", type=_named, metavar="DIR", help="folder of the pictures (default: plots in the first DIR)")
 
 
 def _add_faults(verbs):
@@ -232,14 +239,14 @@ def _add_faults(verbs):
     verb.add_argument("--count", type=int, metavar="N", default=200, help="trials (default: 200)")
     verb.add_argument("--seed", type=int, metavar="S", default=1, help="of targets and moments (default: 1)")
     verb.add_argument("--jobs", type=int, metavar="N", default=2, help="trials at the same time (default: 2)")
-    verb.add_argument("--out", metavar="FILE", help="JSON with one entry per trial")
+    verb.add_argument("--out", type=_named, metavar="FILE", help="JSON with one entry per trial")
 
 
 def _add_bench(verbs):
     verb = verbs.add_parser("bench", description="Runs all benchmarks; prints one table and writes JSON.")
     verb.add_argument("--quick", action="store_true", help="a short look: fewer repetitions")
     verb.add_argument("--filter", metavar="REGEX", default="", help="only benchmarks whose name matches")
-    verb.add_argument("--out", metavar="FILE", default="build/bench.json", help="JSON file (default: build/bench.json)")
+    verb.add_argument("--out", type=_named, metavar="FILE", default="build/bench.json", help="JSON file (default: build/bench.json)")
 
 
 def _add_docs(verbs):

@@ -90,12 +90,12 @@ def latest(directory, say=lambda text: None, digest=None):
     return None
 
 
-def expect_over(directory, option):
+def expect_over(directory, option, remedy="wait for its end, or stop it"):
     """Nobody may touch the folder of a run that lives. `option`: what the user typed."""
     if run := registry.running_in(directory):
-        raise UserMistake(f"{option}: the run is still going on (launcher {run})")
+        raise UserMistake(f"{option}: the run is still going on (launcher {run}); {remedy}")
     if left := processes.programs_of(directory):
-        raise UserMistake(f"{option}: {left[0].name} of the former run is still alive (pid {left[0].pid}); wait for its end")
+        raise UserMistake(f"{option}: {left[0].name} of the former run is still alive (pid {left[0].pid}); {remedy}")
 
 
 def expect_run(directory):

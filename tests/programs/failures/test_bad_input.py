@@ -174,7 +174,27 @@ class BadInput(EndToEnd):
         refused = self.launch(*short, "--overwrite", out="long")
         self.assertEqual(refused.wait(), 2)
         self.assertIn("still going on", refused.stderr)
+        unasked = self.launch(*short, out="long")
+        self.assertEqual(unasked.wait(), 2)
+        self.assertRegex(unasked.stderr, r"still going on \(launcher \d+\); name another folder")
+        self.assertNotIn("--overwrite", unasked.stderr)
         self.assertEqual(len(living.programs()), 3)
+
+    def test_results_without_a_name_or_at_a_link_to_nowhere(self):
+        run = self.launch("elastic_piston", "--out", "", out=None)
+        self.assertEqual(run.wait(), 2, run.stderr)
+        self.assertIn("--out: '' is no name", run.stderr)
+        (self.folder / "run").symlink_to("nowhere")
+        self.assertIn("is a link to nowhere", self.refused("elastic_piston"))
+        self.assertFalse((self.folder / "runs").exists())
+
+    def test_what_fails_before_a_program_begins_leaves_no_folder(self):
+        (self.folder / "runtime").mkdir()
+        (self.folder / "runtime" / "amp-fsi").touch()     # where the run would be entered
+        run = self.launch("elastic_piston", out="new/run")
+        self.assertEqual(run.wait(), 5, run.stderr)
+        self.assertIn("amp-fsi: File exists", run.stderr)
+        self.assertFalse((self.folder / "new").exists())
 
     def test_a_restart_goes_on_not_back(self):
         run = self.complete("elastic_piston", "--set", "grid.factor=2", "--set", "expect={}", "--set", "output.checkpoint_every=10")

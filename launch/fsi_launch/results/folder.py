@@ -1,0 +1,111 @@
+"""The folder of a run's results: where it is, that nobody else is at work in it, and that a run which is refused leaves none."""
+
+import contextlib
+import errno
+import shutil
+import time
+from pathlib import Path
+
+from fsi_launch.failure import Failure, OUTPUT_FAILED, UserMistake
+from fsi_launch.results import former, restart
+
+OF_A_RUN = ("case.yaml", "summary.json", "log", "parts", "fields", "checkpoints", "last_state", "plots", "*.csv", "run.xmf",
+            "fluid.h5", "fluid_*.h5", "solid_*.h5", "reference.h5", former.ASIDE)
+OF_THE_START = ("case.yaml", "case.yaml.tmp", "log")    # what is there before the first program begins
+# What a person has to put right; anything else is a fault of the disk.
+PLACES = (errno.EACCES, errno.EPERM, errno.EROFS, errno.ENOTDIR, errno.ELOOP, errno.ENAMETOOLONG, errno.ENOENT)
+
+
+def _free_name(name, stamp):
+    for count in range(1, 1000):
+        path = Path("runs") / (f"{name}-{stamp}" + (f"-{count}" if count > 1 else ""))
+        if not path.exists():
+            return path
+    raise Failure(OUTPUT_FAILED, "no free name for the results in runs/")
+
+
+def remove_former_run(directory):
+    """Everything a run and its pictures leave (docs/output.md). Throws UserMistake if there is anything else."""
+    found = sorted(path for path in directory.iterdir() if not path.name.endswith((".part", ".tmp")))
+    if strangers := [path.name for path in found if not any(path.match(pattern) for pattern in OF_A_RUN)]:
+        raise UserMistake(f"--out {directory} also holds {', '.join(strangers[:3])}, which no run wrote; name a new folder, "
+                          "or move it away")
+    for path in directory.iterdir():
+        if path.is_dir() and not path.is_symlink():
+            shutil.rmtree(path)
+        else:
+            path.unlink()
+
+
+def _expect_place(directory):
+    """A folder may be made there, or is there."""
+    if directory.is_dir():
+        return
+    if directory.is_symlink() and not directory.exists():
+        raise UserMistake(f"--out {directory} is a link to {directory.readlink()}, which is not there; make that folder, or name another")
+    for path in (directory, *directory.parents):
+        if path.exists():
+            if not path.is_dir():
+                raise UserMistake(f"--out {directory}{'' if path == directory else f': {path}'} is a file; name a folder")
+            return
+
+
+def _expect_free(directory, overwrite):
+    """No results are in it, or they are those of a run that is over and may be replaced: then they are gone."""
+    if not directory.is_dir() or not any(directory.iterdir()):
+        return
+    restart.expect_over(directory, f"--out {directory}", "name another folder, or wait for its end")
+    if not (directory / "case.yaml").is_file() or not (directory / "log").is_dir():
+        raise UserMistake(f"--out {directory} is not empty and holds no run; name a new folder")
+    if not overwrite:
+        raise UserMistake(f"--out {directory} holds the results of a run; name a new folder or add --overwrite")
+    remove_former_run(directory)
+
+
+def _make(directory):
+    """The folder with log/ in it; returns those that were not there before, the innermost first. Of two runs that begin at the same
+    moment one makes log/."""
+    made = [path for path in (directory, *directory.parents) if not path.exists()]
+    directory.mkdir(parents=True, exist_ok=True)
+    try:
+        (directory / "log").mkdir()
+    except FileExistsError:
+        raise UserMistake(f"--out {directory}: another run is beginning there; name another folder") from None
+    return made
+
+
+def make(out, name, overwrite):
+    """(the folder of a new run's results with log/ in it, the folders that were made for it). `out`: where the user wants it, or None.
+    Throws UserMistake where none can be."""
+    directory = Path(out) if out else _free_name(name, time.strftime("%Y%m%d-%H%M%S"))
+    try:
+        _expect_place(directory)
+        _expect_free(directory, overwrite)
+        return directory, _make(directory)
+    except OSError as error:
+        if error.errno in PLACES:
+            where = f": {error.filename}" if error.filename and str(error.filename) != str(directory) else ""
+            raise UserMistake(f"--out {directory}{where}: {error.strerror}; name a folder that you may write into") from None
+        raise Failure(OUTPUT_FAILED, f"cannot make {directory}: {error.strerror}") from None
+
+
+def _holds_a_start(directory):
+    """Is there nothing in it but what is there before the first program begins?"""
+    def begun(path):
+        return path.name not in OF_THE_START or path.name == "log" and any(file.stat().st_size for file in path.iterdir())
+    return not any(begun(path) for path in directory.iterdir())
+
+
+@contextlib.contextmanager
+def kept_if_begun(directory, made):
+    """Context in which an error takes away what a run has left of which no program has begun. `made`: the folders that were made for
+    it, which go too; None of a run that goes on."""
+    try:
+        yield
+    except Exception:
+        with contextlib.suppress(OSError):
+            if made is not None and _holds_a_start(directory):
+                remove_former_run(directory)
+                for path in made:
+                    path.rmdir()
+        raise

@@ -1,0 +1,81 @@
+#!/usr/bin/python3
+"""Where results may lie, and what a run that is refused before a program has begun leaves of its folder: nothing."""
+
+import errno
+import os
+import sys
+import unittest
+from pathlib import Path
+from unittest import mock
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+from launcher import InScratch  # noqa: E402
+from fsi_launch.failure import Failure, OUTPUT_FAILED, UserMistake  # noqa: E402
+from fsi_launch.results import folder  # noqa: E402
+
+
+class Made(InScratch):
+    def setUp(self):
+        super().setUp()
+        registry = mock.patch.dict(os.environ, XDG_RUNTIME_DIR=str(self.folder))
+        registry.start()
+        self.addCleanup(registry.stop)
+
+    def refused(self, out, code=2):
+        with self.assertRaises(Failure) as caught:
+            folder.make(str(out), "piston", False)
+        self.assertEqual(caught.exception.code, code)
+        return str(caught.exception)
+
+    def test_a_link_to_nowhere_is_named_with_where_it_leads(self):
+        link = self.folder / "link"
+        link.symlink_to("nowhere")
+        self.assertEqual(self.refused(link), f"--out {link} is a link to nowhere, which is not there; make that folder, or name another")
+        self.assertFalse((self.folder / "nowhere").exists())
+
+    def test_a_file_is_named_also_on_the_way(self):
+        file = self.folder / "file"
+        file.touch()
+        self.assertIn(f"--out {file} is a file; name a folder", self.refused(file))
+        self.assertIn(f"--out {file}/a/b: {file} is a file; name a folder", self.refused(file / "a" / "b"))
+
+    def test_who_may_not_write_has_made_a_mistake_and_a_full_disk_is_none(self):
+        for number, code in ((errno.EACCES, 2), (errno.EROFS, 2), (errno.ENOSPC, OUTPUT_FAILED), (errno.EIO, OUTPUT_FAILED)):
+            error = OSError(number, os.strerror(number), str(self.folder / "run"))
+            with mock.patch.object(Path, "mkdir", side_effect=error):
+                self.assertIn(os.strerror(number), self.refused(self.folder / "run", code))
+
+    def test_of_two_runs_that_begin_at_the_same_moment_one_is_refused(self):
+        with mock.patch.object(folder, "_expect_free"):     # both have looked before either has begun
+            folder.make(str(self.folder / "run"), "piston", False)
+            self.assertIn("another run is beginning there", self.refused(self.folder / "run"))
+
+    def begun(self, leave=lambda directory: None, error=UserMistake("no"), out="a/b/run"):
+        """What is left of the folder of a run that ends by `error`, after `leave(directory)`."""
+        directory, made = folder.make(str(self.folder / out), "piston", False)
+        with self.assertRaises(type(error)), folder.kept_if_begun(directory, made):
+            (directory / "case.yaml").write_text("name: piston\n", encoding="utf-8")
+            leave(directory)
+            raise error
+        return sorted(str(path.relative_to(self.folder)) for path in self.folder.rglob("*") if path.is_file() or not any(path.iterdir()))
+
+    def test_a_refused_run_leaves_no_folder(self):
+        for error in (UserMistake("no"), Failure(1, "no"), OSError(errno.ENOSPC, "full")):
+            self.assertEqual(self.begun(error=error), [])
+
+    def test_what_was_there_before_stays(self):
+        (self.folder / "run").mkdir()
+        self.assertEqual(self.begun(out="run"), ["run"])
+
+    def test_what_others_have_put_there_stays(self):
+        self.assertIn("a/b/run/notes.txt", self.begun(lambda directory: (directory / "notes.txt").touch()))
+
+    def test_words_of_a_program_stay(self):
+        self.assertIn("a/b/run/log/fluid.out", self.begun(lambda directory: (directory / "log" / "fluid.out").write_text("error: no")))
+
+    def test_a_request_to_end_leaves_all(self):
+        self.assertEqual(self.begun(error=KeyboardInterrupt()), ["a/b/run/case.yaml", "a/b/run/log"])
+
+
+if __name__ == "__main__":
+    unittest.main()
