@@ -11,6 +11,7 @@ from amp_fsi.results import Run
 from fsi_launch import paths
 from fsi_launch.living import processes
 from fsi_launch.failure import EXPECTATION_MISSED
+from fsi_launch.telling import AS_NAMED
 
 POLL = 0.05     # [s] between two looks
 
@@ -103,7 +104,7 @@ class Running:
         return run
 
     def _ask(self, *words):
-        answer = subprocess.run([_command(), *words], stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
+        answer = subprocess.run([_command(), *words], stdin=subprocess.DEVNULL, capture_output=True, **AS_NAMED, check=False)
         if answer.returncode != 0:
             raise RunFailed(answer.returncode, answer.stderr.strip().removeprefix("fsi: "))
         return answer.stdout
@@ -118,7 +119,7 @@ def start(case=None, *, set=None, solids=None, out=None, restart=None, overwrite
     words += ["--restart", str(restart)] if restart else ["--out", str(directory)]
     words += ["--overwrite"] if overwrite else []
     process = subprocess.Popen([_command(), *words, "--no-progress"], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
-                               stderr=subprocess.PIPE, text=True)
+                               stderr=subprocess.PIPE, **AS_NAMED)
     running = Running(process, directory)
     running.until(lambda: processes.programs_of(directory))
     if not running.going():
@@ -138,9 +139,9 @@ def study(case, vary, *, set=None, solids=None, show=(), jobs=1, out=None):
     words = ["study", *_words(case, set, solids), "--jobs", str(jobs), "--out", str(directory)]
     words += [f"--vary={key}={','.join(map(_text, values))}" for key, values in vary.items()]
     words += ["--show", ",".join(show)] if show else []
-    answer = subprocess.run([_command(), *words], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
+    answer = subprocess.run([_command(), *words], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, **AS_NAMED,
                             check=False)
     if answer.returncode != 0:
         raise RunFailed(answer.returncode, answer.stderr.strip())
     sys.stderr.write(answer.stderr)
-    return json.loads((directory / "study.json").read_text(encoding="utf-8"))
+    return json.loads((directory / "study.json").read_text(**AS_NAMED))

@@ -4,6 +4,7 @@ import json
 from pathlib import Path
 
 from fsi_launch.plot.reading import data
+from fsi_launch.telling import AS_NAMED
 
 
 class Fields(dict):
@@ -40,12 +41,12 @@ class Run:
     def summary(self):
         """summary.json as a dict; empty while the run goes on."""
         path = self.directory / "summary.json"
-        return self._once("summary", lambda: json.loads(path.read_text(encoding="utf-8")) if path.is_file() else {})
+        return self._once("summary", lambda: json.loads(path.read_text(**AS_NAMED)) if path.is_file() else {})
 
     @property
     def case(self):
         """The case as it ran, YAML."""
-        return (self.directory / "case.yaml").read_text(encoding="utf-8")
+        return (self.directory / "case.yaml").read_text(**AS_NAMED)
 
     @property
     def errors(self):

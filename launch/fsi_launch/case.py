@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 
 from fsi_launch import paths
 from fsi_launch.failure import Failure, INTERNAL_ERROR, UserMistake
+from fsi_launch.telling import AS_NAMED
 
 REFERENCE_PROGRAMS = {  # reference kinds computed by a program of their own
     "piston_1d": "reference_piston",
@@ -37,7 +38,7 @@ class Case:
 def _ask(verb, case, overrides, laws, *options):
     command = [paths.program("fsi_case"), verb, case, *options]
     command += [f"--set={override}" for override in overrides] + [f"--solid={law}" for law in laws]
-    answer = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
+    answer = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, **AS_NAMED, check=False)
     if answer.returncode == 2:
         raise UserMistake(answer.stderr.strip() or "the case is wrong")
     if answer.returncode != 0:

@@ -8,6 +8,7 @@ from fsi_launch import case as cases
 from fsi_launch import paths
 from fsi_launch.failure import DONE, Failure, INTERNAL_ERROR, UserMistake
 from fsi_launch.living import ranks
+from fsi_launch.telling import AS_NAMED
 
 FORMATS = (".png", ".pdf", ".svg")
 
@@ -25,7 +26,7 @@ def _picture_path(name, case):
 def _write_grids(options, folder):
     command = [paths.program("fsi_grids"), options.case, folder, *(f"--set={one}" for one in options.overrides),
                *(f"--solid={one}" for one in options.laws)]
-    answer = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
+    answer = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, **AS_NAMED, check=False)
     if answer.returncode != 0:
         raise Failure(INTERNAL_ERROR, answer.stderr.strip() or f"fsi_grids failed ({answer.returncode})")
 

@@ -19,7 +19,7 @@ from fsi_launch.failure import (DONE, EXPECTATION_MISSED, Failure, INTERRUPTED, 
 from fsi_launch.living.progress import Progress
 from fsi_launch.living.supervise import Outcome, Program, Supervisor
 from fsi_launch.living.watch import Monitor
-from fsi_launch.telling import tell
+from fsi_launch.telling import AS_NAMED, tell
 
 
 FRAMES = 60     # of a movie
@@ -115,7 +115,7 @@ def _reference(case, directory):
 def _write_xdmf(directory):
     """DIR/run.xmf for ParaView."""
     answer = subprocess.run([paths.program("fsi_xdmf"), str(directory)], stdin=subprocess.DEVNULL,
-                            capture_output=True, text=True, check=False)
+                            capture_output=True, **AS_NAMED, check=False)
     if answer.returncode != 0:
         raise Failure(OUTPUT_FAILED, answer.stderr.strip() or "fsi_xdmf failed")
 
@@ -125,7 +125,7 @@ def _write_exact(case, directory):
     if case.reference not in cases.EXACT_KINDS:
         return
     answer = subprocess.run([paths.program("reference_exact"), "--case", str(directory / "case.yaml"), "--run-dir", str(directory)],
-                            stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
+                            stdin=subprocess.DEVNULL, capture_output=True, **AS_NAMED, check=False)
     if answer.returncode != 0:
         raise Failure(OUTPUT_FAILED, answer.stderr.strip() or "reference_exact failed")
 
@@ -225,7 +225,7 @@ def _begin(request, say):
 def _write_case(case, directory):
     """DIR/case.yaml; one that is there is replaced."""
     temporary = directory / "case.yaml.tmp"
-    temporary.write_text(case.text, encoding="utf-8")
+    temporary.write_text(case.text, **AS_NAMED)
     temporary.replace(directory / "case.yaml")
 
 

@@ -8,6 +8,7 @@ import webbrowser
 
 from fsi_launch import paths
 from fsi_launch.failure import DONE, Failure, INTERNAL_ERROR
+from fsi_launch.telling import AS_NAMED
 
 PAGES, SITE = paths.ROOT / "build" / "site_pages", paths.ROOT / "build" / "site"
 FROM_ELSEWHERE = {"idl/README.md": "wire.md", "monitor/README.md": "watching.md", "gallery/README.md": "gallery.md"}   # pages that lie beside what they describe
@@ -45,7 +46,7 @@ def main(options):
     for source, name in FROM_ELSEWHERE.items():
         _copy(paths.ROOT / source, name)
     answer = subprocess.run(["mkdocs", "build", "--strict"], cwd=paths.ROOT, stdin=subprocess.DEVNULL, capture_output=True,
-                            text=True, check=False)
+                            **AS_NAMED, check=False)
     if answer.returncode != 0:
         said = [line for line in (answer.stdout + answer.stderr).splitlines() if not line.startswith("INFO")]
         raise Failure(INTERNAL_ERROR, "mkdocs: " + "\n".join(said))

@@ -1,8 +1,24 @@
 """What a person reads, as far as somebody does: neither a terminal that was closed nor a disk that is full decides what becomes of a run."""
 
 import contextlib
+import io
 import os
 import sys
+
+# How programs and files say the names of a user's files: UTF-8, whatever the locale, and the bytes of a name that is none.
+AS_NAMED = {"encoding": "utf-8", "errors": "surrogateescape"}
+
+
+def names_as_they_are():
+    """From now on a name that is no text of the locale goes out as the bytes it has."""
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(**AS_NAMED)
+
+
+def readable(name):
+    """A name for a picture, which has letters only: what is none becomes one that says so."""
+    return os.fsencode(name).decode("utf-8", "replace")
 
 
 def tell(text, out=None):

@@ -54,7 +54,8 @@ class Launched:
         command = [*before, *begin, "run", *arguments, *(["--out", str(self.directory)] if out else [])]
         environment = os.environ | {"FSI_BIN": str(BIN), "XDG_RUNTIME_DIR": str(self.runtime), "PYTHONPATH": str(ROOT / "launch")}
         self.process = subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                                        stderr=subprocess.PIPE, text=True, env=environment, cwd=folder)
+                                        stderr=subprocess.PIPE, encoding="utf-8", errors="surrogateescape", env=environment,
+                                        cwd=folder)
         self.stdout = self.stderr = ""
 
     def wait(self):

@@ -8,7 +8,7 @@ from fsi_launch import paths, version
 from fsi_launch.command import verbs
 from fsi_launch.living import interrupts
 from fsi_launch.failure import DONE, Failure, INTERRUPTED, NOBODY_READS, OUTPUT_FAILED, TERMINATED, UserMistake
-from fsi_launch.telling import silence, tell
+from fsi_launch.telling import names_as_they_are, silence, tell
 
 USAGE = (paths.ROOT / "launch" / "usage.txt").read_text(encoding="utf-8")
 
@@ -144,6 +144,7 @@ def _act(arguments):
 
 def main(arguments):
     """Returns the exit code."""
+    names_as_they_are()
     try:
         code = _act(arguments)
         sys.stdout.flush()

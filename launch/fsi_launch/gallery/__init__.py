@@ -9,6 +9,7 @@ from pathlib import Path
 from fsi_launch.failure import DONE, EXPECTATION_MISSED, UserMistake
 from fsi_launch.gallery import problems
 from fsi_launch.results.summary import aligned
+from fsi_launch.telling import AS_NAMED
 
 HEADING = ("quantity", "computed", "known", "allowed", "verdict")
 
@@ -53,15 +54,15 @@ def compare(problem, run):
 
 def _write_tables(directory, problem, rows):
     texts = [row.texts() for row in rows]
-    with open(directory / "comparison.csv", "w", encoding="utf-8", newline="") as file:
+    with open(directory / "comparison.csv", "w", **AS_NAMED, newline="") as file:
         csv.writer(file, lineterminator="\n").writerows([HEADING, *texts])
     lines = [f"# {problem.title}", "", problem.source, "", f"`{problem.command()}`", "", f"| {' | '.join(HEADING)} |",
              "|" + "---|" * len(HEADING), *(f"| {' | '.join(text)} |" for text in texts)]
-    (directory / "comparison.md").write_text("\n".join(lines) + "\n", encoding="utf-8")
+    (directory / "comparison.md").write_text("\n".join(lines) + "\n", **AS_NAMED)
     (directory / "comparison.json").write_text(json.dumps(
         {"problem": problem.name, "command": problem.command(), "passes": all(row.passes() for row in rows),
          "rows": [{"quantity": row.what, "computed": row.computed, "known": row.known, "allowed": row.allowed, "passes": row.passes()}
-                  for row in rows]}, indent=2) + "\n", encoding="utf-8")
+                  for row in rows]}, indent=2) + "\n", **AS_NAMED)
 
 
 def judge(problem, run, directory):

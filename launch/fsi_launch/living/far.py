@@ -19,6 +19,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
 from fsi_launch.living import processes, ranks  # noqa: E402
 from fsi_launch.living.supervise import leashed  # noqa: E402
+from fsi_launch.telling import AS_NAMED  # noqa: E402
 
 ALONE = 60.0    # [s] from the end of the connection to SIGKILL: a checkpoint may be written
 
@@ -27,7 +28,7 @@ def look(order):
     """{case: text of the case file, missing: programs that are not here, writable: may the folder be written into?}"""
     try:
         os.chdir(order["folder"])
-        text = Path(order["case"]).read_text(encoding="utf-8")
+        text = Path(order["case"]).read_text(**AS_NAMED)
     except OSError:
         text = None
     return {"case": text, "missing": [path for path in order["programs"] if not os.access(path, os.X_OK)],

@@ -22,6 +22,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from fsi_launch.failure import UserMistake
+from fsi_launch.telling import AS_NAMED
 
 SHELL = "ssh -T -o BatchMode=yes -o ConnectTimeout=10 -o ServerAliveInterval=5 -o ServerAliveCountMax=6"
 LOOKS_FOR = 30.0    # [s] from asking a machine what it sees to its answer
@@ -105,7 +106,7 @@ def networks(asked):
 
 def _command(shell, host, word):
     """Of this machine. The other one gets a single line, as ssh passes it on."""
-    far = shlex.join([sys.executable, "-s", "-P", "-B", str(FAR), word])
+    far = shlex.join([sys.executable, "-s", "-P", "-X", "utf8", "-B", str(FAR), word])
     return [*shlex.split(shell or os.environ.get("FSI_RSH") or SHELL), host.name, far]
 
 
@@ -114,7 +115,7 @@ def _look(shell, host, order):
     command = _command(shell, host, "look")
     remedy = f"it must be possible to log in there without a password: try {shlex.join(command[:-1])} true"
     try:
-        answer = subprocess.run(command, input=json.dumps(order) + "\n", capture_output=True, text=True, timeout=LOOKS_FOR, check=False)
+        answer = subprocess.run(command, input=json.dumps(order) + "\n", capture_output=True, **AS_NAMED, timeout=LOOKS_FOR, check=False)
     except subprocess.TimeoutExpired:
         raise UserMistake(f"--hosts: {host.name} has not answered for {LOOKS_FOR:g} s; {remedy}") from None
     except OSError as error:
@@ -141,7 +142,7 @@ def expect_all(asked, shell, directory, programs):
         needed = [word for word in sorted(words) if "/" in word and os.access(word, os.X_OK) and os.path.isfile(word)]
         order = {"folder": os.getcwd(), "case": str(directory / "case.yaml"), "programs": needed, "run": str(directory)}
         told = _look(shell, host, order)
-        case = (directory / "case.yaml").read_text(encoding="utf-8")
+        case = (directory / "case.yaml").read_text(**AS_NAMED)
         if told.get("case") != case:
             raise UserMistake(f"--hosts: {host.name} does not see {directory.resolve()}, or sees another one; programs, case and results must "
                               "lie on a file system that all machines see at the same place (NFS)")

@@ -19,6 +19,7 @@ from pathlib import Path
 from fsi_launch import paths
 from fsi_launch.failure import UserMistake
 from fsi_launch.living import processes
+from fsi_launch.telling import AS_NAMED
 
 MODULE = "libfsi_ranks_mpi.so"      # common/ranks/module.hpp
 LOOPBACK = "libfsi_ranks_loopback.so"       # common/ranks/mpi/loopback.cpp
@@ -129,7 +130,7 @@ def _version(mpirun):
     """(major version of Open MPI, all of what that mpirun calls itself); both are empty where there is none."""
     if mpirun is None:
         return "", ""
-    said = subprocess.run([mpirun, "--version"], capture_output=True, text=True, check=False).stdout.partition("\n")[0]
+    said = subprocess.run([mpirun, "--version"], capture_output=True, **AS_NAMED, check=False).stdout.partition("\n")[0]
     found = re.search(r"Open MPI\) ((\d+)\S*)", said)
     return (found[2], f"Open MPI {found[1]}") if found else ("", said or "an unknown kind")
 

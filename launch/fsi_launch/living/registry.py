@@ -42,6 +42,15 @@ def _make_folder(path):
         path.chmod(0o700)
 
 
+def _by_descriptor(directory):
+    """A folder whose name is no UTF-8, which JSON cannot say, opened: others find it by that. -1 for any other."""
+    try:
+        os.fsencode(directory).decode("utf-8")
+    except UnicodeDecodeError:
+        return os.open(directory, os.O_PATH | os.O_CLOEXEC)
+    return -1
+
+
 class Entry:
     """A run's entry; exists while the context is open. `key`: what programs and monitors of the run share
     (common/bus/peers/credentials.hpp). `protection`: "off", "sign" or "encrypt". `participants`: names of those who will speak. `network`: where they meet, if they
@@ -51,7 +60,9 @@ class Entry:
         self.path = folder() / f"{run}.json"
         self.run = run
         self.key = "" if protection == "off" else f"{protection}:{os.urandom(KEY_BYTES).hex()}"
-        self.content = {"run": run, "dir": str(directory), "case": case, "pid": os.getpid(),
+        self._folder = _by_descriptor(directory)    # -1: not needed
+        where = str(directory) if self._folder < 0 else f"/proc/{os.getpid()}/fd/{self._folder}"
+        self.content = {"run": run, "dir": where, "case": case, "pid": os.getpid(),
                         "born": processes.start_time(os.getpid()), "pids": processes.namespace(), "key": self.key, "participants": list(participants)} | ({"network": network} if network else {})
 
     def __enter__(self):
@@ -63,6 +74,8 @@ class Entry:
 
     def __exit__(self, *_):
         self.path.unlink(missing_ok=True)
+        if self._folder >= 0:
+            os.close(self._folder)
 
 
 def running_in(directory):
@@ -71,7 +84,7 @@ def running_in(directory):
     for path in folder().glob("*.json"):
         try:
             entry = json.loads(path.read_text(encoding="utf-8"))
-            if Path(entry["dir"]) == Path(directory).resolve():
+            if Path(entry["dir"]).resolve() == Path(directory).resolve():
                 return int(entry["pid"])
         except (OSError, ValueError, KeyError, TypeError):
             continue

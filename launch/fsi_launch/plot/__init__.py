@@ -4,6 +4,7 @@ import itertools
 from pathlib import Path
 
 from fsi_launch.failure import DONE, UserMistake
+from fsi_launch.telling import AS_NAMED
 
 
 def _folder(name):
@@ -59,7 +60,7 @@ def _take_words(directories):
     from fsi_launch.plot.reading import data
     from fsi_launch.plot.several_runs import several
     paths = [data.finest_level(directory) / "case.yaml" for directory in directories]
-    texts = [path.read_text(encoding="utf-8") for path in paths if path.is_file()]
+    texts = [path.read_text(**AS_NAMED) for path in paths if path.is_file()]
     units.use_those_of([several.entries(text) for text in texts])
     names = {several.entries(text).get("name", "") for text in texts}
     in_common = names.pop() if len(texts) == len(directories) and len(names) == 1 else ""

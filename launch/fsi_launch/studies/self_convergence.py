@@ -10,6 +10,8 @@ import math
 from dataclasses import dataclass
 from pathlib import Path
 
+from fsi_launch.telling import AS_NAMED
+
 QUANTITIES = (("centre", ("centre1", "centre2")), ("velocity", ("velocity1", "velocity2")), ("angle", ("angle",)))
 FINER = 8           # times the points, for the curve a boundary is compared with
 
@@ -37,7 +39,7 @@ def orders(levels, differences):
 
 def _table(path):
     """{t: {column: value}} of a table of a solid."""
-    with open(path, encoding="utf-8", newline="") as file:
+    with open(path, **AS_NAMED, newline="") as file:
         rows = [{key.split(" ")[0]: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
     return {row["t"]: row for row in rows}
 

@@ -18,7 +18,7 @@ from fsi_launch.failure import DONE, EXPECTATION_MISSED, UserMistake
 from fsi_launch.living.supervise import leashed
 from fsi_launch.run import needed
 from fsi_launch.results.summary import aligned, value_at
-from fsi_launch.telling import tell
+from fsi_launch.telling import AS_NAMED, tell
 
 LOOK = 0.05             # [s] between two looks at the runs that are going on
 STATISTICS = {"last": lambda values: values[-1], "min": min, "max": max}
@@ -83,8 +83,8 @@ def _overrides(trial, options):
 def _finished(trial):
     """True if a former study has made this run, with the same case."""
     try:
-        summary = json.loads((trial.directory / "summary.json").read_text(encoding="utf-8"))
-        same = (trial.directory / "case.yaml").read_text(encoding="utf-8") == trial.case.text
+        summary = json.loads((trial.directory / "summary.json").read_text(**AS_NAMED))
+        same = (trial.directory / "case.yaml").read_text(**AS_NAMED) == trial.case.text
     except (OSError, ValueError):
         return False
     if same and summary.get("status") == "completed":
@@ -98,7 +98,7 @@ def _finished(trial):
 def _start(trial, options):
     command = [str(paths.ROOT / "launch" / "fsi"), "run", options.case, "--no-progress", "--overwrite", "--out", str(trial.directory)]
     command += [f"--set={override}" for override in _overrides(trial, options)] + [f"--solid={law}" for law in options.laws]
-    return subprocess.Popen(leashed(command), stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
+    return subprocess.Popen(leashed(command), stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, **AS_NAMED,
                             env=os.environ | {"FSI_BIN": str(paths.BIN)})
 
 
@@ -107,7 +107,7 @@ def _end(trial, process, started):
     said = process.stderr.read().strip().splitlines()
     process.stderr.close()
     path = trial.directory / "summary.json"
-    trial.summary = json.loads(path.read_text(encoding="utf-8")) if path.is_file() else {
+    trial.summary = json.loads(path.read_text(**AS_NAMED)) if path.is_file() else {
         "status": "failed", "reason": said[-1].removeprefix("fsi: ") if said else ""}
     if trial.code == EXPECTATION_MISSED and trial.summary["status"] == "completed":
         trial.code = DONE   # what the case expects holds for its own values
@@ -146,14 +146,14 @@ def _make(waiting, options, done, total):
 
 def _columns(path):
     """{name: heading} of a table's columns; the unit behind the name is not part of it."""
-    with open(path, encoding="utf-8", newline="") as file:
+    with open(path, **AS_NAMED, newline="") as file:
         return {heading.split(" ")[0]: heading for heading in next(csv.reader(file), [])}
 
 
 def _of_table(directory, name, column, statistic):
     path = directory / f"{name}.csv"
     heading = _columns(path).get(column)
-    with open(path, encoding="utf-8", newline="") as file:
+    with open(path, **AS_NAMED, newline="") as file:
         values = [float(row[heading]) for row in csv.DictReader(file)] if heading else []
     return STATISTICS[statistic](values) if values else None
 
@@ -222,7 +222,7 @@ def as_markdown(result):
 
 
 def _write_csv(result, path):
-    with open(path, "w", encoding="utf-8", newline="") as file:
+    with open(path, "w", **AS_NAMED, newline="") as file:
         writer = csv.writer(file)
         writer.writerow([*result["vary"], "status", "t", "steps", "wall_s", *result["quantities"]])
         for row in result["rows"]:
@@ -265,9 +265,9 @@ def main(options):
     result = result_of(found, name, vary, options.show)
     text = "\n".join(aligned(_rows(result))) + "\n"
     print(text, end="")
-    (directory / "study.txt").write_text(text, encoding="utf-8")
-    (directory / "study.md").write_text(as_markdown(result), encoding="utf-8")
-    (directory / "study.json").write_text(json.dumps(result, indent=2) + "\n", encoding="utf-8")
+    (directory / "study.txt").write_text(text, **AS_NAMED)
+    (directory / "study.md").write_text(as_markdown(result), **AS_NAMED)
+    (directory / "study.json").write_text(json.dumps(result, indent=2) + "\n", **AS_NAMED)
     _write_csv(result, directory / "study.csv")
     drawn = _draw(result, directory)
     tell(f"tables{' and picture' if drawn else ''} in {directory}")

@@ -9,7 +9,7 @@ from pathlib import Path
 from fsi_launch import paths
 from fsi_launch.failure import DONE, Failure, INTERNAL_ERROR
 from fsi_launch.living.supervise import leashed
-from fsi_launch.telling import tell
+from fsi_launch.telling import AS_NAMED, tell
 
 STANDARD = {  # what Google Benchmark itself reports; everything else is a counter of the benchmark's own
     "name", "family_index", "per_family_instance_index", "run_name", "run_type", "repetitions", "repetition_index",
@@ -26,7 +26,7 @@ def _run_one(program, options):
         if options.quick:
             command.append("--benchmark_min_time=0.05")
         answer = subprocess.run(leashed(command), stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                                text=True, check=False)
+                                **AS_NAMED, check=False)
         text = file.read().decode()
     if answer.returncode != 0:
         raise Failure(INTERNAL_ERROR, f"{program.name} failed ({answer.returncode}): {answer.stdout.strip()[-500:]}")

@@ -21,7 +21,7 @@ from fsi_launch.failure import DONE, EXPECTATION_MISSED, Failure, INTERNAL_ERROR
 from fsi_launch.living import ranks
 from fsi_launch.living.processes import programs_of, until
 from fsi_launch.living.supervise import leashed
-from fsi_launch.telling import tell
+from fsi_launch.telling import AS_NAMED, tell
 
 PEER_TIMEOUT = 4.0      # [s] of the runs: a stopped program is lost after it
 STOP_FOR = 1.0          # [s] and goes on as if nothing had been
@@ -69,7 +69,7 @@ class Run:
         runtime.mkdir(exist_ok=True)
         self.process = subprocess.Popen(
             leashed([str(paths.ROOT / "launch" / "fsi"), "run", *arguments]), stdin=subprocess.DEVNULL,
-            stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, cwd=folder.parent,
+            stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, **AS_NAMED, cwd=folder.parent,
             env=os.environ | {"FSI_BIN": str(paths.BIN), "XDG_RUNTIME_DIR": str(runtime)})
         self.words = ""
 

@@ -10,6 +10,7 @@ import h5py
 import numpy as np
 
 from fsi_launch.failure import UserMistake
+from fsi_launch.telling import AS_NAMED
 
 NOT_FIELDS = ("x", "x1", "x2", "kind", "vtkGhostType")  # "x" holds x1 and x2 side by side, for ParaView
 UNUSED, DISCRETISED, INTERPOLATED = 0, 1, 2
@@ -232,7 +233,7 @@ def last_state(directory):
 
 def read_table(path):
     """The Table in a CSV, or None where it has less than two lines of numbers."""
-    with open(path, encoding="utf-8", newline="") as file:
+    with open(path, **AS_NAMED, newline="") as file:
         rows = [row for row in csv.reader(file) if row]
     if len(rows) < 3:
         return None
@@ -255,7 +256,7 @@ def all_tables(directory):
 def convergence(directory):
     """The table of errors, or of differences between levels, `fsi converge` left in the folder, or None."""
     path = directory / "converge.json"
-    return json.loads(path.read_text(encoding="utf-8")) if path.is_file() else None
+    return json.loads(path.read_text(**AS_NAMED)) if path.is_file() else None
 
 
 def finest_level(directory):
@@ -267,7 +268,7 @@ def finest_level(directory):
 def study(directory):
     """What `fsi study` left in the folder, or None."""
     path = directory / "study.json"
-    return json.loads(path.read_text(encoding="utf-8")) if path.is_file() else None
+    return json.loads(path.read_text(**AS_NAMED)) if path.is_file() else None
 
 
 def disk_reference(directory):

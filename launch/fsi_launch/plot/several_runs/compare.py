@@ -4,11 +4,12 @@ from fsi_launch.failure import UserMistake
 from fsi_launch.plot.one_run import beams
 from fsi_launch.plot.reading import data
 from fsi_launch.plot.several_runs import lines, outlines, several, side_by_side
+from fsi_launch.telling import AS_NAMED, readable
 
 
 def _case_of(directory):
     path = directory / "case.yaml"
-    return path.read_text(encoding="utf-8") if path.is_file() else ""
+    return path.read_text(**AS_NAMED) if path.is_file() else ""
 
 
 def _beams(series, cases, out):
@@ -27,7 +28,7 @@ def pictures(directories, out, times=()):
     """(name, figure) for each kind of thing at least one of the runs holds, at `times` alone where some are given."""
     out.mkdir(parents=True, exist_ok=True)
     series, cases = [data.at_times(data.all_series(one), times) for one in directories], [_case_of(one) for one in directories]
-    told = several.labels(cases, [one.name for one in directories])
+    told = several.labels(cases, [readable(one.name) for one in directories])
     same = len({several.entries(case).get("name") for case in cases}) == 1
     parts = [*_beams(series, cases, out), *outlines.pictures(series, told, out), *lines.pictures(series, told),
              *(side_by_side.pictures(series, told) if same else ())]

@@ -5,6 +5,7 @@ import csv
 import numpy as np
 
 from fsi_launch.plot.reading import data
+from fsi_launch.telling import AS_NAMED
 
 MOST_TIMES = 3
 TELLING = ("law", "factor", "projection", "multirate")
@@ -67,7 +68,7 @@ def few(times):
 
 
 def write_table(heading, rows, path):
-    with open(path, "w", encoding="utf-8", newline="") as file:
+    with open(path, "w", **AS_NAMED, newline="") as file:
         writer = csv.writer(file)
         writer.writerow(heading)
         writer.writerows(rows)
