@@ -51,11 +51,18 @@ def _folder(case, out):
     return next(name for name in names if not name.exists())
 
 
+def _moment(directory):
+    """When its summary was written [ns], or None."""
+    path = directory / "summary.json"
+    return path.stat().st_mtime_ns if path.is_file() else None
+
+
 class Running:
     """A run that goes on."""
 
-    def __init__(self, process, directory):
+    def __init__(self, process, directory, former=None):
         self.process, self.directory = process, directory
+        self._former = former   # moment of the summary that was there before
         self._said = None   # on stderr, when it has ended
 
     def state(self):
@@ -96,7 +103,8 @@ class Running:
         said = self._said
         there = (self.directory / "case.yaml").is_file()
         run = Run(self.directory) if there else None
-        status = run.summary.get("status") if run else None
+        # A restart that is refused leaves the summary of the run before it.
+        status = run.summary.get("status") if run and _moment(self.directory) != self._former else None
         well = self.process.returncode == 0 or (self.process.returncode == EXPECTATION_MISSED and status in ("completed", "stopped"))
         if check and not well:
             reason = "\n".join(line.removeprefix("fsi: ") for line in said if line.startswith("fsi: ")) or "\n".join(said[-3:])
@@ -118,9 +126,10 @@ def start(case=None, *, set=None, solids=None, out=None, restart=None, overwrite
     words = ["run", *(_words(case, set, solids) if case else _words("", set, solids)[1:])]
     words += ["--restart", str(restart)] if restart else ["--out", str(directory)]
     words += ["--overwrite"] if overwrite else []
+    former = _moment(directory)
     process = subprocess.Popen([_command(), *words, "--no-progress"], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
                                stderr=subprocess.PIPE, **AS_NAMED)
-    running = Running(process, directory)
+    running = Running(process, directory, former)
     running.until(lambda: processes.programs_of(directory))
     if not running.going():
         running.wait()

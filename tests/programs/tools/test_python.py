@@ -51,6 +51,25 @@ class FromPython(EndToEnd):
         self.assertEqual(caught.exception.code, 3)
         self.assertEqual(caught.exception.run.summary["status"], "failed")
 
+    def test_a_restart_that_is_refused_is_not_taken_for_the_run_before_it(self):
+        """By exit code 1, which is also that of a run that has completed and missed what its case expects."""
+        ended = amp_fsi.run("elastic_piston", set=COARSE | {"time.end": 0.1, "output.times": [0.1]}, out=self.folder / "run")
+        lacking = self.folder / "bin"
+        lacking.mkdir()
+        for program in BIN.iterdir():
+            if program.name != "fsi_start":
+                (lacking / program.name).symlink_to(program.resolve())
+        os.environ["FSI_BIN"] = str(lacking)
+        with self.assertRaisesRegex(amp_fsi.RunFailed, "the program fsi_start is not in") as caught:
+            amp_fsi.start(restart=self.folder / "run", set={"time.end": 0.2}).wait()
+        self.assertEqual(caught.exception.code, 1)
+        self.assertEqual(caught.exception.run.summary, ended.summary)   # the record is that of the run before it
+
+    def test_what_a_case_expects_and_a_run_has_missed_raises_nothing(self):
+        missed = amp_fsi.run("elastic_piston", set=COARSE | {"time.end": 0.1, "output.times": [0.1], "expect": {"steps": {"max": 1}}},
+                             out=self.folder / "run")
+        self.assertEqual([entry["met"] for entry in missed.summary["expectations"]], [False])
+
     def test_run_is_steered(self):
         running = amp_fsi.start("elastic_piston", set=COARSE | {"time.dt": 1e-7}, out=self.folder / "run")
         running.until(lambda: (self.folder / "run" / "interface.csv").is_file())
