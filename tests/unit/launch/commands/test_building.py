@@ -30,6 +30,7 @@ if [[ -n ${BUILDING:-} && $* == *"$ENDLESS"* ]]; then
   echo $$ >"$BUILDING"
   exec sleep 1000000
 fi
+for k in 1 2 3; do echo "[$k/3] Building"; done
 """
 # Every package is there, but those in $MISSING.
 DPKG_QUERY = """#!/bin/bash
@@ -121,6 +122,22 @@ class Building(InScratch):
         calls, said = self.build(verb="run")
         self.assertEqual(calls[1:], ["ninja bin/fsi_case bin/fsi_xdmf", "ninja bin/fluid_solver bin/coupler bin/fsi_start bin/reference_piston"])
         self.assertIn("the program fluid_solver is not in", said)   # the stand-in has built nothing
+
+    def test_a_build_whose_progress_nobody_reads_any_more_goes_on(self):
+        self.put_checker()
+        reading, gone = os.pipe()
+        os.close(reading)
+        for out in (gone, os.open("/dev/full", os.O_WRONLY)):
+            self.calls.write_text("")
+            answer = subprocess.run([self.folder / "launch" / "fsi", "run", "nothing"], env=self.environment() | {"MISSING": ""}, stdout=out,
+                                    stderr=out, check=False)
+            os.close(out)
+            self.assertEqual([call for call in self.calls.read_text().splitlines() if call.startswith("ninja")],
+                             ["ninja bin/fsi_case bin/fsi_xdmf", "ninja bin/fluid_solver bin/coupler bin/fsi_start bin/reference_piston"])
+            self.assertEqual(answer.returncode, 1)      # the stand-in has built nothing
+
+    def test_the_progress_of_a_build_is_told(self):
+        self.assertIn("building what reads cases: 3/3\n", self.build()[1])
 
     def test_missing_packages_are_named_in_one_line_to_type_and_nothing_is_built(self):
         calls, said = self.build(missing="libeigen3-dev cmake libhdf5-dev")
