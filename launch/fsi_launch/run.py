@@ -180,6 +180,12 @@ def needed(case):
     return [*case.programs.values(), "fsi_start", *filter(None, others)]
 
 
+def _ranks_here(request, case):
+    """Numbers of ranks of those who have several, on this machine."""
+    far = hosts.wanted(request.hosts, case)
+    return [number for name, number in ranks.wanted(request.ranks, case).items() if name not in far]
+
+
 def _resolved(request, path, own=None):
     """The checked Case, all of whose programs are there, built if need be."""
     case = cases.resolve(path, request.overrides, request.laws, own)
@@ -192,6 +198,8 @@ def _resolved(request, path, own=None):
     if far := hosts.wanted(request.hosts, case, request.ranks, request.protection):
         hosts.expect_shell(request.remote_shell)
         hosts.networks(far)
+    if lack := ranks.lack_of_room(_ranks_here(request, case)):
+        raise UserMistake(f"--ranks {request.ranks}: {lack}")
     return case
 
 
@@ -234,7 +242,7 @@ def _look_around(far, case, directory, request):
     ranked = ranks.wanted(request.ranks, case)
     programs = {name: [paths.program(program), paths.program("fsi_start"), *([shutil.which("mpirun")] if name in ranked else [])]
                 for name, program in case.programs.items()}
-    hosts.expect_all(far, request.remote_shell, directory, programs)
+    hosts.expect_all(far, request.remote_shell, directory, programs, ranked)
 
 
 def run(request):
@@ -274,8 +282,7 @@ def _run(case, directory, checkpoint, request, say):
         protection = request.protection or ("encrypt" if far else "sign")
         network = hosts.networks(far).get("", "")
         entered = registry.Entry(identity, directory.resolve(), case.name, protection, case.programs, network)
-        most = max(ranks.wanted(request.ranks, case).values(), default=1)
-        with interrupts.held(), entered as entry, ranks.memory(most) as memory, interrupts.heard():
+        with interrupts.held(), entered as entry, ranks.memory(_ranks_here(request, case)) as memory, interrupts.heard():
             programs = _programs(case, directory, entry, checkpoint, reports, memory, request)
             outcome, told = _watched(case, directory, programs, identity, request, say, checkpoint)
         parts = summary.read_parts(directory, case.programs, _copies(reports))

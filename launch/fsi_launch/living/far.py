@@ -25,14 +25,15 @@ ALONE = 60.0    # [s] from the end of the connection to SIGKILL: a checkpoint ma
 
 
 def look(order):
-    """{case: text of the case file, missing: programs that are not here, writable: may the folder be written into?}"""
+    """{case: text of the case file, missing: programs that are not here, writable: may the folder be written into?,
+    lack: why ranks have no room}"""
     try:
         os.chdir(order["folder"])
         text = Path(order["case"]).read_text(**AS_NAMED)
     except OSError:
         text = None
     return {"case": text, "missing": [path for path in order["programs"] if not os.access(path, os.X_OK)],
-            "writable": os.access(order["run"], os.W_OK)}
+            "writable": os.access(order["run"], os.W_OK), "lack": ranks.lack_of_room(order["ranks"])}
 
 
 class Guard:
@@ -43,7 +44,7 @@ class Guard:
         self._report = os.memfd_create("report")
         self._memory = contextlib.ExitStack()
         programs = Path(order["environment"]["AMP_FSI_BIN"])
-        memory = ranks.memory(self._ranks, order["command"][0], programs)
+        memory = ranks.memory([self._ranks] if self._ranks > 1 else [], order["command"][0], programs)
         environment = os.environ | order["environment"] | self._memory.enter_context(memory)
         # mpirun passes no open files on.
         environment["AMP_FSI_REPORT"] = str(self._report) if self._ranks == 1 else f"/proc/{os.getpid()}/fd/{self._report}"

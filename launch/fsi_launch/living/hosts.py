@@ -135,12 +135,14 @@ def last_word(text):
     return None
 
 
-def expect_all(asked, shell, directory, programs):
-    """Looks whether all machines see the same files. `programs`: {participant: words of its command}. Throws UserMistake."""
+def expect_all(asked, shell, directory, programs, ranked):
+    """Looks whether all machines see the same files. `programs`: {participant: words of its command}. `ranked`: {participant: ranks} of
+    those with several. Throws UserMistake."""
     def look(host):
         words = {word for name, command in programs.items() if asked.get(name) == host for word in command}
         needed = [word for word in sorted(words) if "/" in word and os.access(word, os.X_OK) and os.path.isfile(word)]
-        order = {"folder": os.getcwd(), "case": str(directory / "case.yaml"), "programs": needed, "run": str(directory)}
+        order = {"folder": os.getcwd(), "case": str(directory / "case.yaml"), "programs": needed, "run": str(directory),
+                 "ranks": [number for name, number in ranked.items() if asked.get(name) == host]}
         told = _look(shell, host, order)
         case = (directory / "case.yaml").read_text(**AS_NAMED)
         if told.get("case") != case:
@@ -150,6 +152,8 @@ def expect_all(asked, shell, directory, programs):
             raise UserMistake(f"--hosts: {host.name} has no {' and no '.join(missing)}; it must be there too")
         if not told.get("writable"):
             raise UserMistake(f"--hosts: {host.name} may not write into {directory.resolve()}")
+        if lack := told.get("lack"):
+            raise UserMistake(f"--hosts: on {host.name} {lack}")
 
     from concurrent.futures import ThreadPoolExecutor   # slow to load, and of no use on one machine
     with ThreadPoolExecutor() as pool:

@@ -7,6 +7,7 @@ them. On this machine only: nothing listens on a network, since LOOPBACK is prel
 
 import contextlib
 import functools
+import math
 import os
 import re
 import shutil
@@ -28,6 +29,9 @@ GAS = "fluid_solver"
 SOLID = "solid_solver_"             # and the name of its law
 ONE_RANK = ("solid_solver_rigid", "solid_solver_beam")      # few numbers, no grid
 SHARED = Path("/dev/shm")           # what ranks share: Open MPI leaves its part there, and its folder in /tmp, where mpirun is killed
+ON_DISK = Path("/tmp")              # where it is when that is too small
+MIB = 1 << 20
+OF_MPIRUN = 9 * MIB                 # there, of each mpirun (measured with Open MPI 4.1.4: 8.2 MiB)
 FOLDER = "amp-fsi-ranks-"           # and who began with it: namespace of its pid, pid, its start, something new
 MOST = 64
 LEAST_POINTS = 20000                # a rank, where `auto` chooses
@@ -40,6 +44,7 @@ class Told:
 
     options: dict       # {word of its command: {name: value}}
     folders: tuple      # of its environment: where it and its ranks leave files
+    segment: int        # [bytes] of such a file of each rank, at most
 
 
 # By major version of Open MPI. Nothing leaves this machine; what wants the right to look into other processes is left out; and inside a
@@ -48,12 +53,12 @@ TOLD = {
     "4": Told({"mca": {
         "btl": "self,vader", "pml": "ob1", "oob_tcp_if_include": "lo", "btl_vader_single_copy_mechanism": "none",
         "mpi_yield_when_idle": "1", "odls_base_sigkill_timeout": "1", "ras": "^slurm", "plm": "^slurm", "ess": "^slurm"}},
-        ("OMPI_MCA_btl_vader_backing_directory", "OMPI_MCA_orte_tmpdir_base")),
+        ("OMPI_MCA_btl_vader_backing_directory", "OMPI_MCA_orte_tmpdir_base"), 4 * MIB),
     "5": Told({
         "mca": {"btl": "self,sm", "pml": "ob1", "smsc": "^cma,xpmem,knem", "mpi_yield_when_idle": "1"},
         "prtemca": {"ras": "^slurm", "plm": "^slurm", "ess": "^slurm"},
         "pmixmca": {"ptl_base_if_include": "lo"}},
-        ("OMPI_MCA_btl_sm_backing_directory", "PRTE_MCA_prte_tmpdir_base")),
+        ("OMPI_MCA_btl_sm_backing_directory", "PRTE_MCA_prte_tmpdir_base"), 16 * MIB),
 }
 
 
@@ -146,16 +151,49 @@ def environment():
     return {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"} if os.geteuid() == 0 else {}
 
 
+def _shared(numbers, known):
+    """[bytes] that mpiruns with so many ranks each share, at most: who finds the memory full is killed by SIGBUS."""
+    return sum(OF_MPIRUN + number * (known.segment + MIB // 8) for number in numbers)
+
+
+def _room(folder):
+    """[bytes] that may be written there."""
+    try:
+        found = os.statvfs(folder)
+    except OSError:
+        return 0
+    if not os.access(folder, os.W_OK):
+        return 0
+    return found.f_bavail * found.f_frsize if found.f_blocks else math.inf      # a file system in memory without a bound
+
+
+def _place(numbers, known):
+    """Where the ranks of these mpiruns share memory; None where there is no room."""
+    return next((folder for folder in (SHARED, ON_DISK) if _room(folder) >= _shared(numbers, known)), None)
+
+
+def lack_of_room(numbers, mpirun=None):
+    """Why mpiruns with so many ranks each cannot begin on this machine, and what to do; "" where they can."""
+    known = told(mpirun) if numbers else None
+    if known is None or _place(numbers, known):
+        return ""
+    free = " and ".join(f"{folder} has {_room(folder) // MIB} MB" for folder in (SHARED, ON_DISK))
+    return (f"the ranks share up to {-(-_shared(numbers, known) // MIB)} MB, and of room for them {free}; enlarge {SHARED} (as root: mount -o "
+            f"remount,size=1G {SHARED}; of a container: docker run --shm-size=1g), ask for fewer ranks, or leave --ranks away")
+
+
 @contextlib.contextmanager
-def memory(number, mpirun=None, programs=None):
+def memory(numbers, mpirun=None, programs=None):
     """Where the ranks of the mpiruns within this context share memory, as their environment; nothing of it is left behind.
-    `number`: of ranks; {} for one. `mpirun`, `programs`: it and the folder of our programs, where they are not those of this launcher."""
-    known = told(mpirun) if number > 1 else None
+    `numbers`: of ranks, of each mpirun; {} for none. `mpirun`, `programs`: it and the folder of our programs, where they are not those of
+    this launcher."""
+    known = told(mpirun) if numbers else None
     if known is None:
         yield {}
         return
-    where = SHARED if os.access(SHARED, os.W_OK) else Path("/tmp")
-    _forget_dead(where)
+    where = _place(numbers, known) or SHARED
+    for folder in (SHARED, ON_DISK):
+        _forget_dead(folder)
     own = f"{FOLDER}{processes.namespace()}-{os.getpid()}-{processes.start_time(os.getpid())}-"
     with tempfile.TemporaryDirectory(prefix=own, dir=where, ignore_cleanup_errors=True) as folder:
         yield dict.fromkeys(known.folders, folder) | _preloaded(Path(folder), programs or paths.BIN)

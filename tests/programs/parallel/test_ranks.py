@@ -34,8 +34,8 @@ if not MISSING and ranks.other_mpi():
     MISSING.append("Open MPI 4 or 5")
 
 def memory_of(run):
-    """The folder in memory that the ranks of a run share; None when there is none."""
-    return next(Path("/dev/shm").glob(f"amp-fsi-ranks-*-{run.process.pid}-*"), None)
+    """The folder that the ranks of a run share; None when there is none."""
+    return next((found for place in (ranks.SHARED, ranks.ON_DISK) for found in place.glob(f"{ranks.FOLDER}*-{run.process.pid}-*")), None)
 
 
 # As LASTING, with a solid of two ranks.
@@ -289,6 +289,29 @@ class Faults(OnRanks):
         self.assertEqual(run.wait(), 143, run.stderr)
         self.assertEqual(len(run.checkpoints()), 1)
         self.assert_nothing_left(run)
+
+
+class LittleMemory(OnRanks):
+    """On a machine whose /dev/shm is small, as that of containers can be."""
+
+    before = ("unshare", "-m", "sh", "-c", 'mount -t tmpfs -o size=4m tmpfs /dev/shm && exec "$@"', "sh")
+    short = ("elastic_piston", "--set", "grid.factor=2", "--set", "time.end=0.1", "--set", "output.times=[0.1]", "--set", "expect={}",
+             "--ranks", "fluid=2")
+
+    def setUp(self):
+        super().setUp()
+        if subprocess.run([*self.before, "true"], capture_output=True, check=False).returncode != 0:
+            self.skipTest("nothing can be mounted here")
+
+    def test_the_disk_takes_its_place(self):
+        run = self.complete(*self.short)
+        self.assertIsNone(memory_of(run))
+
+    def test_without_a_disk_either_it_is_told_what_is_small_and_how_to_enlarge_it(self):
+        run = self.launch(*self.short, script="from fsi_launch.living import ranks\nranks.ON_DISK = ranks.SHARED\n")
+        self.assertEqual(run.wait(), 2, run.stderr)
+        self.assertRegex(run.stderr, r"--ranks fluid=2: the ranks share up to \d+ MB, .* /dev/shm has 4 MB .*; enlarge /dev/shm .*--shm-size")
+        self.assertFalse(run.directory.exists())
 
 
 class Network(OnRanks):

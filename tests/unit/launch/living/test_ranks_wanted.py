@@ -99,7 +99,7 @@ class Wanted(InScratch):
                 command = " ".join(ranks.command(["program", "--name", "fluid"], 3))
                 self.assertIn(known, command)
                 self.assertTrue(command.endswith(" program --name fluid --ranks 3"), command)
-                with ranks.memory(3) as memory:
+                with ranks.memory([3]) as memory:
                     folder, _, file = memory.pop("LD_PRELOAD").partition(":")[0].rpartition("/")
                     self.assertEqual((set(memory.values()), file), ({folder}, ranks.LOOPBACK))
                 self.assertFalse(any(Path(one).exists() for one in memory.values()))
@@ -144,6 +144,36 @@ class Wanted(InScratch):
             self.assertIn("stopped", verdict._of_ranks("fluid", self.folder, first.format(1)))
 
 
+class Room(InScratch):
+    """What ranks share lies in memory where there is room for it, else on the disk."""
+
+    def rooms(self, shared, on_disk):
+        """Two such places with so many MiB each."""
+        rooms = {ranks.SHARED: shared * ranks.MIB, ranks.ON_DISK: on_disk * ranks.MIB}
+        return mock.patch.object(ranks, "_room", rooms.get)
+
+    def test_it_is_in_memory_where_all_of_it_fits(self):
+        known = ranks.TOLD["4"]
+        for numbers, least in (([2], 17.25), ([8], 42), ([2, 2], 34.5)):
+            for shared, place in ((least, ranks.SHARED), (least - 0.1, ranks.ON_DISK)):
+                with self.rooms(shared, 1000):
+                    self.assertEqual(ranks._place(numbers, known), place)  # noqa: SLF001
+
+    def test_who_has_room_nowhere_is_told_how_much_it_takes_and_what_to_do(self):
+        with self.rooms(1, 3), mock.patch.object(ranks, "told", return_value=ranks.TOLD["4"]):
+            self.assertRegex(ranks.lack_of_room([2]), "share up to 18 MB, .* /dev/shm has 1 MB and /tmp has 3 MB; enlarge /dev/shm .*fewer ranks")
+            self.assertEqual(ranks.lack_of_room([]), "")
+        with self.rooms(1, 18), mock.patch.object(ranks, "told", return_value=ranks.TOLD["4"]):
+            self.assertEqual(ranks.lack_of_room([2]), "")
+
+    def test_a_place_that_is_not_there_or_has_no_bound(self):
+        self.assertEqual(ranks._room(self.folder / "nowhere"), 0)  # noqa: SLF001
+        self.assertGreater(ranks._room(self.folder), 0)  # noqa: SLF001
+        unbounded = SimpleNamespace(f_blocks=0, f_bavail=0, f_frsize=4096)
+        with mock.patch("os.statvfs", return_value=unbounded):
+            self.assertEqual(ranks._room(self.folder), float("inf"))  # noqa: SLF001
+
+
 class LeftBehind(InScratch):
     """What launchers leave that were killed; others in containers may share the folder, whose pids are numbers of other processes."""
 
@@ -159,7 +189,7 @@ class LeftBehind(InScratch):
 
     def test_a_run_has_a_folder_that_others_leave_alone(self):
         with mock.patch.object(ranks, "SHARED", self.folder), mock.patch.object(ranks, "told", return_value=ranks.TOLD["4"]), \
-                ranks.memory(2) as names:
+                ranks.memory([2]) as names:
             folder = Path(names["OMPI_MCA_orte_tmpdir_base"])
             ranks._forget_dead(self.folder)  # noqa: SLF001
             self.assertTrue(folder.is_dir())
