@@ -1,6 +1,7 @@
 """`fsi run`: one case from its file to its summary."""
 
 import contextlib
+import json
 import os
 import shlex
 import shutil
@@ -164,14 +165,6 @@ def _watched(case, directory, programs, run, request, say, checkpoint=None):
     return outcome, progress.reached()
 
 
-def _applicable(case, request, say):
-    """The expectations that make sense: an exact solution of the case's own law says nothing about another law."""
-    if not request.laws or case.reference == "none" or case.reference in cases.REFERENCE_PROGRAMS:
-        return case.expect
-    say("the reference solution is for the case's own law, this run has another law: its errors are not judged")
-    return [entry for entry in case.expect if not entry["quantity"].startswith("errors.")]
-
-
 def needed(case):
     """The programs a run of this case takes, besides those of every run."""
     others = [cases.REFERENCE_PROGRAMS.get(case.reference),
@@ -186,12 +179,25 @@ def _ranks_here(request, case):
     return [number for name, number in ranks.wanted(request.ranks, case).items() if name not in far]
 
 
-def _resolved(request, path, own=None):
+def _for_another_law(case, request, say):
+    """What --set would say to leave out the expectations that an exact solution of the case's own law cannot meet with another one. They
+    leave the case of the run itself, so that a restart does not judge by them either."""
+    if not (request.laws and request.judge) or case.reference == "none" or case.reference in cases.REFERENCE_PROGRAMS:
+        return []
+    say("the reference solution is for the case's own law, this run has another law: its errors are not judged")
+    kept = [entry for entry in case.expect if not entry["quantity"].startswith("errors.")]
+    return ["expect={}", *(f"expect.{entry['quantity']}.{bound}={json.dumps(entry[bound])}"
+                           for entry in kept for bound in ("min", "max", "equals") if entry[bound] is not None)]
+
+
+def _resolved(request, say, path, own=None):
     """The checked Case, all of whose programs are there, built if need be."""
     case = cases.resolve(path, request.overrides, request.laws, own)
+    more = _for_another_law(case, request, say)
     if request.frames and not any(entry.startswith("output.every") for entry in request.overrides):
-        overrides = [*request.overrides, f"output.every={case.end / FRAMES:.17g}"]
-        case = cases.resolve(path, overrides, request.laws, own)
+        more.append(f"output.every={case.end / FRAMES:.17g}")
+    if more:
+        case = cases.resolve(path, [*request.overrides, *more], request.laws, own)
     paths.expect(case.programs)
     paths.build([*needed(case), *(["monitor"] if request.monitor else [])])
     ranks.expect_mpi(ranks.wanted(request.ranks, case))
@@ -208,7 +214,7 @@ def _begin(request, say):
     if request.restart is None:
         if request.case is None:
             raise UserMistake("run: name a case, or a run with --restart DIR")
-        case = _resolved(request, request.case)
+        case = _resolved(request, say, request.case)
         directory, made = folder.make(request.out, case.name, request.overwrite)
         checkpoint = None
     else:
@@ -217,7 +223,7 @@ def _begin(request, say):
         directory, made = Path(request.restart), None
         restart.expect_run(directory)
         own = str(directory / "case.yaml")
-        case = _resolved(request, request.case or own, own)
+        case = _resolved(request, say, request.case or own, own)
         checkpoint = restart.choose(directory, say, case.digest)
         if request.pause_at is not None and request.pause_at < checkpoint.step:
             raise UserMistake(f"--pause-at {request.pause_at}: the run goes on from step {checkpoint.step}; write that or a later one")
@@ -305,7 +311,7 @@ def _run(case, directory, checkpoint, request, say):
     except Failure as failure:
         if code == DONE:
             code, result["status"], result["reason"] = failure.code, "failed", str(failure)
-    expect = _applicable(case, request, say) if request.judge and status == "completed" else []
+    expect = case.expect if request.judge and status == "completed" else []
     missed = summary.missed_expectations(result, expect)
     try:
         summary.write(directory, result)

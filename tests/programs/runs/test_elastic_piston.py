@@ -30,7 +30,12 @@ class ElasticPiston(EndToEnd):
         run = self.complete("elastic_piston", "--solid", "solid=neo_hookean", "--set", "grid.factor=2")
         self.assertEqual(run.summary()["participants"]["solid"]["program"], "solid_solver_neo_hookean")
         self.assertIn("another law", run.stderr)  # than the exact solution is for
-        self.assertNotIn("errors.rho", [entry["quantity"] for entry in run.summary()["expectations"]])
+        judged = [entry["quantity"] for entry in run.summary()["expectations"]]
+        self.assertEqual(judged, ["status", "interface.max_gap"])
+        # No more after a restart, whose law is that of the run.
+        again = self.launch("--restart", str(run.directory), "--set", "time.end=0.82", out=None)
+        self.assertEqual(again.wait(), 0, again.stderr)
+        self.assertEqual([entry["quantity"] for entry in run.summary()["expectations"]], judged)
 
     def test_missed_expectation_is_named_and_exits_1(self):
         run = self.launch("elastic_piston", "--set", "grid.factor=2", "--set", "expect.errors.rho={max: 1e-9}")
