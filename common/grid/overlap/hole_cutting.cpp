@@ -181,7 +181,7 @@ void CurveCut::drop_touches(double tolerance) {
   sorted_.resize(kept);
 }
 
-/// Rows with crossings know their first point's side; it changes from row to row only by flips.
+/// Rows with crossings know what is before the first one; along the left boundary the side changes by flips only.
 void CurveCut::find_starts(const CuttingCurve& curve, int rows, const std::string& name, double t) {
   constexpr unsigned char unknown = 2;
   starts_behind_.assign(static_cast<std::size_t>(rows), unknown);
@@ -195,10 +195,10 @@ void CurveCut::find_starts(const CuttingCurve& curve, int rows, const std::strin
   }
   // Between flips nothing changes: spread upwards, then downwards. Rows beside a flip are known already.
   for (int j = 1; j < rows; ++j) {
-    if (start(j) == unknown) start(j) = start(j - 1);
+    if (start(j) == unknown && start(j - 1) != unknown) start(j) = depth(0, j - 1) > 0 ? 1 : 0;
   }
   for (int j = rows - 2; j >= 0; --j) {
-    if (start(j) == unknown) start(j) = start(j + 1);
+    if (start(j) == unknown && start(j + 1) != unknown) start(j) = depth(0, j + 1) > 0 ? 1 : 0;
   }
   if (start(0) != unknown) return;
   if (curve.ends == Curve::open && !curve.on_wall) {
@@ -249,7 +249,7 @@ bool CurveCut::behind(const CartesianGrid& grid, const Vec2& position) const {
                        (depth(right, above) > 0) == corner;
   const Crossing* near = nearest(i, j, 2);
   if (uniform && (near == nullptr || std::abs(near->column - i) > 3)) return corner;
-  int sum = starts_behind_[static_cast<std::size_t>(j)];
+  int sum = depth(0, j);
   for (const Flip& flip : flips_) {
     if (flip.y > grid.y(j) && flip.y <= position[1]) sum += flip.into_hole ? 1 : -1;
   }

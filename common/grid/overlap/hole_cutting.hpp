@@ -71,7 +71,7 @@ class CurveCut {
   std::vector<Crossing> crossings_, sorted_;
   std::vector<std::size_t> first_;
   std::vector<Flip> flips_;
-  std::vector<unsigned char> starts_behind_;  ///< the side of each row's first point
+  std::vector<unsigned char> starts_behind_;  ///< the side of each row before its first crossing
 
   int depth(int i, int row) const;
   void collect(const CartesianGrid& grid, const CuttingCurve& curve, const std::string& name, double t);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -317,6 +318,41 @@ TEST(CurveCut, PointsOnABoxBelongToTheDomainOnAllItsSides) {
         const bool within = j > 6 && j < 14;
         EXPECT_EQ(holes.size(), within ? 1U : 0U) << j << " " << off;
         for (const Interval& hole : holes) EXPECT_EQ(hole.end - hole.begin, 7) << j << " " << off;
+      }
+    }
+  }
+}
+
+// A box that stands on the rim of the background, or hangs over it as a floor does, on each of the four sides.
+TEST(CurveCut, IsTheSameOnAllFourSidesOfTheBackground) {
+  const CartesianGrid background{.name = "gas", .n1 = 21, .n2 = 21, .x_a = -1, .x_b = 1, .y_a = -1, .y_b = 1};
+  constexpr int n = 41;
+  for (const double foot : {-1.0, -0.9}) {
+    const auto upright =
+        points_on(sharp({{-0.33, foot}, {-0.33, -0.48}, {0.33, -0.48}, {0.33, foot}}, Curve::open), n);
+    Eigen::Matrix2d turn = Eigen::Matrix2d::Identity();
+    for (int quarter = 0; quarter < 4; ++quarter, turn = Eigen::Rotation2Dd(0.5 * std::numbers::pi) * turn) {
+      std::vector<double> x(upright.size());
+      for (int k = 0; k < n; ++k) {
+        const Vec2 turned = turn * point(upright, k);
+        x[static_cast<std::size_t>(k)] = turned[0];
+        x[static_cast<std::size_t>(k + n)] = turned[1];
+      }
+      CurveCut cut;
+      cut.cut(background,
+              {.x = x.data(), .y = x.data() + n, .points = n, .ends = Curve::open, .on_wall = true}, "box",
+              0);
+      for (int j = 0; j < background.n2; ++j) {
+        std::vector<Interval> holes;
+        cut.append_holes(j, background.n1, holes);
+        for (int i = 0; i < background.n1; ++i) {
+          const Vec2 at = background.point(i, j), there = turn.transpose() * at;
+          const bool in_box = std::abs(there[0]) < 0.33 && there[1] < -0.48 && there[1] > foot - 1e-3;
+          EXPECT_EQ(cut.behind(background, at), in_box) << at.transpose() << " turned by " << quarter;
+          const bool is_hole =
+              std::ranges::any_of(holes, [i](const Interval& h) { return h.begin <= i && i < h.end; });
+          EXPECT_EQ(is_hole, in_box) << at.transpose() << " turned by " << quarter;
+        }
       }
     }
   }
