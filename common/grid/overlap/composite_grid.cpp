@@ -125,7 +125,7 @@ void CompositeGrid::connect_now(double t) {
     cuts_[static_cast<std::size_t>(grid) - 1].cut(background_, curve_of(grid), name(grid), t);
   }
   cut_background();
-  for (int grid = 1; grid < grids(); ++grid) cut_body(grid);
+  for (int grid = 1; grid < grids(); ++grid) cut_body(grid, t);
   constexpr int all_lines = std::numeric_limits<int>::max();
   connect_all(options_.trim, all_lines, Orphaned::stop_at_first);
   if (options_.trim && orphans_.count > 0) connect_all(false, all_lines, Orphaned::stop_at_first);
@@ -179,11 +179,26 @@ bool CompositeGrid::touches(int grid, int other) {
   return false;
 }
 
+/// The curve of a grid bounds the domain: without its points nobody would know that it is there.
+void CompositeGrid::expect_curve_inside(int grid, double t) const {
+  const CuttingCurve curve = curve_of(grid);
+  for (int k = curve.ends == Curve::open ? 1 : 0; k < curve.points - 1; ++k) {
+    const Vec2 x(curve.x[k], curve.y[k]);
+    if (inside(background_, x[0], x[0], x[1], x[1])) continue;
+    throw Diverged(
+        fmt::format("the curve of {} has left the rectangle of \"{}\" here; let that reach farther, or "
+                    "the run end before",
+                    body(grid).of.empty() ? "this grid" : body(grid).of, background_.name),
+        {.t = t, .grid = name(grid), .position = {x[0], x[1]}});
+  }
+}
+
 /// Holes of a body-fitted grid: points outside the background, or behind the curve of another grid.
-void CompositeGrid::cut_body(int grid) {
+void CompositeGrid::cut_body(int grid, double t) {
   const ConstFieldView x = positions_[static_cast<std::size_t>(grid) - 1].x;
   const Box box(x);
   const bool sticks_out = !inside(background_, box.x_a, box.x_b, box.y_a, box.y_b);
+  if (sticks_out) expect_curve_inside(grid, t);
   cutters_.clear();
   for (int other = 1; other < grids(); ++other) {
     if (other != grid && touches(grid, other)) cutters_.push_back(other);

@@ -178,7 +178,8 @@ class CompositeGrid {
 
   void connect_now(double t);
   void cut_background();
-  void cut_body(int grid);
+  void expect_curve_inside(int grid, double t) const;
+  void cut_body(int grid, double t);
   bool touches(int grid, int other);
   bool cut_away(const Vec2& x, int spared) const;
   void limit_lines(int grid, int lines);

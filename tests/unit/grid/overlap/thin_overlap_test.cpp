@@ -142,5 +142,42 @@ TEST(ThinOverlap, ABodyThatStandsOnTheSideItComesNearIsNotToldAGridThere) {
   }
 }
 
+/// A wall from the left side to the right one, at a height, with its grid above it.
+std::string message_of_floor(double height) {
+  constexpr int points = 41;
+  std::vector<double> curve(2 * points, height);
+  for (std::size_t k = 0; k < points; ++k) curve[k] = -1 + 0.05 * static_cast<double>(k);
+  HyperbolicGrid strip{.name = "strip", .points = points, .lines = 8, .curve = Side::bottom, .spacing = 0.05};
+  strip.ends = Curve::open;
+  strip.walls = {Vec2(0, 1), Vec2(0, 1)};
+  HyperbolicMarch march(strip);
+  Field x(march.layout(), 2);
+  march.march(curve, x.view(), 1);
+  CompositeGrid grids({.name = "gas", .n1 = 41, .n2 = 41, .x_a = -1, .x_b = 1, .y_a = -1, .y_b = 1},
+                      {{.name = "strip",
+                        .n1 = points,
+                        .n2 = 8,
+                        .curve = Side::bottom,
+                        .ends = Curve::open,
+                        .of = "body `plate`"}});
+  const ConstFieldView views[] = {x.view()};
+  try {
+    grids.connect(views, 1);
+  } catch (const Diverged& broke) {
+    return broke.what();
+  }
+  return "";
+}
+
+// Without its points the gas would not know of it.
+TEST(ThinOverlap, ACurveThatHasLeftTheBackgroundIsNamed) {
+  EXPECT_EQ(message_of_floor(-0.9), "");
+  EXPECT_EQ(message_of_floor(-1), "");
+  const std::string below = message_of_floor(-1.001);
+  EXPECT_NE(below.find("t = 1, grid \"strip\", at (-0.95, -1"), std::string::npos) << below;
+  EXPECT_NE(below.find("the curve of body `plate` has left the rectangle of \"gas\" here"), std::string::npos)
+      << below;
+}
+
 }  // namespace
 }  // namespace fsi::grid
