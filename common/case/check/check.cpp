@@ -13,6 +13,7 @@
 #include "common/case/check/check_interfaces.hpp"
 #include "common/case/check/check_overlap.hpp"
 #include "common/case/check/check_places.hpp"
+#include "common/case/check/check_rim.hpp"
 #include "common/case/check/given/check_reference.hpp"
 #include "common/case/check/given/check_side_data.hpp"
 #include "common/case/check/given/check_starts.hpp"
@@ -222,6 +223,7 @@ void check_case(const Case& problem, const Node& root) {
   }
   check_names(problem, root);
   check_geometry(problem, root);
+  check_rim(problem, root);
   check_laws(problem, root);
   for (const FluidSpec& fluid : problem.fluids) check_fluid(problem, fluid, root);
   for (const SolidSpec& solid : problem.solids) {

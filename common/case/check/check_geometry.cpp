@@ -14,6 +14,7 @@
 
 #include "common/case/document/fluid_sections.hpp"
 #include "common/case/grids/block.hpp"
+#include "common/case/grids/grid_points.hpp"
 #include "common/case/grids/no_grids_fit.hpp"
 #include "common/case/grids/own_crossing.hpp"
 #include "common/case/schema/laws.hpp"
@@ -89,11 +90,6 @@ struct Excess {
   Side side = Side::left;
   Vec2 x = Vec2::Zero();
 };
-
-double end_of(const GridSpec& grid, Side side) {
-  if (direction_of(side) == 0) return at_upper_end(side) ? grid.x_b : grid.x_a;
-  return at_upper_end(side) ? grid.y_b : grid.y_a;
-}
 
 Excess largest_excess(const CheckedOutline& outline, const GridSpec& grid) {
   Excess worst;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "common/core/failure.hpp"
+
 namespace fsi {
 
 namespace {
@@ -74,7 +76,15 @@ void put_body_to_the_left(CurveSpec& curve, const std::optional<std::array<doubl
   const auto backwards = [&] {
     if (!between_sides) return signed_area(curve.x) < 0;
     const auto [x_a, x_b, y_a, y_b] = *rectangle;
-    return part_to_the_left(curve, {x_a, x_b, y_a, y_b}) > 0.5;
+    const double part = part_to_the_left(curve, {x_a, x_b, y_a, y_b});
+    constexpr double round_off = 1e-9;
+    if (std::abs(part - 0.5) < round_off) {
+      throw UserMistake(
+          "cuts the rectangle of the gas into halves, and the gas is the larger part: let the rectangle "
+          "reach "
+          "farther on the side where the gas is");
+    }
+    return part > 0.5;
   };
   if (!backwards()) return;
   reverse_direction(curve.x);

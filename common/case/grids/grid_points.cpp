@@ -23,6 +23,11 @@ Vec2 position(const GridSpec& grid, int i, int j, double t) {
   return place(grid, static_cast<double>(i) / (grid.n1 - 1), static_cast<double>(j) / (grid.n2 - 1), t);
 }
 
+double end_of(const GridSpec& grid, Side side) {
+  if (direction_of(side) == 0) return at_upper_end(side) ? grid.x_b : grid.x_a;
+  return at_upper_end(side) ? grid.y_b : grid.y_a;
+}
+
 int points_along(const GridSpec& grid, Side side) {
   return direction_of(side) == 0 ? grid.n2 : grid.n1;
 }

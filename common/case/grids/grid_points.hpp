@@ -12,6 +12,8 @@ namespace fsi {
 Vec2 place(const GridSpec& grid, double r, double s, double t);
 /// Position of grid point (i, j) at time t.
 Vec2 position(const GridSpec& grid, int i, int j, double t);
+/// Where a side of an upright rectangle is: its x, or its y.
+double end_of(const GridSpec& grid, Side side);
 /// Number of points of a side.
 int points_along(const GridSpec& grid, Side side);
 /// Point k of a side at time t.

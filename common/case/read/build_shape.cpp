@@ -258,12 +258,12 @@ CurveSpec build_curve(const Reader& reader, const Node& shape, const std::string
     result.x = grid::points_at(curve, s);
     result.corners = grid::corners_among(curve, s);
     result.spacing = length / (points - 1);
+    put_body_to_the_left(result, gas_rectangle(reader, result));
   } catch (const UserMistake& mistake) {
     const std::string what = mistake.what();
     if (what.starts_with(shape.place.substr(0, shape.place.find(':')))) throw;  // it has its place already
     fail(shape.place, path, what);
   }
-  put_body_to_the_left(result, gas_rectangle(reader, result));
   stand_on_wall(reader, shape, path, result);
   return result;
 }

@@ -159,5 +159,63 @@ TEST(CaseGeometry, BeamHigherThanItsChannelIsToldSo) {
   }
 }
 
+/// A gas above a layer, or a wall, from the left side of its rectangle to the right one.
+std::string gas_above(const std::string& y, const std::string& bottom, const std::string& curve,
+                      const std::string& more = "") {
+  return "time: {end: 1}\n"
+         "grid: {factor: 2}\n"
+         "fluid:\n"
+         "  grid: {x: [0, 1], y: " +
+         y +
+         "}\n"
+         "  body_fitted: [{name: strip, " +
+         curve +
+         "}]\n"
+         "  boundary: {left: slip_wall, right: slip_wall, bottom: " +
+         bottom +
+         ", top: slip_wall}\n"
+         "  initial: {rho: 1, v: [0, 0], p: 1}\n" +
+         more;
+}
+
+const std::string layer =
+    "solids:\n"
+    "  panel:\n"
+    "    law: linear_elastic\n"
+    "    rho: 2\n"
+    "    lambda: 2\n"
+    "    mu: 2\n"
+    "    grid: {x: [0, 1], y: [-0.2, 0], spacing: h}\n"
+    "    boundary: {left: slip_wall, right: slip_wall, bottom: clamped, top: interface}\n";
+
+// The gas of the rim would go its own way there.
+TEST(Rim, CurvesAlongItAreRefusedUnlessTheyAreTheSameWall) {
+  const std::string at_layer = "solid: panel, walls: [left, right]";
+  const std::string message = mistake_in(gas_above("[0, 1]", "slip_wall", at_layer, layer));
+  EXPECT_NE(message.find(
+                "fluid.body_fitted[0]: the curve of grid `strip` lies along the bottom side of fluid.grid"),
+            std::string::npos)
+      << message;
+  EXPECT_NE(message.find("`y: [-0.2, 1]`"), std::string::npos) << message;
+  EXPECT_EQ(mistake_in(gas_above("[-0.2, 1]", "slip_wall", at_layer, layer)), "");
+  const std::string floor =
+      "shape: {kind: polygon, radius: 0, corners: [[0, 0], [1, 0]], walls: [left, right]}";
+  EXPECT_NE(mistake_in(gas_above("[0, 1]", "outflow", floor)), "");
+  EXPECT_EQ(mistake_in(gas_above("[0, 1]", "slip_wall", floor)), "");
+}
+
+TEST(OpenCurve, ThatCutsTheRectangleIntoHalvesIsRefused) {
+  for (const char* corners : {"[[0, 0], [1, 0]]", "[[1, 0], [0, 0]]"}) {
+    const std::string walls = corners[2] == '0' ? "[left, right]" : "[right, left]";
+    const std::string floor =
+        std::string("shape: {kind: polygon, radius: 0, corners: ") + corners + ", walls: " + walls + "}";
+    const std::string message = mistake_in(gas_above("[-1, 1]", "slip_wall", floor));
+    EXPECT_NE(message.find("fluid.body_fitted[0].shape: cuts the rectangle of the gas into halves"),
+              std::string::npos)
+        << message;
+    EXPECT_EQ(mistake_in(gas_above("[-0.9, 1]", "slip_wall", floor)), "");
+  }
+}
+
 }  // namespace
 }  // namespace fsi

@@ -158,7 +158,9 @@ TEST(OpenOutlines, AWallIsTheSmallerPartOfTheGasWhicheverWayItIsListed) {
     EXPECT_NO_THROW(connect_once(problem->fluids.front().grid, problem->fluids.front().body_fitted));
   }
   // The same ramp hanging from the top.
-  const Case hanging = load_text(wall_case("[[-2, 2], [0, 2], [2, 1.6]]", "[left, right]"));
+  const std::string under = wall_case("[[-2, 2], [0, 2], [2, 1.6]]", "[left, right]");
+  EXPECT_NE(mistake_in(under).find("write `top: slip_wall`"), std::string::npos) << mistake_in(under);
+  const Case hanging = load_text(under, {"fluid.boundary.top=slip_wall"});
   const BodyFittedSpec& wall = hanging.fluids.front().body_fitted[0];
   EXPECT_LT(wall.curve.x.front(), wall.curve.x[static_cast<std::size_t>(wall.curve.points()) - 1]);
 }
