@@ -83,7 +83,9 @@ Eigen::VectorXd balance(const Eigen::SparseMatrix<double>& N, std::span<const Ga
     const Eigen::VectorXd v_n = N.transpose() * at;
     for (std::size_t i = 0; i < gas.size(); ++i)
       tangents[i] = gas[i].tangent(v_n(static_cast<Eigen::Index>(i)));
-    return answer(tangents) - at;
+    const Eigen::VectorXd next = answer(tangents);
+    if (next.size() == 0) return next;
+    return next - at;
   };
   const auto size_of = [&](const Eigen::VectorXd& change) {
     return (N.transpose() * change).cwiseAbs().maxCoeff();
@@ -92,11 +94,13 @@ Eigen::VectorXd balance(const Eigen::SparseMatrix<double>& N, std::span<const Ga
   constexpr double round_off = 1e-14, close = 1e-8, least_part = 1e-3;
   constexpr int most = 50;
   Eigen::VectorXd change = change_at(q_dot);
-  for (int k = 0; k < most && size_of(change) > round_off * scale; ++k) {
+  for (int k = 0; k < most; ++k) {
+    if (change.size() == 0) return change;  // nothing resists any more
+    if (!(size_of(change) > round_off * scale)) return q_dot;
     if (size_of(change) <= close * scale) return q_dot + change;
     double part = 1;
     Eigen::VectorXd next = q_dot + change, after = change_at(next);
-    while (size_of(after) > size_of(change) && part > least_part) {
+    while ((after.size() == 0 || size_of(after) > size_of(change)) && part > least_part) {
       part *= 0.5;
       next = q_dot + part * change;
       after = change_at(next);

@@ -75,6 +75,10 @@ void check_takers(const Case& problem, const Node& root) {
     if (!describes(problem.reference, is_gas))
       fail(node.place, path,
            fmt::format("takes its data from `reference`, which has no `{}`", is_gas ? "fluid" : "u"));
+    if (spec.kind == BoundaryKind::traction && !problem.reference.u)
+      fail(node.place, path,
+           fmt::format("takes its traction from `reference`, and `{}` has none; write `traction: [.., ..]`",
+                       name_of(problem.reference.kind)));
   };
   for (const FluidSpec& fluid : problem.fluids) {
     if (fluid.initial_from_reference)
@@ -128,6 +132,13 @@ void check_motion(const Case& problem, const Node& root) {
          "goes with `reference: {kind: manufactured, fluid: .., u: ..}` only; leave it out: the solid moves "
          "it");
   }
+  for (const SolidSpec& solid : problem.solids) {
+    if (is_continuum(solid.law)) continue;
+    fail(node.place, "interface.motion",
+         fmt::format(
+             "is the path of elastic bodies, which take their load from `reference.u`; solid `{}` is `{}`",
+             solid.name, solid.law));
+  }
   constexpr double tolerance = 1e-9;
   for (const SolidSpec& solid : problem.solids) {
     for (const Vec2& x : meeting_points(solid)) {
@@ -138,6 +149,17 @@ void check_motion(const Case& problem, const Node& root) {
            fmt::format("must be (x, y) at t = 0, but ({:.6g}, {:.6g}) goes to ({:.6g}, {:.6g})", x[0], x[1],
                        start[0], start[1]));
     }
+  }
+}
+
+/// Where the reference is a chosen displacement, what acts on the body is what makes it the solution.
+void check_forces(const Case& problem, const Node& root) {
+  if (problem.reference.kind != ReferenceKind::manufactured || !problem.reference.u) return;
+  for (const SolidSpec& solid : problem.solids) {
+    if (!solid.body_force) continue;
+    fail(node_at(root, {"solids", solid.name, "body_force"}).place,
+         fmt::format("solids.{}.body_force", solid.name),
+         "has no effect: the force is the one that makes `reference.u` the solution; leave it out");
   }
 }
 
@@ -251,6 +273,7 @@ void check_reference(const Case& problem, const Node& root) {
   check_takers(problem, root);
   check_misfit(problem, root);
   check_motion(problem, root);
+  check_forces(problem, root);
   check_data(problem, root);
 }
 

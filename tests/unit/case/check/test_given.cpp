@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <vector>
 
 #include "common/core/failure.hpp"
 #include "tests/unit/case/cases.hpp"
@@ -168,6 +169,35 @@ TEST(GivenMap, TakesItsSidesAlong) {
   EXPECT_EQ(mistake_in(moving_gas("r + 2 * t", "dirichlet", reference)), "");
   expect_refused(moving_gas("r", "dirichlet", reference),
                  "fluid.boundary.left: takes its data from `reference`");
+}
+
+/// The message of a case in configs/ with some values set.
+std::string mistake(const std::string& name, const std::vector<std::string>& sets) {
+  return mistake_in(tests::text_of_file(FSI_ROOT "/configs/" + name), sets);
+}
+
+// What the reference has no data for cannot be taken from it.
+TEST(GivenReference, HasATractionWhereItHasADisplacement) {
+  const std::string message = mistake("elastic_piston.yaml", {"solids.solid.boundary.left=traction"});
+  EXPECT_NE(
+      message.find(
+          "solids.solid.boundary.left: takes its traction from `reference`, and `elastic_piston` has none"),
+      std::string::npos)
+      << message;
+}
+
+TEST(GivenReference, ThatIsChosenBringsTheForcesThatMakeItTheSolution) {
+  EXPECT_EQ(mistake("solid_manufactured.yaml", {}), "");
+  const std::string message = mistake("solid_manufactured.yaml", {"solids.solid.body_force=[1, 0]"});
+  EXPECT_NE(message.find("solids.solid.body_force: has no effect"), std::string::npos) << message;
+}
+
+TEST(GivenReference, WithAPathOfTheInterfaceIsForElasticBodies) {
+  const std::string message =
+      mistake("manufactured_piston.yaml",
+              {"solids.solid={law: rigid, rho: 1, grid: {x: [-1, 0], y: [0, 1], spacing: h}, boundary: "
+               "{left: free, right: interface, bottom: slip_wall, top: slip_wall}}"});
+  EXPECT_NE(message.find("interface.motion: is the path of elastic bodies"), std::string::npos) << message;
 }
 
 }  // namespace

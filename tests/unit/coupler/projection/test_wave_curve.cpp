@@ -171,5 +171,22 @@ TEST(Balance, DiffersFromTheLinearOneByTheSquareOfTheJump) {
   EXPECT_NEAR(std::log2(difference(1e-3) / difference(5e-4)), 2, 0.01);
 }
 
+// What resists a gas of linear answer may not resist any more where the curve is flat.
+TEST(Balance, IsNoneWhereNothingResistsAModeAnyMore) {
+  Eigen::MatrixXd N(1, 1);
+  N << 1;
+  const std::vector<GasSide> gas{side_of({.rho = 1, .v = 0.5, .p = p_e})};
+  const std::vector<double> ds{1.0};
+  for (int sound = 0; sound < 6; ++sound) {
+    int calls = 0;
+    const auto answer = [&](const ModalLoad& load) -> Eigen::VectorXd {
+      if (calls++ > sound) return {};
+      return load.f / load.A.coeff(0, 0);
+    };
+    const Eigen::VectorXd q_dot = balance(N.sparseView(), gas, ds, answer);
+    EXPECT_TRUE(calls > sound + 1 || q_dot.size() == 1) << sound;
+  }
+}
+
 }  // namespace
 }  // namespace fsi::coupler
