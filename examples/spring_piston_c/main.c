@@ -6,6 +6,7 @@
  *                     |######| --> q
  */
 #define _GNU_SOURCE
+#include <errno.h>
 #include <math.h>
 #include <signal.h>
 #include <stdio.h>
@@ -160,9 +161,11 @@ static amp_fsi_PredictedInterface state_at(uint64_t step, double t) {
 
 /* --- files */
 
-/* In the set of `step`, under another name until it is whole. */
+/* In the set of `step`, under another name until it is whole. The table must be on the disk as far as the state says. */
 static void save(uint64_t step, FILE* table) {
   char path[TEXT], whole[TEXT + 8];
+  if (ferror(table) || fflush(table) != 0 || fsync(fileno(table)) != 0)
+    bus_end(OUTPUT_FAILED, "cannot write the table: %s; check the free space", strerror(errno));
   piston.table_length = ftell(table);
   snprintf(path, sizeof path, "%s/checkpoints", run_dir);
   mkdir(path, 0777);
@@ -205,8 +208,17 @@ static FILE* open_table(void) {
         "[length],"
         "velocity1 [length/time],velocity2 [length/time]\n",
         table);
-  else if (ftruncate(fileno(table), piston.table_length) != 0 || fseek(table, 0, SEEK_END) != 0)
-    bus_end(OUTPUT_FAILED, "cannot write %s", path);
+  else {
+    struct stat found;
+    if (fstat(fileno(table), &found) != 0) bus_end(OUTPUT_FAILED, "cannot read %s", path);
+    if (found.st_size < piston.table_length)
+      bus_end(OUTPUT_FAILED,
+              "%s has %lld bytes, the checkpoint was written when it had %ld; put the whole table back, or begin "
+              "the run anew",
+              path, (long long)found.st_size, piston.table_length);
+    if (ftruncate(fileno(table), piston.table_length) != 0 || fseek(table, 0, SEEK_END) != 0)
+      bus_end(OUTPUT_FAILED, "cannot write %s", path);
+  }
   return table;
 }
 

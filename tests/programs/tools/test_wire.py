@@ -122,17 +122,33 @@ class SpringPistonInC(EndToEnd):
         self.assertIn(f"piston: coupler ended the run: fluid (pid {gas}) has died", self.said(run))
         self.assert_nothing_left(run)
 
+    def killed_after_a_checkpoint(self, program):
+        """A run that ended when this program was killed, and left the set of step 20: so early that less than one of the C library's buffers is in the table."""
+        run = self.launch("spring_piston", *SMALL, *self.in_c(), "--set", "output.checkpoint_every=10", "--pause-at", "25")
+        programs = run.until_paused()
+        self.assertTrue(until(lambda: 20 in run.checkpoints()))
+        os.kill(programs[program], signal.SIGKILL)
+        self.assertEqual(run.wait(), 4)
+        return run
+
     def test_goes_on_bit_for_bit_from_a_checkpoint(self):
         whole = self.complete("spring_piston", *SMALL, *self.in_c(), out="whole")
-        run = self.launch("spring_piston", *SMALL, *self.in_c(), "--set", "output.checkpoint_every=10", "--pause-at", "35")
-        programs = run.until_paused()
-        self.assertTrue(until(lambda: 30 in run.checkpoints()))
-        os.kill(programs["coupler"], signal.SIGKILL)
-        self.assertEqual(run.wait(), 4)
+        for program in ("coupler", self.program.name):
+            run = self.killed_after_a_checkpoint(program)
+            again = self.launch("--restart", str(run.directory), out=None)
+            self.assertEqual(again.wait(), 0, again.stderr)
+            for name in ("forces_piston.csv", "interface.csv"):
+                self.assertEqual((run.directory / name).read_bytes(), (whole.directory / name).read_bytes(), (program, name))
+            shutil.rmtree(run.directory)
+
+    def test_does_not_go_on_with_a_table_that_lacks_lines_from_before_the_checkpoint(self):
+        run = self.killed_after_a_checkpoint(self.program.name)
+        table = run.directory / "forces_piston.csv"
+        table.write_bytes(table.read_bytes()[:1000])
         again = self.launch("--restart", str(run.directory), out=None)
-        self.assertEqual(again.wait(), 0, again.stderr)
-        for name in ("forces_piston.csv", "interface.csv"):
-            self.assertEqual((run.directory / name).read_bytes(), (whole.directory / name).read_bytes(), name)
+        self.assertEqual(again.wait(), 5, again.stderr)
+        self.assertRegex(self.said(run), r"forces_piston\.csv has 1000 bytes, .* had \d+; put the whole table back")
+        self.assertEqual(table.stat().st_size, 1000)
 
 
 if __name__ == "__main__":
