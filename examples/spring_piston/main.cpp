@@ -118,6 +118,7 @@ class Piston final : public fsi::Participant {
     width_ = Vec2(x_0_[points - 1] - x_0_[0], x_0_[2 * points - 1] - x_0_[points]).norm();
     const double depth =
         fsi::direction_of(face) == 0 ? spec_.grid.x_b - spec_.grid.x_a : spec_.grid.y_b - spec_.grid.y_a;
+    centre_ = 0.5 * (Vec2(x_0_[0] + x_0_[points - 1], x_0_[points] + x_0_[2 * points - 1]) - depth * e_);
     motion_ = {
         .mass = spec_.rho * width_ * depth, .stiffness = number("stiffness"), .damping = number("damping")};
   }
@@ -164,9 +165,7 @@ class Piston final : public fsi::Participant {
   }
 
   void write_tables(double t, double /*dt*/, fsi::ProjectedStates /*gas*/) override {
-    const Vec2 force = force_ * e_, velocity = motion_.q_dot * e_;
-    const Vec2 centre(0.5 * (x_0_[0] + x_0_[points - 1]) + motion_.q * e_[0],
-                      0.5 * (x_0_[points] + x_0_[2 * points - 1]) + motion_.q * e_[1]);
+    const Vec2 force = force_ * e_, velocity = motion_.q_dot * e_, centre = centre_ + motion_.q * e_;
     table_.row(
         {t, force[0], force[1], force_ * motion_.q_dot, centre[0], centre[1], velocity[0], velocity[1]});
   }
@@ -198,7 +197,7 @@ class Piston final : public fsi::Participant {
   const fsi::SolidSpec& spec_;
   fsi::io::CsvWriter table_;
   std::vector<double> x_0_, n_;
-  Vec2 e_;
+  Vec2 e_, centre_;  ///< along which it moves; of its mass, at rest
   double width_ = 0, force_ = 0;
   Oscillator motion_;
 };

@@ -23,6 +23,7 @@ static const char *case_file, *run_dir, *restart;
 static char digest[64];                       /* of the case */
 static double mass, stiffness, damping, push; /* of the whole piston */
 static double face, bottom, top;              /* its face lies at x = face, from y = bottom to top */
+static double thickness;                      /* from the face to its back: where its centre is */
 
 /* All that the next steps depend on; the table is cut back to its length at a restart. */
 static struct {
@@ -64,6 +65,7 @@ static void read_case(void) {
   face = number(data, "face");
   bottom = number(data, "bottom");
   top = number(data, "top");
+  thickness = number(data, "thickness");
   seat.peer_timeout = number(json, "peer_timeout");
   seat.join_timeout = number(json, "join_timeout");
 }
@@ -212,10 +214,11 @@ static FILE* open_table(void) {
     struct stat found;
     if (fstat(fileno(table), &found) != 0) bus_end(OUTPUT_FAILED, "cannot read %s", path);
     if (found.st_size < piston.table_length)
-      bus_end(OUTPUT_FAILED,
-              "%s has %lld bytes, the checkpoint was written when it had %ld; put the whole table back, or begin "
-              "the run anew",
-              path, (long long)found.st_size, piston.table_length);
+      bus_end(
+          OUTPUT_FAILED,
+          "%s has %lld bytes, the checkpoint was written when it had %ld; put the whole table back, or begin "
+          "the run anew",
+          path, (long long)found.st_size, piston.table_length);
     if (ftruncate(fileno(table), piston.table_length) != 0 || fseek(table, 0, SEEK_END) != 0)
       bus_end(OUTPUT_FAILED, "cannot write %s", path);
   }
@@ -236,7 +239,7 @@ static void step_until_stop(void) {
     correct(answer.q_dot._buffer[0]);
     const double force = (top - bottom) * answer.w_n._buffer[POINTS / 2];
     fprintf(table, "%.17g,%.17g,0,%.17g,%.17g,%.17g,%.17g,0\n", t, force, force * piston.q_dot,
-            face + piston.q, 0.5 * (bottom + top), piston.q_dot);
+            face - 0.5 * thickness + piston.q, 0.5 * (bottom + top), piston.q_dot);
     if (answer.stop) break;
     predict(answer.dt_next);
     t = answer.t_next;

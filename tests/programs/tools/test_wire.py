@@ -19,7 +19,7 @@ SMALL = ("--set", "grid.factor=2", "--set", "expect={}")
 # Steps so small that the run is in its middle whenever something is done to it.
 LONG = ("--set", "grid.factor=2", "--set", "time.dt=1e-7", "--set", "output.times=[1e-6, 2.5]", "--set", "expect={}")
 DATA = ("{mass: 0.25 * density_ratio, stiffness: 0.25 * stiffness, damping: 0.25 * damping, push: 0.25 * push, face: 0, bottom: 0, "
-        "top: 0.25}")
+        "top: 0.25, thickness: 1}")
 ROUND_OFF = 1e-13   # in parts of the largest number of a column
 
 
