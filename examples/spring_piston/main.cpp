@@ -186,11 +186,12 @@ class Piston final : public fsi::Participant {
     throw fsi::UserMistake(fmt::format("solids.{}.data: write `{}: NUMBER`, not negative", spec_.name, name));
   }
 
-  /// The case's body force on the whole piston.
+  /// The case's body force of the reference centre, on the whole piston.
   double pull(double t) const {
     if (!spec_.body_force) return 0;
+    const auto& [c1, c2] = *spec_.body_force;
     return motion_.mass / spec_.rho *
-           e_.dot(Vec2(spec_.body_force->c1(0, 0, t), spec_.body_force->c2(0, 0, t)));
+           e_.dot(Vec2(c1(centre_[0], centre_[1], t), c2(centre_[0], centre_[1], t)));
   }
 
   const std::string& digest_;

@@ -83,6 +83,10 @@ class SpringPiston(unittest.TestCase):
         first = self.rows("grid.factor=2")[0]
         self.assertEqual((first["centre1"], first["centre2"]), CENTRE)
 
+    def test_a_body_force_is_that_of_the_reference_centre(self):
+        there = self.rows("grid.factor=2", "solids.piston.body_force=[-16 * x * y * force, 0]")  # 1 * force, at the centre
+        self.assertEqual(there, self.rows("grid.factor=2"))
+
     def test_a_piston_a_hundred_times_lighter_than_the_gas_is_stable(self):
         self.assertLess(max(self.errors(2, mass=0.01)), 2e-4)
 
