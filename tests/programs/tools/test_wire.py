@@ -4,6 +4,7 @@ a C compiler and idlc alone, takes the place of the C++ one."""
 
 import csv
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -45,6 +46,17 @@ def columns(run):
     with (run.directory / "forces_piston.csv").open(encoding="utf-8", newline="") as file:
         heading, *rows = csv.reader(file)
     return {title: [float(row[k]) for row in rows] for k, title in enumerate(heading)}
+
+
+class ThePage(unittest.TestCase):
+    def test_says_what_is_in_each_array_that_a_solid_alone_sends(self):
+        idl = (ROOT / "idl" / "amp_fsi.idl").read_text(encoding="utf-8")
+        page = (ROOT / "docs" / "bring_your_own_solid.md").read_text(encoding="utf-8")
+        state = re.search(r"struct PredictedInterface \{(.*?)\n\};", idl, re.DOTALL).group(1)
+        names = re.findall(r"(\w+);\s*// solid\b", state)
+        self.assertIn("Z", names)
+        for name in names:
+            self.assertIn(f"`{name}`", page)
 
 
 @unittest.skipIf(lacking(), f"this machine has no {lacking()}")
