@@ -1,7 +1,9 @@
 #!/usr/bin/python3
 """The rotating disk on overlapping grids: errors below the paper's, second order, for heavy and light disks."""
 
+import csv
 import json
+import math
 import os
 import subprocess
 import tempfile
@@ -64,6 +66,30 @@ class RotatingDisk(unittest.TestCase):
 
     def test_four_times_the_points_on_the_gas_side_keep_the_order(self):
         self.check_ratio("round(8 * pi / h) + 1")
+
+    def powers(self, factor, *settings):
+        """[(of the solid, of the coupler)] at each step: what the gas does on the disk."""
+        answer, _ = self.run_once(f"{factor}", f"grid.factor={factor}", "expect={}", *settings)
+        self.assertEqual(answer.returncode, 0, answer.stderr)
+        columns = []
+        for name, title in (("forces_disk", "power [power/depth]"), ("interface", "disk.power [power/depth]")):
+            with (self.folder / f"{factor}" / f"{name}.csv").open(encoding="utf-8") as lines:
+                columns.append([float(row[title]) for row in csv.DictReader(lines)])
+        return list(zip(*columns, strict=True))
+
+    def test_power_of_the_two_sides_of_a_circle_differs_by_the_lengths_that_each_gives_its_points(self):
+        for factor, points in ((1, 63), (2, 126)):
+            pairs = self.powers(factor)
+            scale = max(abs(coupler) for _, coupler in pairs)
+            for solid, coupler in pairs:
+                self.assertAlmostEqual(solid / scale, math.cos(math.pi / points) * coupler / scale, delta=1e-6)  # the disk deforms: 2.4e-7
+
+    def test_power_of_the_two_sides_of_a_rigid_disk_is_the_same_but_for_the_gap(self):
+        rigid = ("solids.disk.law=rigid", "solids.disk.initial={v: [0.1, 0]}", "reference={kind: none}")
+        pairs = self.powers(1, *rigid)
+        scale = max(abs(coupler) for _, coupler in pairs)
+        for solid, coupler in pairs:
+            self.assertAlmostEqual(solid / scale, coupler / scale, delta=1e-4)  # of the gap, 1.3e-4 at most
 
     def test_a_mapped_ring_in_the_solid_gives_what_a_marched_one_gives(self):
         polar = "[(1 - 8 * h * s) * cos(2 * pi * r), (1 - 8 * h * s) * sin(2 * pi * r)]"
