@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <limits>
 #include <utility>
 
 #include "common/core/failure.hpp"
@@ -27,7 +28,9 @@ std::optional<Spacing> lattice_of(const grid::MovingGrid& grid) {
   const double dx = (x(0, shape.n1 - 1, 0) - x(0, 0, 0)) / (shape.n1 - 1);
   const double dy = (x(1, 0, shape.n2 - 1) - x(1, 0, 0)) / (shape.n2 - 1);
   if (!(dx > 0 && dy > 0)) return std::nullopt;  // turned by 180 degrees, it is a map like others
-  const double tolerance = 1e-11 * (std::fabs(dx) + std::fabs(dy));
+  const double farthest = std::max({std::fabs(x(0, 0, 0)), std::fabs(x(0, shape.n1 - 1, 0)),
+                                    std::fabs(x(1, 0, 0)), std::fabs(x(1, 0, shape.n2 - 1))});
+  const double tolerance = 1e-11 * (dx + dy) + 4 * std::numeric_limits<double>::epsilon() * farthest;
   for (int j = -Layout::ghosts; j < shape.n2 + Layout::ghosts; ++j) {
     for (int i = -Layout::ghosts; i < shape.n1 + Layout::ghosts; ++i) {
       if (std::fabs(x(0, i, j) - x(0, 0, 0) - i * dx) > tolerance ||

@@ -86,7 +86,10 @@ void CurveCut::cut(const CartesianGrid& grid, const CuttingCurve& curve, const s
 /// Points on the curve, but for round-off, belong to the domain in every direction, so that a straight curve along a
 /// row or column cuts it cleanly: what cuts is the curve moved by a billionth of a cell into the region behind it.
 void CurveCut::withdraw(const CartesianGrid& grid, const CuttingCurve& curve) {
-  const double way = 1e-9 * std::min(grid.dx(), grid.dy());
+  const double farthest =
+      std::max({std::abs(grid.x_a), std::abs(grid.x_b), std::abs(grid.y_a), std::abs(grid.y_b)});
+  const double way =
+      std::max(1e-9 * std::min(grid.dx(), grid.dy()), 4 * std::numeric_limits<double>::epsilon() * farthest);
   const int last = curve.points - 1;
   cutting_.clear();
   for (int k = 0; k <= last; ++k) {

@@ -76,6 +76,21 @@ TEST(Eq1Symmetry, AMirroredGasStaysTheMirrorImage) {
   }
 }
 
+TEST(Component, OfARectangleIsALatticeHoweverFarFromTheOrigin) {
+  const auto is_lattice = [](const grid::GridDescription& grid) {
+    return Component(grid::MovingGrid(grid, 0), {}, {SlipWall{}, SlipWall{}, SlipWall{}, SlipWall{}})
+        .cartesian();
+  };
+  for (const double away : {0.0, 2e4, -3e6}) {
+    grid::GridDescription grid = test::rectangle(161, 41, {away - 2, 0}, {away + 2, 1});
+    EXPECT_TRUE(is_lattice(grid)) << away;
+    grid.mapping = [map = grid.mapping](double r, double s, double t) -> Vec2 {
+      return map(r, s, t) + Vec2(1e-4 * r * (1 - r), 0);
+    };
+    EXPECT_FALSE(is_lattice(grid)) << away;
+  }
+}
+
 class Eq30TurnedBox : public testing::TestWithParam<double> {};
 
 TEST_P(Eq30TurnedBox, GivesTheTurnedSolution) {
