@@ -167,6 +167,10 @@ class Grids(InFolder):
         on_rim = np.isin(along["open"], (-1.0, 1.0, 2.0)).any(axis=1)
         self.assertTrue(on_rim.all())
 
+    def test_an_open_side_is_one_line_also_where_the_ends_of_grids_lie_on_it(self):
+        sides = [line for kind, line in self.sides("nozzle") if kind == "open"]
+        self.assertEqual(sorted((line[0].tolist(), line[-1].tolist()) for line in sides), [([-1, -0.5], [-1, 0.5]), ([2, -0.5], [2, 0.5])])
+
     def test_a_curve_without_a_body_is_a_wall(self):
         sides = self.sides("rotating_disk_walled", "--set", "grid.factor=2")
         radii = {kind: np.concatenate([np.hypot(*line.T) for other, line in sides if other == kind]) for kind, _ in sides}

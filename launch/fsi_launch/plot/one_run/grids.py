@@ -248,7 +248,31 @@ def _gas_sides(series, case):
         sides += [(kinds[name], line) for name, side in SIDES.items() for line in _used_runs(background, side)]
         for grid in fitted:
             sides += _fitted_sides(grid, background, kinds, bodies)
-    return sides
+    return _without_twice(sides)
+
+
+def _joined(lines, along):
+    """Of lines on one straight line those that overlap as one, each in the order of the coordinate `along`."""
+    joined = []
+    for line in sorted((line[np.argsort(line[:, along])] for line in lines), key=lambda line: line[0, along]):
+        if joined and line[0, along] <= joined[-1][-1, along]:
+            joined[-1] = np.vstack([joined[-1], line[line[:, along] > joined[-1][-1, along]]])
+        else:
+            joined.append(line)
+    return joined
+
+
+def _without_twice(sides):
+    """The same lines, but where two of one kind lie on each other on an upright or level line it is one: their dashes would fill each
+    other's gaps."""
+    result, straight = [], {}
+    for kind, line in sides:
+        across = int(np.argmin(np.ptp(line, axis=0)))
+        if np.ptp(line[:, across]) > 1e-9 * np.ptp(line):
+            result.append((kind, line))
+        else:
+            straight.setdefault((kind, across, round(line[0, across], 9)), []).append(line)
+    return result + [(kind, line) for (kind, across, _), lines in straight.items() for line in _joined(lines, 1 - across)]
 
 
 def _bodies(series):
