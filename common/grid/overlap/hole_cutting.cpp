@@ -96,7 +96,7 @@ void CurveCut::withdraw(const CartesianGrid& grid, const CuttingCurve& curve) {
     int before = k - 1, after = k;
     if (curve.ends == Curve::closed && (k == 0 || k == last)) before = last - 1, after = 0;
     const Vec2 sum = normal_of(curve, std::max(before, 0)) + normal_of(curve, std::min(after, last - 1));
-    cutting_.push_back(point(curve, k) + way * sum.normalized());
+    cutting_.emplace_back(point(curve, k) + way * sum.normalized());
   }
 }
 

@@ -145,7 +145,7 @@ TEST(ThinOverlap, ABodyThatStandsOnTheSideItComesNearIsNotToldAGridThere) {
 /// A wall from the left side to the right one, at a height, with its grid above it.
 std::string message_of_floor(double height) {
   constexpr int points = 41;
-  std::vector<double> curve(2 * points, height);
+  std::vector<double> curve(std::size_t{2} * points, height);
   for (std::size_t k = 0; k < points; ++k) curve[k] = -1 + 0.05 * static_cast<double>(k);
   HyperbolicGrid strip{.name = "strip", .points = points, .lines = 8, .curve = Side::bottom, .spacing = 0.05};
   strip.ends = Curve::open;
