@@ -8,12 +8,11 @@
 #include <optional>
 #include <vector>
 
-#include "common/case/grids/composite_from_case.hpp"
+#include "common/case/grids/curve_side.hpp"
 #include "common/case/grids/grid_points.hpp"
 #include "common/case/schema/boundary_facts.hpp"
 #include "common/case/schema/laws.hpp"
 #include "common/grid/geometry/outline.hpp"
-#include "common/grid/overlap/hole_cutting.hpp"
 
 namespace fsi {
 
@@ -47,25 +46,6 @@ bool within_rim(const GridSpec& grid, const Vec2& x) {
   return grid::encloses(rim, x) || grid::distance_to(rim, x) <= round_off * (1 + x.norm());
 }
 
-/// Is a position on the other side of the curve than the domain?
-bool behind(const BodyFittedSpec& spec, const GridSpec& background, const Vec2& x) {
-  constexpr double round_off = 1e-9;
-  if (grid::distance_to(spec.curve.x, x) <= round_off * (1 + x.norm())) return false;
-  if (spec.curve.closed()) return grid::encloses(spec.curve.x, x) == (spec.side == Side::top);
-  const std::size_t n = spec.curve.x.size() / 2;
-  const grid::CartesianGrid cartesian = background_of(background);
-  grid::CurveCut cut;
-  cut.cut(cartesian,
-          {.x = spec.curve.x.data(),
-           .y = spec.curve.x.data() + n,
-           .points = spec.curve.points(),
-           .ends = spec.curve.closed() ? grid::Curve::closed : grid::Curve::open,
-           .domain_left = spec.side == Side::bottom,
-           .on_wall = !spec.curve.on.empty()},
-          spec.name, 0);
-  return cut.behind(cartesian, x);
-}
-
 void check_probe_in_gas(const FluidSpec& fluid, const Vec2& x, const Node& node, const std::string& path) {
   const std::string remedy = "; it would have no value there: move it into the gas";
   if (!within_rim(fluid.grid, x)) {
@@ -73,7 +53,7 @@ void check_probe_in_gas(const FluidSpec& fluid, const Vec2& x, const Node& node,
          fmt::format("({:.6g}, {:.6g}) lies outside {}.grid at t = 0{}", x[0], x[1], fluid.path, remedy));
   }
   for (const BodyFittedSpec& spec : fluid.body_fitted) {
-    if (!behind(spec, fluid.grid, x)) continue;
+    if (!lies_behind(spec, fluid.grid, x)) continue;
     const std::string body = spec.solid.empty() ? fmt::format("behind the wall of grid `{}`", spec.name)
                                                 : fmt::format("in solid `{}`", spec.solid);
     const std::string other = spec.solid.empty() ? "" : fmt::format(", or write `in: {}`", spec.solid);
@@ -85,7 +65,8 @@ void check_probe_in_gas(const FluidSpec& fluid, const Vec2& x, const Node& node,
 void check_probe_in_solid(const SolidSpec& solid, const Vec2& x, const Node& node, const std::string& path) {
   if (!is_continuum(solid.law)) return;  // their motion is known everywhere
   bool outside = !within_rim(solid.grid, x);
-  for (const BodyFittedSpec& spec : fitted_grids(solid)) outside = outside || behind(spec, solid.grid, x);
+  for (const BodyFittedSpec& spec : fitted_grids(solid))
+    outside = outside || lies_behind(spec, solid.grid, x);
   if (!outside) return;
   fail(node.place, path,
        fmt::format(

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <utility>
 
+#include "common/core/component_major.hpp"
 #include "common/core/failure.hpp"
+#include "common/grid/geometry/outline.hpp"
 
 namespace fsi {
 
@@ -24,10 +26,15 @@ double signed_area(const std::vector<double>& x) {
 /// The corners of a rectangle, counter-clockwise, and how far along its rim a point of a side is (0 .. 4).
 struct Rim {
   double x_a, x_b, y_a, y_b;
+  double margin = 0;  ///< so far outside corners are taken to be, and ends are led on [length]
 
   Vec2 corner(int k) const {
     const int place = k % 4;
-    return {place == 1 || place == 2 ? x_b : x_a, place >= 2 ? y_b : y_a};
+    return {place == 1 || place == 2 ? x_b + margin : x_a - margin, place >= 2 ? y_b + margin : y_a - margin};
+  }
+  Vec2 led_on(Vec2 x, Side side) const {
+    x[direction_of(side)] += at_upper_end(side) ? margin : -margin;
+    return x;
   }
   double place_of(const Vec2& x, Side side) const {
     const double part1 = (x[0] - x_a) / (x_b - x_a), part2 = (x[1] - y_a) / (y_b - y_a);
@@ -44,22 +51,38 @@ struct Rim {
   }
 };
 
+/// What bounds the part of a rectangle to the left of a curve between its sides; with a margin, places on the rim are
+/// within it, or not, as those beside them are.
+std::vector<double> bounds_to_the_left(const CurveSpec& curve, const Rim& rim) {
+  const auto [first_side, last_side] = *curve.walls;
+  const Vec2 first = vector_at(curve.x, 0),
+             last = vector_at(curve.x, static_cast<std::size_t>(curve.points()) - 1);
+  const double from = rim.place_of(last, last_side);
+  double to = rim.place_of(first, first_side);
+  if (to < from) to += 4;
+  std::vector<Vec2> closing{rim.led_on(last, last_side)};
+  for (int k = static_cast<int>(std::ceil(from)); k <= to; ++k) closing.push_back(rim.corner(k));
+  closing.push_back(rim.led_on(first, first_side));
+  std::vector<double> x(curve.x.begin(), curve.x.begin() + curve.points()),
+      y(curve.x.begin() + curve.points(), curve.x.end());
+  for (const Vec2& point : closing) {
+    x.push_back(point[0]);
+    y.push_back(point[1]);
+  }
+  x.insert(x.end(), y.begin(), y.end());
+  return x;
+}
+
 /// Area of the part of a rectangle to the left of a curve between two of its sides, in parts of the whole.
 double part_to_the_left(const CurveSpec& curve, const Rim& rim) {
-  const auto n = static_cast<std::size_t>(curve.points());
-  const Vec2 first(curve.x[0], curve.x[n]), last(curve.x[n - 1], curve.x[2 * n - 1]);
-  const double from = rim.place_of(last, (*curve.walls)[1]);
-  double to = rim.place_of(first, (*curve.walls)[0]);
-  if (to < from) to += 4;
-  std::vector<Vec2> points;
-  for (std::size_t k = 0; k < n; ++k) points.emplace_back(curve.x[k], curve.x[n + k]);
-  for (int k = static_cast<int>(std::floor(from)) + 1; k < to; ++k) points.push_back(rim.corner(k));
-  double area = 0;
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    const Vec2 &a = points[k], &b = points[(k + 1) % points.size()];
-    area += 0.5 * (a[0] * b[1] - b[0] * a[1]);
-  }
-  return area / ((rim.x_b - rim.x_a) * (rim.y_b - rim.y_a));
+  return 0.5 * signed_area(bounds_to_the_left(curve, rim)) / ((rim.x_b - rim.x_a) * (rim.y_b - rim.y_a));
+}
+
+/// Is a position to the left of a curve?
+bool is_to_the_left(const CurveSpec& curve, const Rim& rim, const Vec2& x) {
+  const bool on_sides = curve.walls && curve.on.empty();
+  if (on_sides) return grid::encloses(bounds_to_the_left(curve, rim), x);
+  return grid::encloses(curve.x, x) == (signed_area(curve.x) > 0);
 }
 
 void reverse_direction(std::vector<double>& x) {
@@ -94,6 +117,14 @@ void put_body_to_the_left(CurveSpec& curve, const std::optional<std::array<doubl
   }
   std::ranges::sort(curve.corners);
   if (curve.walls) std::swap(curve.walls->front(), curve.walls->back());
+}
+
+bool lies_behind(const BodyFittedSpec& spec, const GridSpec& background, const Vec2& x) {
+  const double width = background.x_b - background.x_a, height = background.y_b - background.y_a;
+  const Rim rim{background.x_a, background.x_b, background.y_a, background.y_b, std::min(width, height)};
+  constexpr double round_off = 1e-9;
+  return is_to_the_left(spec.curve, rim, x) == (spec.side == Side::top) &&
+         grid::distance_to(spec.curve.x, x) > round_off * (1 + x.norm());
 }
 
 }  // namespace fsi

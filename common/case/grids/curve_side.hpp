@@ -1,5 +1,5 @@
 #pragma once
-/// On which side of an outline the body is.
+/// On which side of an outline the body is, and on which a place.
 
 #include <array>
 #include <optional>
@@ -12,5 +12,8 @@ namespace fsi {
 /// and the side of the gas's rectangle on which both its ends stand, and of the two parts into which a curve
 /// between two sides cuts that rectangle (x_a, x_b, y_a, y_b) the smaller one. @throws UserMistake where they are alike
 void put_body_to_the_left(CurveSpec& curve, const std::optional<std::array<double, 4>>& rectangle);
+
+/// Is a place within the background on the other side of the curve than the domain? Not those on the curve.
+bool lies_behind(const BodyFittedSpec& spec, const GridSpec& background, const Vec2& x);
 
 }  // namespace fsi

@@ -269,5 +269,27 @@ TEST(ChosenGrids, OfABodyNearTheWallOfARoundTankAreItsOwnAndTheTanks) {
   EXPECT_EQ(tank.fluids.front().body_fitted.size(), 2);
 }
 
+/// A wall along the left side that bulges to x = -0.9.
+TEST(Walls, ProbesNextToTheRimAreBeforeThemOrBehind) {
+  const auto probe = [](const std::string& place) {
+    return mistake_in(
+        "grid: {factor: 2}\n"
+        "time: {end: 1}\n"
+        "fluid:\n"
+        "  grid: {x: [-1, 1], y: [-1, 1]}\n"
+        "  boundary: {left: slip_wall, right: outflow, bottom: slip_wall, top: slip_wall}\n"
+        "  initial: {rho: 1, v: [0, 0], p: 1}\n"
+        "  body_fitted: [{name: wall, shape: {kind: polygon, radius: 0, walls: [top, bottom], corners: "
+        "[[-1, 1], [-1, -0.2], [-0.9, -0.5], [-1, -0.8], [-1, -1]]}}]\n"
+        "output: {probes: [{name: a, in: fluid, " +
+        place + "}]}\n");
+  };
+  for (const char* place : {"x: -0.93, y: 0.5", "x: -1, y: 0.5", "x: -0.93, y: -0.2", "x: 1, y: 1"})
+    EXPECT_EQ(probe(place), "") << place;
+  for (const char* place : {"x: -0.95, y: -0.5", "x: -1, y: -0.5"}) {
+    EXPECT_NE(probe(place).find("lies behind the wall of grid `wall`"), std::string::npos) << place;
+  }
+}
+
 }  // namespace
 }  // namespace fsi
