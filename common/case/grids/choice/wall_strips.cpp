@@ -7,9 +7,12 @@
 #include <cmath>
 #include <limits>
 
+#include "common/case/grids/curve_side.hpp"
 #include "common/case/grids/node_tools.hpp"
 #include "common/case/schema/boundary_facts.hpp"
+#include "common/core/component_major.hpp"
 #include "common/core/failure.hpp"
+#include "common/grid/geometry/outline.hpp"
 
 namespace fsi {
 
@@ -28,13 +31,37 @@ double end_of_box(const GridSpec& box, Side side) {
   return at_upper_end(side) ? box.y_b : box.y_a;
 }
 
-double distance_to_side(const CurveSpec& curve, const GridSpec& box, Side side) {
-  const auto n = static_cast<std::size_t>(curve.points());
-  const std::size_t first = direction_of(side) == 0 ? 0 : n;
-  const double wall = end_of_box(box, side), inwards = at_upper_end(side) ? -1 : 1;
+/// How near a curve comes to a side, and the place on that side that it is nearest to.
+struct Approach {
   double distance = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < n; ++k) distance = std::min(distance, inwards * (curve.x[first + k] - wall));
-  return distance;
+  Vec2 foot = Vec2::Zero();
+};
+
+Approach approach_to(const CurveSpec& curve, const GridSpec& box, Side side) {
+  const int across = direction_of(side);
+  const double wall = end_of_box(box, side), inwards = at_upper_end(side) ? -1 : 1;
+  Approach nearest;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(curve.points()); ++k) {
+    Vec2 foot = vector_at(curve.x, k);
+    const double distance = inwards * (foot[across] - wall);
+    if (distance >= nearest.distance) continue;
+    foot[across] = wall;
+    nearest = {.distance = distance, .foot = foot};
+  }
+  return nearest;
+}
+
+/// Whether the gas comes to a place on the rim next to the body of ring `own`: it does not behind the curve of another
+/// grid, and a curve that lies along the rim has a grid there.
+bool gas_comes_to(const Vec2& foot, const FluidSpec& fluid, std::size_t own, double cell) {
+  constexpr double round_off = 1e-6;  // of a cell
+  for (std::size_t k = 0; k < fluid.body_fitted.size(); ++k) {
+    const BodyFittedSpec& other = fluid.body_fitted[k];
+    if (k == own) continue;
+    if (grid::distance_to(other.curve.x, foot) <= round_off * cell) return false;
+    if (lies_behind(other, fluid.grid, foot)) return false;
+  }
+  return true;
 }
 
 bool has_an_end_on(const CurveSpec& curve, Side side) {
@@ -51,13 +78,6 @@ void refuse_touching(const BodyFittedSpec& ring, const Node& item, Side side, do
           ring.solid, name_of(side), std::max(distance, 0.0))));
 }
 
-/// A gas inside a closed outline does not come to the sides of its rectangle.
-bool is_contained(const FluidSpec& fluid) {
-  return std::ranges::any_of(fluid.body_fitted, [](const BodyFittedSpec& ring) {
-    return ring.curve.closed() && ring.side == Side::bottom;
-  });
-}
-
 /// The curve whose body is near to a wall that has no grid of its own.
 const Node* body_near(const Node& list, const FluidSpec& fluid, const std::vector<std::size_t>& open,
                       Side side) {
@@ -67,10 +87,11 @@ const Node* body_near(const Node& list, const FluidSpec& fluid, const std::vecto
   for (const std::size_t k : open) {
     const BodyFittedSpec& ring = fluid.body_fitted[k];
     if (!ring.curve.closed() || ring.side != Side::top) continue;
-    const double distance = distance_to_side(ring.curve, box, side);
+    const auto [distance, foot] = approach_to(ring.curve, box, side);
+    if (!(distance < near * spacing) || !gas_comes_to(foot, fluid, k, cell)) continue;
     if (std::abs(distance) < touching * cell && !ring.solid.empty())
       refuse_touching(ring, list.items[k], side, distance);
-    if (distance > 0 && distance < near * spacing) return &list.items[k];
+    if (distance > 0) return &list.items[k];
   }
   return nullptr;
 }
@@ -107,7 +128,6 @@ Node strip_along(const GridSpec& box, Side side, const std::string& place) {
 }  // namespace
 
 bool add_wall_strips(Node& body_fitted, const FluidSpec& fluid, const std::vector<std::size_t>& open) {
-  if (is_contained(fluid)) return false;
   std::array<bool, 2> has_strips{};  // along x = const, along y = const: strips do not meet in corners
   const auto has_name = [&](const std::string& name) {
     return std::ranges::find(fluid.body_fitted, name, &BodyFittedSpec::name) != fluid.body_fitted.end();

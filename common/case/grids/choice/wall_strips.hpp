@@ -15,7 +15,8 @@
 namespace fsi {
 
 /// Adds an entry to `fluid.body_fitted` for every side that is a wall, on which no curve ends, and which a
-/// closed curve with one of the grids `open` is near to. @returns whether there are any
+/// closed curve with one of the grids `open` is near to, unless what lies between them is behind another curve.
+/// @returns whether there are any
 bool add_wall_strips(config::Node& body_fitted, const FluidSpec& fluid, const std::vector<std::size_t>& open);
 
 }  // namespace fsi

@@ -291,5 +291,38 @@ TEST(Walls, ProbesNextToTheRimAreBeforeThemOrBehind) {
   }
 }
 
+/// A disk of radius 0.35 above a floor between the left and the right side, with the rectangle's bottom below it.
+std::vector<std::string> grids_above(const std::string& floor, const std::string& centre = "[0, -0.35]") {
+  const Case problem = load_text(
+      "grid: {factor: 2}\n"
+      "time: {end: 1}\n"
+      "fluid:\n"
+      "  grid: {x: [-1, 1], y: [-1, 1]}\n"
+      "  boundary: {left: slip_wall, right: slip_wall, bottom: slip_wall, top: slip_wall}\n"
+      "  initial: {rho: 1, v: [0, 0], p: 1}\n"
+      "  body_fitted:\n"
+      "    - {name: floor, shape: {kind: polygon, radius: 0, walls: [left, right], corners: " +
+      floor +
+      "}}\n"
+      "    - {name: disk, shape: {kind: circle, radius: 0.35, centre: " +
+      centre + "}}\n");
+  std::vector<std::string> names;
+  for (const BodyFittedSpec& ring : problem.fluids.front().body_fitted) names.push_back(ring.name);
+  return names;
+}
+
+/// Behind a wall that the file draws, and under one that lies along the side, the gas needs no grid.
+TEST(ChosenGrids, OfABodyNearAWallThatIsDrawnAreNotLaidBehindIt) {
+  const std::vector<std::string> own = {"floor", "disk"};
+  EXPECT_EQ(grids_above("[[-1, -0.9], [1, -0.9]]"), own);
+  EXPECT_EQ(grids_above("[[-1, -0.98], [1, -0.98]]"), own);
+  EXPECT_EQ(grids_above("[[-1, -1], [0.2, -1], [0.5, -0.9], [0.8, -1], [1, -1]]", "[-0.5, -0.55]"), own);
+  // Before a wall drawn at the opposite side there is gas down to the bottom.
+  // The other way up, where the floor is a roof.
+  EXPECT_EQ(grids_above("[[-1, 0.9], [1, 0.9]]", "[0, 0.35]"), own);
+  const std::vector<std::string> strip = {"floor", "disk", "along_bottom"};
+  EXPECT_EQ(grids_above("[[-1, 0.9], [1, 0.9]]", "[0, -0.55]"), strip);
+}
+
 }  // namespace
 }  // namespace fsi
