@@ -194,7 +194,7 @@ void check_gas_data(const GivenGas& gas, const std::vector<Vec2>& points, double
 void check_gas(const Case& problem, const FluidSpec& fluid, const GivenGas& gas, const Node& root) {
   const Node& node = fluid_section_of(root, fluid.name);
   if (fluid.initial_from_reference)
-    check_gas_data(gas, sample_points(fluid.grid), 0, node_at(node, {"initial"}), fluid.path + ".initial");
+    check_gas_data(gas, sample_points(fluid), 0, node_at(node, {"initial"}), fluid.path + ".initial");
   for (const Side side : all_sides) {
     if (!fluid.boundary[static_cast<std::size_t>(side)].from_reference) continue;
     for (int k = 0; k < times_of_known_places(fluid, side); ++k) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "common/case/grids/curve_side.hpp"
 #include "common/case/grids/grid_points.hpp"
 #include "common/grid/geometry/outline.hpp"
 
@@ -38,6 +39,16 @@ std::vector<Vec2> sample_points(const GridSpec& grid, std::optional<Side> side, 
       points.push_back(position(grid, a * (grid.n1 - 1) / samples, b * (grid.n2 - 1) / samples, t));
     }
   }
+  return points;
+}
+
+std::vector<Vec2> sample_points(const FluidSpec& fluid) {
+  std::vector<Vec2> points = sample_points(fluid.grid);
+  if (fluid.refine.levels > 1) return points;
+  std::erase_if(points, [&](const Vec2& x) {
+    return std::ranges::any_of(
+        fluid.body_fitted, [&](const BodyFittedSpec& fitted) { return lies_behind(fitted, fluid.grid, x); });
+  });
   return points;
 }
 

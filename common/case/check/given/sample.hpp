@@ -13,6 +13,10 @@ namespace fsi {
 /// Some points of a grid at time t, or of one side of it, the corners among them.
 std::vector<Vec2> sample_points(const GridSpec& grid, std::optional<Side> side = {}, double t = 0);
 
+/// Some points of the grid of a gas at the start, those behind curves fitted to it left out: there the solver takes no value,
+/// but on the coarser ones of several levels, which it fills everywhere.
+std::vector<Vec2> sample_points(const FluidSpec& fluid);
+
 /// Some points of a body, its outline's among them.
 std::vector<Vec2> sample_points(const SolidSpec& solid);
 

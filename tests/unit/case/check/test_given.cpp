@@ -35,8 +35,9 @@ solids:
   }
 };
 
-void expect_refused(const std::string& text, const std::string& words) {
-  const std::string message = mistake_in(text);
+void expect_refused(const std::string& text, const std::string& words,
+                    const std::vector<std::string>& overrides = {}) {
+  const std::string message = mistake_in(text, overrides);
   EXPECT_NE(message.find(words), std::string::npos) << message;
   EXPECT_EQ(message.find("case.yaml:"), 0U) << message;
 }
@@ -140,6 +141,62 @@ TEST(GivenReference, EndsNoSoonerThanTheRun) {
     EXPECT_NE(std::string(mistake.what()).find("let time.end be smaller"), std::string::npos)
         << mistake.what();
   }
+}
+
+/// A disk of radius 0.5 in a gas, or a gas in that disk.
+std::string disk_case(const std::string& rho, const std::string& more, const std::string& fitted = "") {
+  return fmt::format(R"(time: {{end: 1}}
+grid: {{factor: 1}}
+fluid:
+  grid: {{x: [-2, 2], y: [-2, 2], spacing: h}}
+  body_fitted: [{{name: disk, shape: {{kind: circle, radius: 0.5}}{}}}]
+  boundary: {{left: slip_wall, right: slip_wall, bottom: slip_wall, top: slip_wall}}
+{}
+)",
+                     fitted,
+                     fmt::format(fmt::runtime(more), fmt::format("{{rho: \"{}\", v: [0, 0], p: 1}}", rho)));
+}
+
+/// Flows around a body are often singular in it, where the solver takes no value.
+TEST(GivenGas, IsLookedAtWhereTheGasIs) {
+  const std::string initial = "  initial: {}";
+  const std::string reference =
+      "  initial: {{rho: 1, v: [0, 0], p: 1}}\nreference: {{kind: expressions, fluid: {}}}";
+  const std::string both = "  initial: reference\nreference: {{kind: expressions, fluid: {}}}";
+  for (const std::string& given : {initial, reference, both}) {
+    EXPECT_EQ(mistake_in(disk_case("1 + 1 / r", given)), "");
+    EXPECT_EQ(mistake_in(disk_case("1 - r", given, ", inside: true")), "");
+    expect_refused(disk_case("1 - r", given), ".rho: is ");
+    expect_refused(disk_case("1 / r", given, ", inside: true"), ".rho: is inf at (0, 0), t = 0");
+  }
+  // Coarser levels are filled everywhere.
+  EXPECT_EQ(mistake_in(disk_case("r - 0.4", initial)), "");
+  expect_refused(disk_case("r - 0.4", initial), "fluid.initial.rho: is -0.", {"fluid.grid.levels=3"});
+  // The source of a chosen solution is taken everywhere.
+  const std::string chosen = "  initial: reference\nreference: {{kind: manufactured, fluid: {}}}";
+  expect_refused(disk_case("1 + 1 / r", chosen), "reference.fluid.rho: is inf at (0, 0)");
+}
+
+TEST(GivenGas, IsNotLookedAtBehindAWall) {
+  const auto above = [](const std::string& walls, const std::string& corners, const std::string& rho) {
+    return fmt::format(R"(time: {{end: 1}}
+grid: {{factor: 1}}
+fluid:
+  grid: {{x: [-2, 2], y: [-2, 2]}}
+  body_fitted: [{{name: wall, shape: {{kind: polygon, radius: 0, walls: {}, corners: {}}}}}]
+  boundary: {{left: slip_wall, right: slip_wall, bottom: slip_wall, top: slip_wall}}
+  initial: {{rho: {}, v: [0, 0], p: 1}}
+)",
+                       walls, corners, rho);
+  };
+  const std::string floor = "[[-2, -1.6], [2, -1.6]]", roof = "[[-2, 1.6], [2, 1.6]]",
+                    left = "[[-1.6, -2], [-1.6, 2]]";
+  EXPECT_EQ(mistake_in(above("[left, right]", floor, "y + 1.7")), "");
+  expect_refused(above("[left, right]", floor, "1.7 - y"), "fluid.initial.rho: ");
+  EXPECT_EQ(mistake_in(above("[left, right]", roof, "1.7 - y")), "");
+  expect_refused(above("[left, right]", roof, "y + 1.7"), "fluid.initial.rho: ");
+  EXPECT_EQ(mistake_in(above("[bottom, top]", left, "x + 1.7")), "");
+  expect_refused(above("[bottom, top]", left, "1.7 - x"), "fluid.initial.rho: ");
 }
 
 std::string moving_gas(const std::string& x, const std::string& left, const std::string& more = "") {
