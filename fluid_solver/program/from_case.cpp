@@ -78,13 +78,41 @@ GasOptions options_of(const Case& problem, const FluidSpec& spec) {
           .cfl = problem.time.cfl};
 }
 
-std::array<Boundary, 4> boundaries_of(const std::array<BoundarySpec, 4>& specs, const std::string& path,
+/// Where the case file gives what holds on the sides of a grid.
+using SidePaths = std::array<std::string, 4>;
+
+SidePaths paths_of_sides(const FluidSpec& spec) {
+  SidePaths paths;
+  for (const Side side : all_sides)
+    paths[static_cast<std::size_t>(side)] = fmt::format("{}.boundary.{}", spec.path, name_of(side));
+  return paths;
+}
+
+/// Of the k-th grid fitted to a curve: its own on the curve, and at the ends that of the wall on which they stand.
+SidePaths paths_of_fitted(const FluidSpec& spec, std::size_t k) {
+  const auto path_of_curve = [&](std::size_t grid) {
+    return fmt::format("{}.body_fitted[{}].boundary", spec.path, grid);
+  };
+  SidePaths paths;
+  paths.fill(path_of_curve(k));
+  const CurveSpec& curve = spec.body_fitted[k].curve;
+  if (!curve.walls) return paths;
+  const auto wall = std::ranges::find(spec.body_fitted, curve.on, &BodyFittedSpec::name);
+  const bool on_side = wall == spec.body_fitted.end();
+  const SidePaths sides = paths_of_sides(spec);
+  for (const Side end : {Side::left, Side::right}) {
+    const auto e = static_cast<std::size_t>(end);
+    paths[e] = on_side ? sides[static_cast<std::size_t>((*curve.walls)[e])]
+                       : path_of_curve(static_cast<std::size_t>(wall - spec.body_fitted.begin()));
+  }
+  return paths;
+}
+
+std::array<Boundary, 4> boundaries_of(const std::array<BoundarySpec, 4>& specs, const SidePaths& paths,
                                       const std::shared_ptr<const exact::Solution>& reference) {
   std::array<Boundary, 4> boundaries;
-  for (const Side side : all_sides) {
-    const auto k = static_cast<std::size_t>(side);
-    boundaries[k] = boundary_of(specs[k], fmt::format("{}.boundary.{}", path, name_of(side)), reference);
-  }
+  for (std::size_t k = 0; k < boundaries.size(); ++k)
+    boundaries[k] = boundary_of(specs[k], paths[k], reference);
   return boundaries;
 }
 
@@ -100,12 +128,11 @@ GasSolver solver_of(const Case& problem, const FluidSpec& spec,
                     const std::shared_ptr<const exact::Solution>& reference) {
   std::vector<GasPart> parts;
   parts.push_back({grid::MovingGrid(grid_from_case(spec.grid, meets_a_solid(spec.boundary)), 0),
-                   boundaries_of(spec.boundary, spec.path, reference)});
+                   boundaries_of(spec.boundary, paths_of_sides(spec), reference)});
   const std::vector<grid::GridDescription> fitted = grids_from_case(spec.body_fitted);
   for (std::size_t k = 0; k < fitted.size(); ++k)
     parts.push_back({grid::MovingGrid(fitted[k], 0),
-                     boundaries_of(spec.body_fitted[k].boundary,
-                                   fmt::format("{}.body_fitted.{}", spec.path, fitted[k].name), reference)});
+                     boundaries_of(spec.body_fitted[k].boundary, paths_of_fitted(spec, k), reference)});
   return {std::move(parts), bodies_of(spec.body_fitted), options_of(problem, spec), 0};
 }
 

@@ -95,6 +95,16 @@ void check_state(const GasExpressions& state, const std::vector<Vec2>& points, c
   }
 }
 
+/// What is given on curves.
+void check_states_on_curves(const Case& problem, const FluidSpec& fluid, const Node& node) {
+  for (const GivenOnCurve& given : given_on_curves(fluid, node)) {
+    if (!given.spec.state) continue;
+    for (int k = 0; k < looked_at_times; ++k)
+      check_state(*given.spec.state, given.points, node_at(given.node, {"state"}), given.path + ".state",
+                  looked_at_time(problem, k));
+  }
+}
+
 void check_fluid(const Case& problem, const FluidSpec& fluid, const Node& root) {
   const Node& node = fluid_section_of(root, fluid.name);
   const std::string& path = fluid.path;
@@ -119,6 +129,7 @@ void check_fluid(const Case& problem, const FluidSpec& fluid, const Node& root) 
                   fmt::format("{}.boundary.{}.state", path, name_of(side)), t);
     }
   }
+  check_states_on_curves(problem, fluid, node);
 }
 
 std::vector<std::string> solid_names(const Case& problem) {

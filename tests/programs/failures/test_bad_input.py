@@ -115,6 +115,16 @@ class BadInput(EndToEnd):
         self.assertRegex(run.stderr, r"fluid\.boundary\.left: rho = 1, v = \(0, 0\), p = -1 are no state of a gas")
         self.assertEqual(run.summary()["failure"]["position"][0], 0)
 
+    def test_a_state_of_a_curve_that_is_none_between_the_times_of_the_check_is_named_as_the_case_names_it(self):
+        run = self.launch("sod_tube", "--set", "grid.factor=2", "--set", "fluid.grid={x: [-1, 1], y: [-1, 1]}", "--set",
+                          "fluid.body_fitted=[{name: disk, shape: {kind: circle, radius: 0.4}, boundary: {kind: far_field, state: "
+                          "{rho: 1, v: [0, 0], p: \"1 - 2 * (abs(sin(80 * pi * t)) > 0.1)\"}}}]",
+                          "--set", "fluid.boundary={left: slip_wall, right: slip_wall, bottom: slip_wall, top: slip_wall}",
+                          "--set", "fluid.initial={rho: 1, v: [0, 0], p: 1}", "--set", "reference={kind: none}", "--set", "output={times: [0.2]}",
+                          "--set", "expect={}")
+        self.assertEqual(run.wait(), 2, run.stdout + run.stderr)
+        self.assertRegex(run.stderr, r"fluid\.body_fitted\[0\]\.boundary: rho = 1, v = \(0, 0\), p = -1 are no state of a gas")
+
     def test_wrong_expression(self):
         self.changed("lambda: density_ratio * c_p^2 / 3", "lambda: density_ratio * (c_p^2 / 3")
 

@@ -63,10 +63,8 @@ void check_motion_of_solids(const Case& problem, const Node& root) {
 
 /// Who takes data from the reference finds them there.
 void check_takers(const Case& problem, const Node& root) {
-  const auto need = [&](const BoundarySpec& spec, bool is_gas, const std::string& owner, Side side,
-                        const Node& node) {
+  const auto need = [&](const BoundarySpec& spec, bool is_gas, const std::string& path, const Node& node) {
     if (!spec.from_reference) return;
-    const std::string path = fmt::format("{}.boundary.{}", owner, name_of(side));
     if (problem.reference.computed()) {
       fail(node.place, path,
            fmt::format("reference `{}` is known at output times only; give the boundary data here",
@@ -93,13 +91,17 @@ void check_takers(const Case& problem, const Node& root) {
   for (const Side side : all_sides) {
     const auto index = static_cast<std::size_t>(side);
     for (const FluidSpec& fluid : problem.fluids) {
-      need(fluid.boundary[index], true, fluid.path, side,
+      need(fluid.boundary[index], true, fmt::format("{}.boundary.{}", fluid.path, name_of(side)),
            node_at(fluid_section_of(root, fluid.name), {"boundary", name_of(side)}));
     }
     for (const SolidSpec& solid : problem.solids) {
-      need(solid.boundary[index], false, "solids." + solid.name, side,
+      need(solid.boundary[index], false, fmt::format("solids.{}.boundary.{}", solid.name, name_of(side)),
            node_at(root, {"solids", solid.name, "boundary", name_of(side)}));
     }
+  }
+  for (const FluidSpec& fluid : problem.fluids) {
+    for (const GivenOnCurve& given : given_on_curves(fluid, fluid_section_of(root, fluid.name)))
+      need(given.spec, true, given.path, given.node);
   }
 }
 
@@ -201,6 +203,13 @@ void check_gas(const Case& problem, const FluidSpec& fluid, const GivenGas& gas,
       const double t = looked_at_time(problem, k);
       check_gas_data(gas, sample_points(fluid.grid, side, t), t, node_at(node, {"boundary", name_of(side)}),
                      fmt::format("{}.boundary.{}", fluid.path, name_of(side)));
+    }
+  }
+  for (const GivenOnCurve& given : given_on_curves(fluid, node)) {
+    if (!given.spec.from_reference) continue;
+    for (int k = 0; k < looked_at_times; ++k) {
+      const double t = looked_at_time(problem, k);
+      check_gas_data(gas, given.points, t, given.node, given.path);
     }
   }
 }

@@ -23,7 +23,7 @@ namespace {
 using config::fail;
 using config::Node;
 
-/// A side of a gas or a solid, with the place where the case speaks of it.
+/// A side of a gas or a solid, or a curve, with the place where the case speaks of it.
 struct GivenSide {
   const BoundarySpec& spec;
   const Node& node;
@@ -143,6 +143,11 @@ void check_sides_of_gas(const Case& problem, const FluidSpec& fluid, const Node&
       const double t = looked_at_time(problem, k);
       for (const Vec2& x : sample_points(fluid.grid, side, t)) check_values(given, x, t);
     }
+  }
+  for (const GivenOnCurve& on_curve : given_on_curves(fluid, node)) {
+    const GivenSide given{.spec = on_curve.spec, .node = on_curve.node, .path = on_curve.path};
+    for (int k = 0; k < looked_at_times; ++k)
+      for (const Vec2& x : on_curve.points) check_values(given, x, looked_at_time(problem, k));
   }
 }
 

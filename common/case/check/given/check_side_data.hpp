@@ -1,5 +1,5 @@
 #pragma once
-/// What is given on the sides of gases and solids is finite for the whole run, and begins where the bodies do.
+/// What is given on the sides of gases and solids, and on curves, is finite for the whole run, and begins where the bodies do.
 
 #include "common/case/case.hpp"
 #include "common/core/input/config.hpp"

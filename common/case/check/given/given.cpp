@@ -9,6 +9,7 @@
 #include <cstddef>
 
 #include "common/case/check/check_ends.hpp"
+#include "common/case/document/node_at.hpp"
 #include "common/case/schema/law_numbers.hpp"
 
 namespace fsi {
@@ -43,6 +44,20 @@ int times_of_known_values(const FluidSpec& fluid, Side side, const GasExpression
   const std::array formulas{&given.rho, &given.v1, &given.v2, &given.p};
   return std::ranges::any_of(formulas, depends_on_place) ? times_of_known_places(fluid, side)
                                                          : looked_at_times;
+}
+
+std::vector<GivenOnCurve> given_on_curves(const FluidSpec& fluid, const config::Node& node) {
+  std::vector<GivenOnCurve> given;
+  for (std::size_t k = 0; k < fluid.body_fitted.size(); ++k) {
+    const BodyFittedSpec& fitted = fluid.body_fitted[k];
+    const BoundarySpec& spec = fitted.boundary[static_cast<std::size_t>(fitted.side)];
+    if (!spec.from_reference && !spec.state && spec.fields.empty() && spec.vectors.empty()) continue;
+    given.push_back({.spec = spec,
+                     .node = node_at(node_at(node, {"body_fitted"}).items[k], {"boundary"}),
+                     .path = fmt::format("{}.body_fitted[{}].boundary", fluid.path, k),
+                     .points = curve_points(fluid, k)});
+  }
+  return given;
 }
 
 GivenVector given_by(const VectorExpressions& formulas) {

@@ -4,9 +4,11 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "common/case/case.hpp"
 #include "common/case/check/given/sample.hpp"
+#include "common/core/input/config.hpp"
 #include "common/core/types.hpp"
 #include "common/exact/solution.hpp"
 
@@ -30,6 +32,17 @@ int times_of_known_places(const FluidSpec& fluid, Side side);
 
 /// At how many of them what is given there can be looked at: everywhere the same, it needs no places.
 int times_of_known_values(const FluidSpec& fluid, Side side, const GasExpressions& given);
+
+/// What holds on a curve fitted to a gas, with the place where the case speaks of it.
+struct GivenOnCurve {
+  const BoundarySpec& spec;
+  const config::Node& node;
+  std::string path;          ///< "fluid.body_fitted[0].boundary"
+  std::vector<Vec2> points;  ///< of the curve, which lies still; those behind other curves left out
+};
+
+/// Of all curves of a gas that have data. @param node the section of the gas
+std::vector<GivenOnCurve> given_on_curves(const FluidSpec& fluid, const config::Node& node);
 
 /// Of formulas.
 GivenVector given_by(const VectorExpressions& formulas);

@@ -23,6 +23,15 @@ bool in_body(const SolidSpec& solid, const Vec2& x) {
   return curve.closed() && grid::encloses(curve.x, x);
 }
 
+/// What lies behind curves fitted to a gas goes, the k-th curve apart.
+void leave_out_behind(std::vector<Vec2>& points, const FluidSpec& fluid,
+                      std::optional<std::size_t> apart = {}) {
+  for (std::size_t k = 0; k < fluid.body_fitted.size(); ++k) {
+    if (k == apart) continue;
+    std::erase_if(points, [&](const Vec2& x) { return lies_behind(fluid.body_fitted[k], fluid.grid, x); });
+  }
+}
+
 constexpr int samples_of_body = 16;  // in each direction
 
 }  // namespace
@@ -44,11 +53,13 @@ std::vector<Vec2> sample_points(const GridSpec& grid, std::optional<Side> side, 
 
 std::vector<Vec2> sample_points(const FluidSpec& fluid) {
   std::vector<Vec2> points = sample_points(fluid.grid);
-  if (fluid.refine.levels > 1) return points;
-  std::erase_if(points, [&](const Vec2& x) {
-    return std::ranges::any_of(
-        fluid.body_fitted, [&](const BodyFittedSpec& fitted) { return lies_behind(fitted, fluid.grid, x); });
-  });
+  if (fluid.refine.levels == 1) leave_out_behind(points, fluid);
+  return points;
+}
+
+std::vector<Vec2> curve_points(const FluidSpec& fluid, std::size_t k) {
+  std::vector<Vec2> points = outline_points(fluid.body_fitted[k].curve);
+  leave_out_behind(points, fluid, k);
   return points;
 }
 

@@ -2,6 +2,7 @@
 /// The points at which checks look at what a case gives as functions of place: points of its grids, for others the run does
 /// not have.
 
+#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -16,6 +17,9 @@ std::vector<Vec2> sample_points(const GridSpec& grid, std::optional<Side> side =
 /// Some points of the grid of a gas at the start, those behind curves fitted to it left out: there the solver takes no value,
 /// but on the coarser ones of several levels, which it fills everywhere.
 std::vector<Vec2> sample_points(const FluidSpec& fluid);
+
+/// All points of the k-th curve fitted to a gas, those behind others of its curves left out.
+std::vector<Vec2> curve_points(const FluidSpec& fluid, std::size_t k);
 
 /// Some points of a body, its outline's among them.
 std::vector<Vec2> sample_points(const SolidSpec& solid);

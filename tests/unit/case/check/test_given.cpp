@@ -199,6 +199,31 @@ fluid:
   expect_refused(above("[bottom, top]", left, "1.7 - x"), "fluid.initial.rho: ");
 }
 
+TEST(GivenOnACurve, IsLookedAtForTheWholeRun) {
+  const auto on_disk = [](const std::string& rho, const std::string& p) {
+    return disk_case(
+        "1", "  initial: {}",
+        fmt::format(", boundary: {{kind: imposed, state: {{rho: \"{}\", v: [0, 0], p: \"{}\"}}}}", rho, p));
+  };
+  EXPECT_EQ(mistake_in(on_disk("1 + t + 0.1 * x", "1.1 - t + x^2")), "");
+  EXPECT_EQ(mistake_in(on_disk("1 - 3 * (x^2 + y^2 - 0.25)", "1 / r")), "");
+  expect_refused(on_disk("1 - 100 * t", "1"), "fluid.body_fitted[0].boundary.state.rho: is -5.2499");
+  expect_refused(on_disk("1", "0.4 + x"), "fluid.body_fitted[0].boundary.state.p: is ");
+}
+
+TEST(GivenOnACurve, ComesFromAReferenceThatHasIt) {
+  const auto disk = [](const std::string& reference) {
+    return disk_case("1", "  initial: {}\nreference: " + reference, ", boundary: dirichlet");
+  };
+  const auto formulas = [&](const std::string& rho) {
+    return disk("{{kind: expressions, fluid: {{rho: \"" + rho + "\", v: [0, 0], p: 1}}}}");
+  };
+  EXPECT_EQ(mistake_in(formulas("1 + 0.5 * t + 1 / r")), "");
+  expect_refused(formulas("1 - 1.1 * t"), "fluid.body_fitted[0].boundary: takes its data from `reference`, ");
+  expect_refused(disk("{{kind: expressions, u: [0, 0]}}"),
+                 "fluid.body_fitted[0].boundary: takes its data from `reference`, which has no `fluid`");
+}
+
 std::string moving_gas(const std::string& x, const std::string& left, const std::string& more = "") {
   return fmt::format(R"(time: {{end: 1}}
 fluid:
