@@ -92,7 +92,14 @@ class PeerLost : public Failure {
 /// Results cannot be written. Exit 5.
 class OutputFailed : public Failure {
  public:
-  explicit OutputFailed(std::string message) : Failure(ExitCode::output_failed, std::move(message)) {}
+  /// `lost`: how many results, such as lines of a table.
+  explicit OutputFailed(std::string message, std::uint64_t lost = 1)
+      : Failure(ExitCode::output_failed, std::move(message)), lost_(lost) {}
+
+  std::uint64_t lost() const { return lost_; }
+
+ private:
+  std::uint64_t lost_;
 };
 
 }  // namespace fsi

@@ -12,14 +12,16 @@
 #include <utility>
 
 #include "common/core/failure.hpp"
+#include "common/core/log.hpp"
 #include "common/io/atomic_file.hpp"
 
 namespace fsi::io {
 
 namespace {
 
-[[noreturn]] void fail(const char* what, const std::string& path, int error, const char* remedy) {
-  throw OutputFailed(fmt::format("cannot {} '{}': {}; {}", what, path, std::strerror(error), remedy));
+[[noreturn]] void fail(const char* what, const std::string& path, int error, const char* remedy,
+                       std::uint64_t lost = 1) {
+  throw OutputFailed(fmt::format("cannot {} '{}': {}; {}", what, path, std::strerror(error), remedy), lost);
 }
 
 }  // namespace
@@ -34,6 +36,7 @@ CsvWriter::CsvWriter(std::string path, const std::vector<std::string>& columns, 
   std::setvbuf(file_.get(), nullptr, _IONBF, 0);  // whole batches only: never half a line
   pending_ = fmt::format("{}\n", fmt::join(columns, ","));
   if (fresh) {
+    waiting_ = 1;
     flush();
     return;
   }
@@ -48,8 +51,8 @@ CsvWriter::CsvWriter(std::string path, const std::vector<std::string>& columns, 
 CsvWriter::~CsvWriter() {
   try {
     if (file_) flush();
-  } catch (const OutputFailed&) {  // a caller that wants to know calls flush() before
-    pending_.clear();
+  } catch (const OutputFailed& failure) {
+    log_warning(fmt::format("{}; lines lost: {}", failure.what(), failure.lost()));
   }
 }
 
@@ -66,10 +69,10 @@ void CsvWriter::flush() {
   const bool written = std::fwrite(pending_.data(), 1, pending_.size(), file_.get()) == pending_.size();
   const int error = errno;
   const std::size_t bytes = std::exchange(pending_, {}).size();
-  waiting_ = 0;
+  const int lines = std::exchange(waiting_, 0);
   if (!written) {
     cut(size_);
-    fail("write", path_, error, "check the free space");
+    fail("write", path_, error, "check the free space", static_cast<std::uint64_t>(lines));
   }
   size_ += bytes;
 }

@@ -30,7 +30,8 @@ class CsvWriter {
   CsvWriter& operator=(CsvWriter&&) noexcept = default;
   CsvWriter(const CsvWriter&) = delete;
   CsvWriter& operator=(const CsvWriter&) = delete;
-  ~CsvWriter();  ///< hands over the last lines
+  /// Hands over the last lines. Where that fails the log says so: who wants to know flushes before.
+  ~CsvWriter();
 
   /// One value per column; with `word` that is the last one. It holds no comma and no quotation mark.
   /// @throws OutputFailed @throws std::logic_error when the number of values is wrong
@@ -38,8 +39,8 @@ class CsvWriter {
   void row(std::initializer_list<double> values) {
     row(std::span<const double>(values.begin(), values.size()));
   }
-  /// Hands all lines to the operating system; after a failure the
-  /// file ends with the last whole batch. @throws OutputFailed
+  /// Hands all lines to the operating system; after a failure the file ends with the last whole batch, and the
+  /// lines since then are lost. @throws OutputFailed with their number
   void flush();
   /// Brings all lines to the disk and notes the length of the file;
   /// on loading, cuts off what came after. @throws OutputFailed
@@ -54,7 +55,7 @@ class CsvWriter {
   std::string pending_;
   std::uint64_t size_ = 0;  ///< of the file [byte]
   std::size_t columns_ = 0;
-  int batch_ = 16, waiting_ = 0;
+  int batch_ = 16, waiting_ = 0;  ///< lines: at most, and those of `pending_`
 
   void cut(std::uint64_t size);
 };

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <atomic>
 #include <charconv>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -214,10 +215,12 @@ void write_results(const Setup& setup, io::Part& part, const std::function<void(
   } catch (const OutputFailed& failure) {
     if (!setup.problem.output.go_on) throw;
     double& lost = part.counters[lost_outputs];
-    constexpr double often = 10;
-    if (lost < often)
-      log_warning(fmt::format("{}; the run goes on without (output.on_failure)", failure.what()));
-    ++lost;
+    const bool told = lost > 0 && std::ilogb(lost) == std::ilogb(lost + static_cast<double>(failure.lost()));
+    lost += static_cast<double>(failure.lost());
+    if (!told) {  // whenever it has become twice as much
+      log_warning(fmt::format("{}; the run goes on without (output.on_failure), results lost: {}",
+                              failure.what(), lost));
+    }
   }
 }
 

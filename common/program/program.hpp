@@ -63,7 +63,7 @@ int run_program(int argc, char** argv, const std::string& default_name, const st
 inline constexpr const char* lost_outputs = "lost_outputs";
 
 /// Writes results. Where that fails and the case says to go on without
-/// them, the loss is told and counted. @throws OutputFailed
+/// them, the loss is counted, and told whenever it has doubled. @throws OutputFailed
 void write_results(const Setup& setup, io::Part& part, const std::function<void()>& write);
 
 /// Ends the program when a signal asks for it: SIGINT (exit 130), and SIGTERM (exit 143) until

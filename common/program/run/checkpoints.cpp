@@ -90,7 +90,11 @@ io::Standing Checkpoints::begin() {
 void Checkpoints::save(const io::Standing& at) {
   write_results(setup_, part_, [&] {
     Archive saved;
-    archive(saved);
+    try {
+      archive(saved);
+    } catch (const OutputFailed& failure) {  // lines of a table, and with them the checkpoint
+      throw OutputFailed(failure.what(), failure.lost() + 1);
+    }
     io::write_checkpoint(setup_.run_dir, origin(), at, saved);
   });
 }

@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
+#include <string>
 
+#include "common/core/log.hpp"
 #include "tests/unit/io/scratch.hpp"
 
 namespace fsi {
@@ -44,6 +47,44 @@ TEST_F(ReportOfARun, CountsWhatWasLostBeforeARestart) {
 
 TEST_F(ReportOfARun, HasNoCounterOfLossesWhereNothingWasLost) {
   EXPECT_TRUE(gone_on({}).counters.empty());
+}
+
+class RunThatGoesOn : public ReportOfARun {
+ protected:
+  void SetUp() override {
+    ReportOfARun::SetUp();
+    setup.problem.output.go_on = true;
+  }
+};
+
+TEST_F(RunThatGoesOn, CountsEveryResultThatIsLost) {
+  io::Part part;
+  for (const std::uint64_t lost : {16U, 3U, 1U})
+    write_results(setup, part, [&] { throw OutputFailed("full", lost); });
+  write_results(setup, part, [] {});
+  EXPECT_EQ(part.counters.at(lost_outputs), 20);
+}
+
+TEST_F(RunThatGoesOn, CountsTheCheckpointBesideTheLinesThatItDidNotBringToTheDisk) {
+  io::Part part;
+  Checkpoints(setup, part, [](Archive&) { throw OutputFailed("full", 5); }).save({.step = 7});
+  EXPECT_EQ(part.counters.at(lost_outputs), 6);
+}
+
+TEST_F(RunThatGoesOn, TellsItsLossesWheneverTheyHaveDoubled) {
+  open_log("fluid", "", LogFile::fresh);
+  testing::internal::CaptureStderr();
+  io::Part part;
+  for (int k = 0; k < 1000; ++k) write_results(setup, part, [] { throw OutputFailed("full"); });
+  const std::string said = testing::internal::GetCapturedStderr();
+  EXPECT_EQ(std::ranges::count(said, '\n'), 10) << said;  // 1, 2, 4, .. 512
+  EXPECT_NE(said.find("lost: 512\n"), std::string::npos) << said;
+}
+
+TEST_F(ReportOfARun, EndsARunThatIsNotToldToGoOn) {
+  io::Part part;
+  EXPECT_THROW(write_results(setup, part, [] { throw OutputFailed("full"); }), OutputFailed);
+  EXPECT_TRUE(part.counters.empty());
 }
 
 }  // namespace
