@@ -162,6 +162,7 @@ void CoupledRun::exchange() {
   clock_.lap(io::Work::messages);
   if (coupler_.shown()) session_.show(outline());
   write_results(setup_, part_, [&] { record(); });
+  if (coupler_.finished()) write_results(setup_, part_, [&] { table_.flush(); });
   at_ = {.step = at_.step + 1, .t = coupler_.next().plan.t_next, .dt = coupler_.next().plan.dt};
   if (coupler_.checkpoint_asked()) {
     checkpoints_.save(at_);

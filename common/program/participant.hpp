@@ -57,6 +57,8 @@ class Participant {
   virtual void write_fields(double /*t*/, std::uint64_t /*step*/) {}
   /// Lines of the tables, once a step.
   virtual void write_tables(double /*t*/, double /*dt*/, ProjectedStates /*projected*/) {}
+  /// Hands the lines of the tables that still wait to the operating system, at the end.
+  virtual void flush_tables() {}
   /// Fields at the last time t at which boundary conditions held, apart from the series: the solution diverged.
   virtual void write_last_state(double /*t*/, std::uint64_t /*step*/) {}
   /// By default that of a body that does not deform.

@@ -170,6 +170,8 @@ class Piston final : public fsi::Participant {
         {t, force[0], force[1], force_ * motion_.q_dot, centre[0], centre[1], velocity[0], velocity[1]});
   }
 
+  void flush_tables() override { table_.flush(); }
+
   void advance(double /*t*/, double dt, int /*substeps*/, fsi::ProjectedStates /*gas*/) override {
     motion_.predict(dt);
   }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "common/grid/geometry/quality.hpp"
+#include "common/io/write_each.hpp"
 #include "common/program/grid_from_case.hpp"
 #include "common/program/reference_from_case.hpp"
 #include "fluid_solver/program/from_case.hpp"
@@ -184,6 +185,16 @@ void FluidParticipant::write_fields(double t, std::uint64_t step) {
   if (!budget_) return;
   const Totals defect = budget_->defect(solver_);
   budget_table_->row({t, defect.mass, defect.momentum1, defect.momentum2, defect.energy});
+}
+
+void FluidParticipant::flush_tables() {
+  io::write_each(
+      [&] {
+        if (probe_table_) probe_table_->flush();
+      },
+      [&] {
+        if (budget_table_) budget_table_->flush();
+      });
 }
 
 void FluidParticipant::write_last_state(double t, std::uint64_t step) {

@@ -30,6 +30,7 @@ class FluidParticipant final : public Participant {
   std::vector<io::GridOutput> fields_now() override;
   void write_fields(double t, std::uint64_t step) override;
   void write_tables(double t, double dt, ProjectedStates projected) override;
+  void flush_tables() override;
   void write_last_state(double t, std::uint64_t step) override;
   void archive(Archive& archive) override;
   wire::Health health() const override;

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "common/core/failure.hpp"
+#include "common/io/write_each.hpp"
 #include "common/wire/sparse.hpp"
 
 namespace fsi::beam {
@@ -173,6 +174,10 @@ void BeamParticipant::write_tables(double t, double /*dt*/, ProjectedStates /*pr
   write_rows(t, mean_motion(), probes);
   energies_.row(
       {t, motion_.kinetic_energy(), motion_.model().strain_energy(motion_.u()), impulse_.sum().power});
+}
+
+void BeamParticipant::flush_tables() {
+  io::write_each([&] { BodyParticipant::flush_tables(); }, [&] { energies_.flush(); });
 }
 
 bool BeamParticipant::is_surrounded() const {

@@ -23,6 +23,7 @@ class BeamParticipant final : public bodies::BodyParticipant {
   void apply_bcs(double t, ProjectedStates projected) override;
   void advance(double t, double dt, int substeps, ProjectedStates projected) override;
   void write_tables(double t, double dt, ProjectedStates projected) override;
+  void flush_tables() override;
 
  private:
   bodies::BodyTotals totals() const override;

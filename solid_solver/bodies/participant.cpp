@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "common/grid/geometry/interface_geometry.hpp"
+#include "common/io/write_each.hpp"
 
 namespace fsi::bodies {
 
@@ -102,6 +103,13 @@ void BodyParticipant::write_rows(double t, const BodyMotion& motion, std::span<c
   std::vector<double> row{t};
   row.insert(row.end(), probes.begin(), probes.end());
   probe_table_->row(row);
+}
+
+void BodyParticipant::flush_tables() {
+  io::write_each([&] { forces_.flush(); },
+                 [&] {
+                   if (probe_table_) probe_table_->flush();
+                 });
 }
 
 void BodyParticipant::archive(Archive& archive) {

@@ -34,6 +34,7 @@ class BodyParticipant : public Participant {
   wire::Hello hello() const final;
   std::vector<io::GridOutput> fields_now() final { return fields(); }
   void write_fields(double t, std::uint64_t step) final;
+  void flush_tables() override;
   void write_last_state(double t, std::uint64_t step) final;
   void archive(Archive& archive) final;
   void report(double t, io::Part& part) const final;

@@ -38,6 +38,7 @@ class ForceTable {
  public:
   ForceTable(const Setup& setup, const std::string& name);
   void row(double t, const GasLoad& load, const BodyMotion& motion);
+  void flush() { table_.flush(); }
   void archive(Archive& archive) { table_.archive(archive); }
 
  private:

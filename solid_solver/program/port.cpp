@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "common/io/write_each.hpp"
 #include "solid_solver/kernels/state.hpp"
 
 namespace fsi::solid {
@@ -113,6 +114,16 @@ void SolidParticipant::write_tables(double t, double dt, ProjectedStates /*proje
     }
     probe_table_->row(row);
   }
+}
+
+void SolidParticipant::flush_tables() {
+  io::write_each(
+      [&] {
+        if (forces_) forces_->flush();
+      },
+      [&] {
+        if (probe_table_) probe_table_->flush();
+      });
 }
 
 std::string SolidParticipant::remedy() const {

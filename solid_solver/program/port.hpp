@@ -28,6 +28,7 @@ class SolidParticipant final : public Participant {
   std::vector<io::GridOutput> fields_now() override;
   void write_fields(double t, std::uint64_t step) override;
   void write_tables(double t, double dt, ProjectedStates projected) override;
+  void flush_tables() override;
   /// The state as it is: all grids of the solid at the time before the sweep that broke, or what was
   /// predicted when a condition on its sides broke.
   void write_last_state(double t, std::uint64_t step) override;

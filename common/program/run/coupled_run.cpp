@@ -92,6 +92,7 @@ class CoupledRun {
     watch_noise(part_, solver_, at_, answer.write_output || answer.stop);
     write_results(setup_, part_, [&] { solver_.write_tables(at_.t, at_.dt, projected_); });
     if (answer.write_output) write_results(setup_, part_, [&] { solver_.write_fields(at_.t, at_.step); });
+    if (answer.stop) write_results(setup_, part_, [&] { solver_.flush_tables(); });
     if (answer.show) session_.show(draw_of(part_, solver_, at_), at_.step, answer.stop);
     clock_.lap(io::Work::output);
     if (!answer.stop) return true;

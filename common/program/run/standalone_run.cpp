@@ -63,6 +63,7 @@ class StandaloneRun {
       watch_.end_step();
     }
     if (end_ && at_.step > begun_at_ && setup_.problem.output.checkpoint_at_end) save();
+    write_results(setup_, part_, [&] { solver_.flush_tables(); });
   }
 
   void advance() {

@@ -5,6 +5,7 @@ form of the campaign of `fsi faults`."""
 import json
 import math
 import os
+import resource
 import subprocess
 import sys
 import unittest
@@ -93,6 +94,58 @@ class FullDisk(EndToEnd):
         self.assertEqual(run.wait(), 5, run.stderr)
         self.assertIn(run.summary()["failure"]["origin"], ("fluid", "solid", "coupler"))
         self.assertIn("/checkpoints", run.summary()["reason"])
+
+
+class FullDiskOfOneProgram(EndToEnd):
+    """Limits of the size of files that single programs get while their run is paused. The lines of tables go to the disk sixteen at
+    a time; those that are left at the end are fewer."""
+
+    TABLES_ONLY = ("--set", "expect={}", "--set", "output.checkpoint_at_end=false", "--set", "output.checkpoint_seconds=1e6")
+    PISTON = ("elastic_piston", *TABLES_ONLY, "--set", "grid.factor=1", "--set", "time.dt=1e-3", "--set", "output.times=[0.8]", "--set",
+              "output.probes=[{name: a, in: fluid, x: 0.5, y: 0.5}, {name: b, in: solid, x: -0.5, y: 0.5}]")
+    TUBE = ("sod_tube", *TABLES_ONLY, "--set", "grid.factor=5", "--set", "time.dt=2e-4", "--set",
+            "output.probes=[{name: a, in: fluid, x: 0.5, y: 0.05}]")
+    TABLES = {"coupler": ["interface.csv"], "fluid": ["parts/probes_fluid.csv"],
+              "solid": ["forces_solid.csv", "parts/probes_solid.csv"]}
+    EXECUTABLES = {"coupler": "coupler", "fluid": "fluid_solver", "solid": "solid_solver_linear_elastic"}
+
+    def limited(self, case, limits, *more, out):
+        """A run of `case` in which no file of a program grows beyond {program: bytes}."""
+        run = self.launch(*case, "--pause-at", "20", *more, out=out)
+        run.speaker = "fluid" if case is self.TUBE else "coupler"
+        programs = run.until_paused()
+        for name, size in limits.items():
+            resource.prlimit(programs[self.EXECUTABLES[name]], resource.RLIMIT_FSIZE, (size, size))
+        run.ctl("resume")
+        return run
+
+    def rows(self, run, table):
+        return (run.directory / table).read_bytes().count(b"\n") - 1
+
+    def check_last_lines(self, case, name):
+        whole = self.complete(*case, out=f"whole-{name}")
+        table = max(self.TABLES[name], key=lambda table: (whole.directory / table).stat().st_size)
+        self.assertNotEqual(self.rows(whole, table) % 16, 0, "no lines are left at the end")
+        run = self.limited(case, {name: (whole.directory / table).stat().st_size - 10}, out=f"run-{name}")
+        self.assertEqual(run.wait(), 5, run.stderr)
+        self.assertEqual(run.summary()["status"], "failed")
+        self.assertEqual(run.summary()["failure"]["origin"], name)
+        self.assertIn(table, run.summary()["reason"])
+        missing = self.rows(whole, table) % 16
+        self.assertEqual(self.rows(run, table), self.rows(whole, table) - missing)
+        run = self.limited(case, {name: (whole.directory / table).stat().st_size - 10}, "--set", "output.on_failure=go_on",
+                           out=f"go-on-{name}")
+        self.assertEqual(run.wait(), 0, run.stderr)
+        self.assertEqual(run.part(name)["counters"]["lost_outputs"], missing)
+        self.assertRegex(run.log(name), f"{table}.*results lost: {missing}")
+
+    def test_last_lines_that_find_no_room_end_a_run_or_are_counted(self):
+        for name in self.TABLES:
+            with self.subTest(name):
+                self.check_last_lines(self.PISTON, name)
+
+    def test_so_it_is_where_a_gas_is_alone(self):
+        self.check_last_lines(self.TUBE, "fluid")
 
 
 class Requests(EndToEnd):

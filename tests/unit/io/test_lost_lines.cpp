@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "common/core/failure.hpp"
 #include "common/core/log.hpp"
 #include "common/io/csv_writer.hpp"
+#include "common/io/write_each.hpp"
 #include "tests/unit/io/full_disk.hpp"
 #include "tests/unit/io/scratch.hpp"
 
@@ -62,6 +64,26 @@ TEST_F(LostLines, OfATableThatNobodyFlushedAreInTheLog) {
   const std::string said = testing::internal::GetCapturedStderr();
   EXPECT_NE(said.find(path()), std::string::npos) << said;
   EXPECT_NE(said.find("lines lost: 3"), std::string::npos) << said;
+}
+
+TEST(WriteEach, GoesOnAfterWhatFailsAndSaysAllOfIt) {
+  bool written = false;
+  try {
+    write_each([] { throw OutputFailed("no a.csv", 3); }, [&] { written = true; },
+               [] { write_each([] { throw OutputFailed("no b.csv", 4); }, [] {}); },
+               [] { throw OutputFailed("no c.h5"); });
+    FAIL() << "three of them failed";
+  } catch (const OutputFailed& failure) {
+    EXPECT_STREQ(failure.what(), "no a.csv; no b.csv; no c.h5");
+    EXPECT_EQ(failure.lost(), 3 + 4 + 1);
+  }
+  EXPECT_TRUE(written);
+}
+
+TEST(WriteEach, LetsOtherFailuresThrough) {
+  EXPECT_THROW(write_each([] { throw Diverged("p < 0"); }), Diverged);
+  EXPECT_THROW(write_each([] { throw OutputFailed("full"); }, [] { throw std::logic_error("columns"); }),
+               std::logic_error);
 }
 
 }  // namespace
