@@ -55,7 +55,7 @@ class Participant {
   virtual std::vector<io::GridOutput> fields_now() { return {}; }
   /// Fields at t.
   virtual void write_fields(double /*t*/, std::uint64_t /*step*/) {}
-  /// Lines of the tables, once a step.
+  /// Lines of the tables, once a step. Of several, `io::write_each` lets one that fails not lose the others.
   virtual void write_tables(double /*t*/, double /*dt*/, ProjectedStates /*projected*/) {}
   /// Hands the lines of the tables that still wait to the operating system, at the end.
   virtual void flush_tables() {}

@@ -181,10 +181,12 @@ std::vector<io::GridOutput> FluidParticipant::fields_now() {
 
 void FluidParticipant::write_fields(double t, std::uint64_t step) {
   crew_.collect();
-  fields_.write(t, step, fields(true));
-  if (!budget_) return;
-  const Totals defect = budget_->defect(solver_);
-  budget_table_->row({t, defect.mass, defect.momentum1, defect.momentum2, defect.energy});
+  io::write_each([&] { fields_.write(t, step, fields(true)); },
+                 [&] {
+                   if (!budget_) return;
+                   const Totals defect = budget_->defect(solver_);
+                   budget_table_->row({t, defect.mass, defect.momentum1, defect.momentum2, defect.energy});
+                 });
 }
 
 void FluidParticipant::flush_tables() {

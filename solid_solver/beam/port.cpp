@@ -171,9 +171,11 @@ void BeamParticipant::write_tables(double t, double /*dt*/, ProjectedStates /*pr
   for (std::size_t k = 0; k < probes_.size(); ++k)
     values_at(probes_[k], probe_places_[k],
               std::span(probes).subspan(k * quantities.size(), quantities.size()));
-  write_rows(t, mean_motion(), probes);
-  energies_.row(
-      {t, motion_.kinetic_energy(), motion_.model().strain_energy(motion_.u()), impulse_.sum().power});
+  io::write_each([&] { write_rows(t, mean_motion(), probes); },
+                 [&] {
+                   energies_.row({t, motion_.kinetic_energy(), motion_.model().strain_energy(motion_.u()),
+                                  impulse_.sum().power});
+                 });
 }
 
 void BeamParticipant::flush_tables() {

@@ -98,11 +98,13 @@ void BodyParticipant::take(std::span<const GasLoad> loads) {
 }
 
 void BodyParticipant::write_rows(double t, const BodyMotion& motion, std::span<const double> probes) {
-  forces_.row(t, load_, motion);
-  if (!probe_table_) return;
-  std::vector<double> row{t};
-  row.insert(row.end(), probes.begin(), probes.end());
-  probe_table_->row(row);
+  io::write_each([&] { forces_.row(t, load_, motion); },
+                 [&] {
+                   if (!probe_table_) return;
+                   std::vector<double> row{t};
+                   row.insert(row.end(), probes.begin(), probes.end());
+                   probe_table_->row(row);
+                 });
 }
 
 void BodyParticipant::flush_tables() {

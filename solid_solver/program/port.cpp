@@ -99,21 +99,30 @@ void SolidParticipant::archive(Archive& archive) {
 
 void SolidParticipant::write_tables(double t, double dt, ProjectedStates /*projected*/) {
   if (forces_ || probe_table_) crew_.fetch(strips_of_probes());
-  if (forces_) {
-    const SideLoad load = whole_load();
-    received_.add({load.force[0], load.force[1], load.power}, dt);
-    const Pose pose = crew_.pose();
-    forces_->row({t, load.force[0], load.force[1], load.moment, load.power, pose.centre[0], pose.centre[1],
-                  pose.velocity[0], pose.velocity[1], pose.angle});
+  io::write_each(
+      [&] {
+        if (forces_) write_forces(t, dt);
+      },
+      [&] {
+        if (probe_table_) write_probes(t);
+      });
+}
+
+void SolidParticipant::write_forces(double t, double dt) {
+  const SideLoad load = whole_load();
+  received_.add({load.force[0], load.force[1], load.power}, dt);
+  const Pose pose = crew_.pose();
+  forces_->row({t, load.force[0], load.force[1], load.moment, load.power, pose.centre[0], pose.centre[1],
+                pose.velocity[0], pose.velocity[1], pose.angle});
+}
+
+void SolidParticipant::write_probes(double t) {
+  std::vector<double> row{t};
+  for (const ProbePoint& probe : probes_) {
+    const SolidState q = solver_.value(probe);
+    row.insert(row.end(), {q.u[0], q.u[1], q.v[0], q.v[1], q.P.a11, q.P.a12, q.P.a21, q.P.a22});
   }
-  if (probe_table_) {
-    std::vector<double> row{t};
-    for (const ProbePoint& probe : probes_) {
-      const SolidState q = solver_.value(probe);
-      row.insert(row.end(), {q.u[0], q.u[1], q.v[0], q.v[1], q.P.a11, q.P.a12, q.P.a21, q.P.a22});
-    }
-    probe_table_->row(row);
-  }
+  probe_table_->row(row);
 }
 
 void SolidParticipant::flush_tables() {

@@ -53,6 +53,9 @@ class SolidParticipant final : public Participant {
   void move_along(const Meeting& meeting, std::vector<double>& x) const;
   void watch_ripples();
   void open_tables();
+  /// A line of the table; the forces are summed as well.
+  void write_forces(double t, double dt);
+  void write_probes(double t);
 
   const Setup& setup_;
   const SolidSpec& spec_;

@@ -105,6 +105,7 @@ class FullDiskOfOneProgram(EndToEnd):
               "output.probes=[{name: a, in: fluid, x: 0.5, y: 0.5}, {name: b, in: solid, x: -0.5, y: 0.5}]")
     TUBE = ("sod_tube", *TABLES_ONLY, "--set", "grid.factor=5", "--set", "time.dt=2e-4", "--set",
             "output.probes=[{name: a, in: fluid, x: 0.5, y: 0.05}]")
+    BLOCK = ("moving_together_block", *TABLES_ONLY, "--solid", "block=rigid", "--set", "output.every=0.05")
     TABLES = {"coupler": ["interface.csv"], "fluid": ["parts/probes_fluid.csv"],
               "solid": ["forces_solid.csv", "parts/probes_solid.csv"]}
     EXECUTABLES = {"coupler": "coupler", "fluid": "fluid_solver", "solid": "solid_solver_linear_elastic"}
@@ -146,6 +147,23 @@ class FullDiskOfOneProgram(EndToEnd):
 
     def test_so_it_is_where_a_gas_is_alone(self):
         self.check_last_lines(self.TUBE, "fluid")
+
+    def test_run_that_goes_on_has_lost_what_it_counts(self):
+        run = self.limited(self.PISTON, {name: 40000 for name in self.TABLES}, "--set", "output.on_failure=go_on", out="run")
+        self.assertEqual(run.wait(), 0, run.stderr)
+        for name, tables in self.TABLES.items():
+            rows = [self.rows(run, table) for table in tables]
+            self.assertLess(max(rows), run.summary()["steps"])
+            self.assertEqual(run.part(name)["counters"]["lost_outputs"], sum(run.summary()["steps"] + 1 - n for n in rows), name)
+
+    def test_gas_whose_fields_are_lost_has_all_lines_of_its_budget(self):
+        run = self.limited(self.BLOCK, {"fluid": 100000}, "--set", "output.on_failure=go_on", out="run")
+        self.assertEqual(run.wait(), 0, run.stderr)
+        outputs = 21
+        written = len(list(run.directory.glob("fields/fluid_*.h5")))
+        self.assertIn(written, range(1, outputs))
+        self.assertEqual(self.rows(run, "budget_fluid.csv"), outputs)
+        self.assertEqual(run.part("fluid")["counters"]["lost_outputs"], outputs - written)
 
 
 class Requests(EndToEnd):
