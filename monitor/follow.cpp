@@ -27,7 +27,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr double listen_s = 0.05;         ///< a key is answered within this time
 constexpr double refresh_s = 0.25;        ///< time between two pictures
-constexpr double plain_refresh_s = 1;     ///< time between two lines
+constexpr double plain_refresh_s = 1;     ///< time between two lines of one status
 constexpr double web_refresh_s = 0.2;     ///< time between two states for browsers
 constexpr double ask_s = 1;               ///< time between two words that somebody watches
 constexpr double files_s = 0.5;           ///< time between two looks for new output files
@@ -180,10 +180,12 @@ void follow_on_terminal(Source& source, RunState& state) {
 
 void follow_plain(Source& source, RunState& state, bool json) {
   auto last = Clock::now() - std::chrono::seconds(2);
+  std::string told;
   while (caught == 0 && !state.over()) {
     source.listen(state, refresh_s);
-    if (since(last) < plain_refresh_s && !state.over()) continue;
+    if (since(last) < plain_refresh_s && state.status() == told && !state.over()) continue;
     last = Clock::now();
+    told = state.status();
     fmt::print("{}\n", json ? to_json(state, source.now()) : plain_line(state));
     if (std::fflush(stdout) != 0) return;  // whoever read this is gone
   }

@@ -18,7 +18,7 @@ void catch_signals();
 /// terminal cannot do better.
 void follow_on_terminal(Source& source, RunState& state);
 
-/// One line per second.
+/// One line per second, and one whenever the status changes.
 void follow_plain(Source& source, RunState& state, bool json);
 
 /// In browsers; goes on after the end of the run, so that it can be looked at, until a signal ends it.

@@ -159,7 +159,8 @@ void add_options(CommandLine& line, Wishes& wishes) {
       "RUN", wishes.run, "identity, folder or case of the run; may be left out when only one is going on");
   const auto once = line.add_flag("--once", wishes.once, "print the state once and exit");
   line.add_flag("--json", wishes.json, "print JSON, one object per line");
-  line.add_flag("--plain", wishes.plain, "print one line per second instead of using the whole terminal");
+  line.add_flag("--plain", wishes.plain,
+                "print a line per second, and when the status changes, instead of using the whole terminal");
   line.add_option("--wait", wishes.wait_s,
                   fmt::format("longest wait of --once for the first word [s] ({})", wishes.wait_s))
       .needs(once);

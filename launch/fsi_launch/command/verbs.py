@@ -200,7 +200,7 @@ def _add_monitor(verbs):
     verb = verbs.add_parser("monitor", description="Shows a run live until it ends, without disturbing it. RUN is its "
                             "identity, its folder or its case; it may be left out when only one is going on.")
     verb.add_argument("run", metavar="RUN", nargs="?")
-    verb.add_argument("--plain", action="store_true", help="a line per second instead of the whole terminal")
+    verb.add_argument("--plain", action="store_true", help="a line per second, and when the status changes, instead of the whole terminal")
     verb.add_argument("--once", action="store_true", help="show the state once and exit")
     verb.add_argument("--json", action="store_true", help="JSON, one object per line")
     verb.add_argument("--web", metavar="PORT", type=_port, help="serve a page for browsers, on this machine only; 0 finds a "
