@@ -186,8 +186,8 @@ void CompositeGrid::expect_curve_inside(int grid, double t) const {
     const Vec2 x(curve.x[k], curve.y[k]);
     if (inside(background_, x[0], x[0], x[1], x[1])) continue;
     throw Diverged(
-        fmt::format("the curve of {} has left the rectangle of \"{}\" here; let that reach farther, or "
-                    "the run end before",
+        fmt::format("the curve of {} has left the rectangle of \"{}\" here; let the run end "
+                    "before, or, where it has not gone through a wall, the rectangle reach farther",
                     body(grid).of.empty() ? "this grid" : body(grid).of, background_.name),
         {.t = t, .grid = name(grid), .position = {x[0], x[1]}});
   }
