@@ -229,7 +229,7 @@ MUTATIONS = [
     ("which part of the rectangle is the body", "common/case/grids/curve_side.cpp",
      "return part > 0.5;", "return part < 0.5;", "test_case", "OpenOutlines.*"),
     ("normals that turn away from the wall", "common/grid/marching/hyperbolic.cpp",
-     "std::max(0.0, 2 * along / foot)", "std::max(1.0, 2 * along / foot)", "test_hyperbolic", "*AroundAFlap*"),
+     "std::max(0.0, along / full)", "std::max(1.0, along / full)", "test_hyperbolic", "*AroundAFlap*"),
     ("hole cutting: rows above a flip", "common/grid/overlap/hole_cutting.cpp",
      "start(flip.row) = flip.into_hole ? 1 : 0;", "start(flip.row) = flip.into_hole ? 0 : 1;",
      "test_composite_grid", "CompositeGrid.*"),

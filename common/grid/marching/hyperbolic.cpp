@@ -26,10 +26,12 @@ std::size_t unknowns_of(const HyperbolicGrid& grid) {
   return static_cast<std::size_t>(grid.ends == Curve::closed ? grid.points - 1 : grid.points);
 }
 
-/// From 1, where a normal's part along the wall is half the foot's or more, to 0, where it is none; with its derivative.
+/// From 1, where a normal goes along the wall by half the square of what the foot's does or more, to 0, where it does not; with its
+/// derivative. The square: beyond the shallow foot of a ramp normals are as shallow, and have nothing to turn away from.
 double share_of_wall(double along, double foot) {
-  if (2 * along >= foot) return 1;
-  const double z = std::max(0.0, 2 * along / foot);
+  const double full = 0.5 * foot * foot;
+  if (along >= full) return 1;
+  const double z = std::max(0.0, along / full);
   return z * z * (3 - 2 * z);
 }
 
@@ -254,7 +256,7 @@ double HyperbolicMarch::concave_smoothing(std::size_t k, double d) const {
 }
 
 /// Near an end that slides on a wall, normals turn into the wall's direction, that towards which the foot's normal
-/// points. Those that go less than half as far along it as the foot's do so less, and those that turn away from
+/// points. Those that go less far along it than half the square of the foot's do so less, and those that turn away from
 /// it, as beyond the tip of a flap, not at all.
 void HyperbolicMarch::blend_into_walls() {
   for (std::size_t end = 0; end < 2; ++end) {
