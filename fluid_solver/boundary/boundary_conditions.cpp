@@ -28,11 +28,21 @@ class BoundaryConditions {
   }
 
   void set_points() {
+    std::array<StateVector, 4> predicted;
+    each_corner_of_equals([&](const Corner& corner) { predicted[corner.index] = load(q_, corner.at); });
     for (const Side side : by_precedence_) {
       visit(side, [](const auto& kind, const GasSide& at) {
-        if constexpr (requires { kind.set_points(at); }) kind.set_points(at);
+        if constexpr (requires { kind.set_points(at); }) {
+          kind.set_points(at);
+        } else if constexpr (requires { kind.set_point(at, 0); }) {
+          for (int k = 0; k < at.points.n(); ++k) {
+            if (at.points.live(k)) kind.set_point(at, k);
+          }
+        }
       });
     }
+    each_corner_of_equals(
+        [&](const Corner& corner) { let_neither_go_first(corner, predicted[corner.index]); });
   }
 
   void set_ghosts() {
@@ -78,6 +88,52 @@ class BoundaryConditions {
   void visit(Side side, const Action& action) {
     const GasSide at = seen(side);
     std::visit([&](const auto& kind) { action(kind, at); }, component_.boundary(side));
+  }
+
+  /// Where side `across`, left or right, with its point k meets `beside`, bottom or top, with its point l.
+  struct Corner {
+    std::size_t index;
+    Side across, beside;
+    int k, l;
+    SidePoints::Index at;
+  };
+
+  /// Corners of two sides that set their points one by one and neither of which takes precedence.
+  template <class Action>
+  void each_corner_of_equals(const Action& action) {
+    std::size_t index = 0;
+    for (const Side across : {Side::left, Side::right}) {
+      for (const Side beside : {Side::bottom, Side::top}) {
+        const int i = at_upper_end(across) ? layout_.n1 - 1 : 0,
+                  j = at_upper_end(beside) ? layout_.n2 - 1 : 0;
+        const Corner corner{
+            .index = index++, .across = across, .beside = beside, .k = j, .l = i, .at = {i, j}};
+        if (component_.facts(across).precedence != component_.facts(beside).precedence) continue;
+        if (sets_point(across, corner.k) && sets_point(beside, corner.l)) action(corner);
+      }
+    }
+  }
+  bool sets_point(Side side, int k) {
+    bool does = false;
+    visit(side, [&](const auto& kind, const GasSide& at) {
+      if constexpr (requires { kind.set_point(at, k); }) does = at.points.live(k);
+    });
+    return does;
+  }
+  void set_point(Side side, int k) {
+    visit(side, [k](const auto& kind, const GasSide& at) {
+      if constexpr (requires { kind.set_point(at, k); }) kind.set_point(at, k);
+    });
+  }
+  /// The point has what `beside` made of what `across` did, and gets the mean of it and the other order.
+  void let_neither_go_first(const Corner& corner, const StateVector& predicted) {
+    const StateVector one_order = load(q_, corner.at);
+    const std::uint64_t counted = bounded_;
+    store(q_, corner.at, predicted);
+    set_point(corner.beside, corner.l);
+    set_point(corner.across, corner.k);
+    store(q_, corner.at, 0.5 * (one_order + load(q_, corner.at)));
+    bounded_ = counted;
   }
 
   bool is_mirror(Side side) const { return component_.facts(side).beyond != Beyond::other; }

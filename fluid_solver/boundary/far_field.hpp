@@ -26,22 +26,18 @@ struct OpenSide {
 /// strength, meet no resistance; shocks leave up to the third power of their strength.
 BoundedState between(const StateVector& inside, const StateVector& beyond, const OpenSide& side);
 
-/// The points of a side between the gas inside and a given state beyond.
-inline void let_waves_through(const GasSide& side, const StateField& given) {
+/// Point k of a side between the gas inside and a given state beyond.
+inline void let_waves_through(const GasSide& side, int k, const StateField& given) {
   const std::vector<double>& velocity = side.motion.velocity;
-  const auto n = static_cast<std::size_t>(side.points.n());
-  for (std::size_t k = 0; k < n; ++k) {
-    const int point = static_cast<int>(k);
-    if (!side.points.live(point)) continue;
-    const Vec2 place = position(side.x, side.points, point, 0),
-               outward = -inward_normal(side.x, side.points, point);
-    const StateVector beyond = to_vector(given(place[0], place[1], side.t));
-    const OpenSide open{
-        .n = outward, .speed = outward.dot(Vec2(velocity[k], velocity[n + k])), .gamma = side.options.gamma};
-    const BoundedState state = between(load(side.q, side.points.at(point, 0)), beyond, open);
-    side.bounded += state.bounded && side.points.counts(point);
-    store(side.q, side.points.at(point, 0), state.q);
-  }
+  const auto n = static_cast<std::size_t>(side.points.n()), point = static_cast<std::size_t>(k);
+  const Vec2 place = position(side.x, side.points, k, 0), outward = -inward_normal(side.x, side.points, k);
+  const StateVector beyond = to_vector(given(place[0], place[1], side.t));
+  const OpenSide open{.n = outward,
+                      .speed = outward.dot(Vec2(velocity[point], velocity[n + point])),
+                      .gamma = side.options.gamma};
+  const BoundedState state = between(load(side.q, side.points.at(k, 0)), beyond, open);
+  side.bounded += state.bounded && side.points.counts(k);
+  store(side.q, side.points.at(k, 0), state.q);
 }
 
 }  // namespace fsi::fluid

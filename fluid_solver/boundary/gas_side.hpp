@@ -4,7 +4,9 @@
 ///
 ///     facts                              what it tells others: GasBoundaryFacts
 ///     from(BoundaryData)                 makes it of what a case says
-///     set_points(GasSide)                what the boundary knows better at its own points
+///     set_point(GasSide, k)              what the boundary knows better at its point k. Of two such sides with the same
+///                                        precedence neither goes first where they meet: the mean of both orders holds
+///     set_points(GasSide)                all points at once, where more is to do than `set_point` at each that is needed
 ///     mirror(GasSide, reach)             ghosts that are images of inner points, `reach` points beyond the ends too
 ///     set_ghosts(GasSide)                other ghosts, beside the points of the side
 ///     set_after_corners(GasSide)         what holds in the corners of the ghost frame, too

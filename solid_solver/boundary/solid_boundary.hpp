@@ -154,10 +154,14 @@ void SolidBoundary<L>::set_tractions(FieldView q, double t, std::span<const Inte
     if (condition.knows_rate() || condition.moved() || condition.slips())
       waveless_ += characteristics.follow(q, side, t, memory_);
   }
+  // A mirror image has no shear, whatever load begins where it ends.
   for (const Side side : all_sides) {
-    if (sides_.loaded(side) || sides_.condition(side).walled())
-      tractions.set_normal_stress(q, side, t, memory_);
+    if (sides_.loaded(side)) tractions.set_normal_stress(q, side, t, memory_);
   }
+  for (const Side side : all_sides) {
+    if (sides_.condition(side).walled()) tractions.set_normal_stress(q, side, t, memory_);
+  }
+  tractions.take_shear_of_corners(q, t);
   waveless_ += characteristics.set_corner_stress(q, memory_);
   set_states(q, t);
 }

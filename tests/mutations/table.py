@@ -51,6 +51,8 @@ MUTATIONS = [
     # --- gas: what acts at its sides, and counts of it
     ("open side: sound speed that counts as bounded", "fluid_solver/boundary/far_field.cpp",
      ".bounded = of_waves < least_sound * a", ".bounded = of_waves > least_sound * a", "test_fluid", "FarField*"),
+    ("corners of two open sides: one of them goes first", "fluid_solver/boundary/boundary_conditions.cpp",
+     "0.5 * (one_order + load(q_, corner.at))", "one_order", "test_fluid", "TurnedGrid*"),
     ("bounds at sides: counted by every rank that sees them", "fluid_solver/boundary/side_points.hpp",
      "rows_->owns(row(k))", "rows_->has(row(k))", "test_fluid", "GasOnRanks*"),
     ("bounds at sides: density behind a wall", "fluid_solver/boundary/wall_ghosts.cpp",
@@ -168,6 +170,15 @@ MUTATIONS = [
     ("solid's time step: relaxation left out", "solid_solver/time_step.cpp",
      "options.tangential_stress.scaled + options.relaxation.scaled", "options.tangential_stress.scaled",
      "test_solid_kernels", "Eq44*:Eq45*"),
+    # --- solid: corners
+    ("ghost points beyond a corner: from the ghost line of one side", "solid_solver/boundary/conditions/ghost_frame.cpp",
+     "*to = 0.5 * (first + second);", "*to = first;", "test_solid_of_one_law", "TurnedGrid*"),
+    ("corner of two walls: what the first takes is not seen by the second", "solid_solver/boundary/conditions/given_motion.cpp",
+     "-n * n.dot(load(q, a).v - chosen_.state(a, t).v);",
+     "-n * n.dot(load(q, a).v - chosen_.state(a, t).v) * (side == Side::left || side == Side::right ? 1 : 0);",
+     "test_solid_of_one_law", "TurnedGrid*"),
+    ("corner of two walls: shear of one in the other", "solid_solver/boundary/conditions/tractions.cpp",
+     "(shear2 - 0.5 * shared * shear1)", "(shear2 - shared * shear1)", "test_solid_of_one_law", "TurnedGrid*"),
     # --- projections
     ("full projection: sign of the gas's velocity", "common/interface/riemann.hpp",
      "gas.w_n - solid.w_n + gas.z * (gas.v_n - solid.v_n)", "gas.w_n - solid.w_n - gas.z * (gas.v_n - solid.v_n)",

@@ -16,7 +16,7 @@ struct FarField {
 
   static FarField from(const BoundaryData& data) { return {data.state}; }
 
-  void set_points(const GasSide& side) const { let_waves_through(side, state); }
+  void set_point(const GasSide& side, int k) const { let_waves_through(side, k, state); }
   static void set_ghosts(const GasSide& side) { extrapolate_ghosts(side); }
 };
 

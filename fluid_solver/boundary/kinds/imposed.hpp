@@ -16,12 +16,9 @@ struct Imposed {
 
   static Imposed from(const BoundaryData& data) { return {data.state}; }
 
-  void set_points(const GasSide& side) const {
-    for (int k = 0; k < side.points.n(); ++k) {
-      if (!side.points.live(k)) continue;
-      const Vec2 place = position(side.x, side.points, k, 0);
-      store(side.q, side.points.at(k, 0), to_vector(state(place[0], place[1], side.t)));
-    }
+  void set_point(const GasSide& side, int k) const {
+    const Vec2 place = position(side.x, side.points, k, 0);
+    store(side.q, side.points.at(k, 0), to_vector(state(place[0], place[1], side.t)));
   }
   static void set_ghosts(const GasSide& side) { extrapolate_ghosts(side); }
 };

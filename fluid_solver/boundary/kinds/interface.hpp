@@ -25,23 +25,26 @@ struct Interface {
 
   static Interface from(const BoundaryData& /*data*/) { return {}; }
 
-  /// n.v := v_n^I, p := p_e - w_n^I, and the density that goes with the change of pressure.
   static void set_points(const GasSide& side) {
-    const InterfaceValues& values = values_of(side);
-    const auto n = static_cast<std::size_t>(side.points.n());
-    check(side, values);
-    for (std::size_t k = 0; k < n; ++k) {
-      const auto at = side.points.at(static_cast<int>(k), 0);
-      if (side.points.elsewhere(static_cast<int>(k))) continue;
-      const Vec2 normal(values.n[k], values.n[n + k]);
-      const double p_I = side.options.p_e - values.w_n[k];
-      StateVector state = load(side.q, at);
-      const Vec2 v = state.segment<2>(1);
-      state.segment<2>(1) = v + (values.v_n[k] - normal.dot(v)) * normal;
-      state[0] *= density_ratio(side.options, p_I / state[3]);
-      state[3] = p_I;
-      store(side.q, at, state);
+    check(side, values_of(side));
+    for (int k = 0; k < side.points.n(); ++k) {
+      if (!side.points.elsewhere(k)) set_point(side, k);
     }
+  }
+
+  /// n.v := v_n^I, p := p_e - w_n^I, and the density that goes with the change of pressure.
+  static void set_point(const GasSide& side, int k) {
+    const InterfaceValues& values = values_of(side);
+    const auto n = static_cast<std::size_t>(side.points.n()), point = static_cast<std::size_t>(k);
+    const auto at = side.points.at(k, 0);
+    const Vec2 normal(values.n[point], values.n[n + point]);
+    const double p_I = side.options.p_e - values.w_n[point];
+    StateVector state = load(side.q, at);
+    const Vec2 v = state.segment<2>(1);
+    state.segment<2>(1) = v + (values.v_n[point] - normal.dot(v)) * normal;
+    state[0] *= density_ratio(side.options, p_I / state[3]);
+    state[3] = p_I;
+    store(side.q, at, state);
   }
 
   static void set_ghosts(const GasSide& side) {

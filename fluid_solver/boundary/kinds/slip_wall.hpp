@@ -20,29 +20,25 @@ struct SlipWall {
   /// the normal would break it, be undone with the next values of the interface, and pump pressure each time. The wave
   /// runs along the interface, too, where gas in a corner below a right angle has no other way, and off the wall in a
   /// wider one: towards a flat corner its strength is that of a wall alone.
-  static void set_points(const GasSide& side) {
+  static void set_point(const GasSide& side, int k) {
     const WallMotion& wall = side.motion;
-    const auto n = static_cast<std::size_t>(side.points.n());
+    const auto n = static_cast<std::size_t>(side.points.n()), point = static_cast<std::size_t>(k);
     const double gamma = side.options.gamma;
-    for (std::size_t k = 0; k < n; ++k) {
-      if (!side.points.live(static_cast<int>(k))) continue;
-      const auto at = side.points.at(static_cast<int>(k), 0);
-      const Vec2 normal(wall.normal[k], wall.normal[n + k]);
-      StateVector state = load(side.q, at);
-      const Vec2 along = free_direction(side, static_cast<int>(k), normal);
-      const double change =
-          normal.dot(velocity_beside(side, static_cast<int>(k)) - Vec2(state.segment<2>(1)));
-      const double slant = normal.dot(along);
-      const double of_wave = is_narrow(side, static_cast<int>(k), along) ? change / slant : change;
-      const double a = std::sqrt(gamma * state[3] / state[0]);
-      const double ratio = 1 + 0.5 * (gamma - 1) * of_wave / a, a_ratio = std::max(ratio, least_sound);
-      side.bounded += ratio < least_sound && side.points.counts(static_cast<int>(k));
-      state.segment<2>(1) += change / slant * along;
-      state[0] *= std::pow(a_ratio, 2 / (gamma - 1));
-      state[3] *= std::pow(a_ratio, 2 * gamma / (gamma - 1));
-      if (side.forcing != nullptr) bring_in(state, side, static_cast<int>(k));
-      store(side.q, at, state);
-    }
+    const auto at = side.points.at(k, 0);
+    const Vec2 normal(wall.normal[point], wall.normal[n + point]);
+    StateVector state = load(side.q, at);
+    const Vec2 along = free_direction(side, k, normal);
+    const double change = normal.dot(velocity_beside(side, k) - Vec2(state.segment<2>(1)));
+    const double slant = normal.dot(along);
+    const double of_wave = is_narrow(side, k, along) ? change / slant : change;
+    const double a = std::sqrt(gamma * state[3] / state[0]);
+    const double ratio = 1 + 0.5 * (gamma - 1) * of_wave / a, a_ratio = std::max(ratio, least_sound);
+    side.bounded += ratio < least_sound && side.points.counts(k);
+    state.segment<2>(1) += change / slant * along;
+    state[0] *= std::pow(a_ratio, 2 / (gamma - 1));
+    state[3] *= std::pow(a_ratio, 2 * gamma / (gamma - 1));
+    if (side.forcing != nullptr) bring_in(state, side, k);
+    store(side.q, at, state);
   }
 
   static void set_ghosts(const GasSide& side) {

@@ -1,6 +1,8 @@
 #include "solid_solver/boundary/conditions/ghost_frame.hpp"
 
 #include <algorithm>
+#include <cstddef>
+#include <utility>
 
 namespace fsi::solid {
 
@@ -53,15 +55,34 @@ void GhostFrame::fill_line(FieldView q, double t, const GhostRange& range) const
   }
 }
 
+/// The corner block beyond `across`, left or right, and `beside`, bottom or top: ghost lines of either side go on into it, and
+/// where both do, by their mean. Which direction is the first of a grid then makes no difference.
+void GhostFrame::extend_into_corner(FieldView q, Side across, Side beside) const {
+  const Layout& layout = sides_.layout();
+  const bool along1 = !sides_.condition(beside).open(), along2 = !sides_.condition(across).open();
+  const SideIndex &line1 = sides_.line(beside), &line2 = sides_.line(across);
+  const std::ptrdiff_t inward1 = line2.inward, inward2 = line1.inward;
+  const std::ptrdiff_t corner =
+      layout.at(at_upper_end(across) ? layout.n1 - 1 : 0, at_upper_end(beside) ? layout.n2 - 1 : 0);
+  if (!along1 && !along2) return;
+  for (int p = 0; p < plane::count; ++p) {
+    // From the inside out: a point reads those before it.
+    for (const auto& [m, n] : {std::pair(1, 1), {1, 2}, {2, 1}, {2, 2}}) {
+      double* to = q.plane(p) + corner - m * inward1 - n * inward2;
+      const auto extended = [&](std::ptrdiff_t inward) {
+        return extrapolated(to[inward], to[2 * inward], to[3 * inward], sides_.limiter());
+      };
+      const double first = along1 ? extended(inward1) : extended(inward2);
+      const double second = along2 ? extended(inward2) : first;
+      *to = 0.5 * (first + second);
+    }
+  }
+}
+
 void GhostFrame::fill_corners(FieldView q, double t) const {
   constexpr int g = Layout::ghosts;
-  for (const Side side : {Side::bottom, Side::top}) {
-    if (sides_.condition(side).open()) continue;
-    const SideIndex& line = sides_.line(side);
-    for (int m = -1; m >= -g; --m) {
-      extrapolate(q, line, {.m = m, .begin = -g, .end = 0}, sides_.limiter());
-      extrapolate(q, line, {.m = m, .begin = line.n, .end = line.n + g}, sides_.limiter());
-    }
+  for (const Side across : {Side::left, Side::right}) {
+    for (const Side beside : {Side::bottom, Side::top}) extend_into_corner(q, across, beside);
   }
   for (const Side side : all_sides) {
     const SideIndex& line = sides_.line(side);

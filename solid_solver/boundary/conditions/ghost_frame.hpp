@@ -12,8 +12,8 @@ class GhostFrame {
 
   /// Ghost line range.m of all sides, beside the boundary points only.
   void fill_line(FieldView q, double t, const GhostRange& range) const;
-  /// The corner blocks of the ghost frame: bottom and top over their full width by extrapolation, then the
-  /// sides that know better (mirror images, repetition, exact values) over theirs.
+  /// The corner blocks of the ghost frame: by extrapolation of the ghost lines beside them, then the sides that
+  /// know better (mirror images, repetition, exact values) over theirs.
   void fill_corners(FieldView q, double t) const;
   /// Ghost points beside interpolated points. Repetition last: it also carries the ghost points of other sides.
   void refresh(FieldView q, double t) const;
@@ -23,6 +23,7 @@ class GhostFrame {
  private:
   void fill_side(FieldView q, Side side, double t, const GhostRange& range) const;
   void mirror(FieldView q, Side side, double t, const GhostRange& range) const;
+  void extend_into_corner(FieldView q, Side across, Side beside) const;
 
   const Sides& sides_;
   const ChosenValues& chosen_;

@@ -37,8 +37,12 @@ void GivenMotion::set(FieldView q, double t, std::span<const InterfaceValues> pr
   for (const InterfaceValues& values : projected) {
     if (values.grid == sides_.grid().index) project_velocity(q, t, values, memory);
   }
+  // What each wall takes is found before any has taken its own: at a corner of two, neither comes first.
   for (const Side side : all_sides) {
-    if (sides_.condition(side).walled()) remove_normal_motion(q, side, t, memory);
+    if (sides_.condition(side).walled()) find_normal_motion(q, side, t, memory);
+  }
+  for (const Side side : all_sides) {
+    if (sides_.condition(side).walled()) remove_normal_motion(q, side, t);
   }
   for (const Side side : all_sides) {
     if (sides_.condition(side).moved()) move(q, side, t, memory);
@@ -82,9 +86,18 @@ void GivenMotion::move(FieldView q, Side side, double t, SideMemory& memory) con
   }
 }
 
+void GivenMotion::find_normal_motion(ConstFieldView q, Side side, double t, SideMemory& memory) const {
+  const SideIndex& line = sides_.line(side);
+  for (const int k : sides_.points(side)) {
+    const std::ptrdiff_t a = line.at(k, 0);
+    const Vec2 n = sides_.at(side, k).n0;
+    memory.v_change(side, k) = -n * n.dot(load(q, a).v - chosen_.state(a, t).v);
+  }
+}
+
 /// n0 . u = n0 . v = 0 for the difference to the chosen solution; where two such sides meet at an angle the
 /// corner does not move at all.
-void GivenMotion::remove_normal_motion(FieldView q, Side side, double t, SideMemory& memory) const {
+void GivenMotion::remove_normal_motion(FieldView q, Side side, double t) const {
   constexpr double parallel = 1e-6;
   const SideIndex& line = sides_.line(side);
   for (const int k : sides_.points(side)) {
@@ -93,7 +106,6 @@ void GivenMotion::remove_normal_motion(FieldView q, Side side, double t, SideMem
     const SolidState exact = chosen_.state(a, t);
     SolidState s = sum_of(load(q, a), -1.0, exact);
     s.u -= n * n.dot(s.u);
-    memory.v_change(side, k) = -n * n.dot(s.v);
     s.v -= n * n.dot(s.v);
     if (const std::optional<Vec2> m = wall_of(sides_, side, k)) {
       if (std::abs(n.x() * m->y() - n.y() * m->x()) > parallel) s.u = s.v = Vec2::Zero();

@@ -32,7 +32,8 @@ class GivenMotion {
 
  private:
   void project_velocity(FieldView q, double t, const InterfaceValues& values, SideMemory& memory) const;
-  void remove_normal_motion(FieldView q, Side side, double t, SideMemory& memory) const;
+  void find_normal_motion(ConstFieldView q, Side side, double t, SideMemory& memory) const;
+  void remove_normal_motion(FieldView q, Side side, double t) const;
   void move(FieldView q, Side side, double t, SideMemory& memory) const;
 
   const Sides& sides_;

@@ -84,7 +84,10 @@ void Tractions::set_normal_stress(FieldView q, Side side, double t, const SideMe
     SolidState s = load(q, a);
     Vec2 change = memory.T(side, k) - traction_of(s.P, m.n0);
     const Tensor2 exact = chosen_.state(a, t).P;
-    if (!sides_.loaded(side)) change = -m.t0 * m.t0.dot(traction_of(minus(s.P, exact), m.n0));
+    if (!sides_.loaded(side)) {
+      const bool between_walls = sides_.at_end(side, k) && sides_.condition_beyond(side, k).walled();
+      change = between_walls ? Vec2(0, 0) : Vec2(-m.t0 * m.t0.dot(traction_of(minus(s.P, exact), m.n0)));
+    }
     s.P = plus(s.P,
                {m.n0.x() * change.x(), m.n0.x() * change.y(), m.n0.y() * change.x(), m.n0.y() * change.y()});
     if (sides_.condition(side).mirrored()) {
@@ -93,6 +96,26 @@ void Tractions::set_normal_stress(FieldView q, Side side, double t, const SideMe
                        -shear * m.t0.y() * m.n0.x(), -shear * m.t0.y() * m.n0.y()});
     }
     store(q, a, s);
+  }
+}
+
+void Tractions::take_shear_of_corners(FieldView q, double t) const {
+  for (const Side side : {Side::left, Side::right}) {
+    for (const int k : {0, sides_.line(side).n - 1}) {
+      const bool between_walls = sides_.condition(side).walled() && sides_.condition_beyond(side, k).walled();
+      if (!between_walls || !sides_.advanced(side, k)) continue;
+      const SidePoint other = sides_.around_corner(side, k);
+      const SideMetrics &one = sides_.at(side, k), &two = sides_.at(other.side, other.k);
+      const std::ptrdiff_t a = sides_.line(side).at(k, 0);
+      SolidState s = load(q, a);
+      const Tensor2 rest = minus(s.P, chosen_.state(a, t).P);
+      const double shear1 = one.t0.dot(traction_of(rest, one.n0)),
+                   shear2 = two.t0.dot(traction_of(rest, two.n0));
+      const double shared = one.n0.dot(two.n0) * one.t0.dot(two.t0);  // of either in the other
+      s.P = plus_dyad(s.P, one.n0, -(shear1 - 0.5 * shared * shear2) * one.t0);
+      s.P = plus_dyad(s.P, two.n0, -(shear2 - 0.5 * shared * shear1) * two.t0);
+      store(q, a, s);
+    }
   }
 }
 

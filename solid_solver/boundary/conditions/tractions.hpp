@@ -22,8 +22,12 @@ class Tractions {
   void find(ConstFieldView q, Side side, double t, SideMemory& memory) const;
   /// T = (w_n / eta) n, or w_n n0 for loads on the reference configuration; besides the chosen traction.
   void find_projected(ConstFieldView q, double t, const InterfaceValues& values, SideMemory& memory) const;
-  /// n0^T P := T on loaded sides, no shear on slip and symmetry sides; the rest of P stays.
+  /// n0^T P := T on loaded sides, no shear on slip and symmetry sides; the rest of P stays. Corners of two walls come with
+  /// `take_shear_of_corners`.
   void set_normal_stress(FieldView q, Side side, double t, const SideMemory& memory) const;
+  /// Where two walls meet, none on either of them: the mean of taking it from one first and from the other first. At
+  /// right angles these are the same.
+  void take_shear_of_corners(FieldView q, double t) const;
   /// At a corner of a loaded side with a side of given displacement or slip, and of a slip side with one of
   /// given displacement: P by extrapolation along the loaded or slip side, where it is P(F) or free to evolve;
   /// a given traction still holds, and so does slip. Differences of u are only of first order there.
