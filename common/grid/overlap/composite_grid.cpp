@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <utility>
 
@@ -152,15 +153,69 @@ CuttingCurve CompositeGrid::curve_of(int grid) const {
 }
 
 void CompositeGrid::cut_background() {
+  find_pinched();
   RowSets& holes = part(0).now.holes;
   holes.clear();
+  auto pinched = pinched_.begin();
   for (int j = 0; j < background_.n2; ++j) {
     intervals_.clear();
     for (const CurveCut& cut : cuts_) cut.append_holes(j, background_.n1, intervals_);
-    if (cuts_.size() > 1) unite(intervals_);
+    const auto first = pinched;
+    for (; pinched != pinched_.end() && pinched->j == j; ++pinched)
+      intervals_.push_back({pinched->i, pinched->i + 1});
+    if (cuts_.size() > 1 || pinched != first) unite(intervals_);
     holes.append(intervals_);
     holes.end_row();
   }
+}
+
+/// Points at most half a cell from the middle of a body where nothing else keeps the points on both sides of it apart.
+void CompositeGrid::find_pinched() {
+  constexpr double half = 0.5 + 1e-6;  // both, where it is between them
+  pinched_.clear();
+  for (int grid = 1; grid < grids(); ++grid) {
+    for (const Pinch& pinch : cuts_[static_cast<std::size_t>(grid) - 1].pinches()) {
+      if (is_kept_apart(pinch)) continue;
+      const bool along = pinch.direction == 0;
+      if (pinch.middle <= half)
+        pinched_.push_back(
+            {.j = along ? pinch.j : pinch.j - 1, .i = along ? pinch.i - 1 : pinch.i, .grid = grid});
+      if (pinch.middle >= 1 - half) pinched_.push_back({.j = pinch.j, .i = pinch.i, .grid = grid});
+    }
+  }
+  std::ranges::sort(pinched_);
+}
+
+/// Are all points whose stencils reach across the body interpolated anyway? So it is where a point behind the curve is near, as
+/// at the top of a round body.
+bool CompositeGrid::is_kept_apart(const Pinch& pinch) {
+  for (int k = -options_.layers; k < options_.layers; ++k) {
+    const int i = pinch.direction == 0 ? pinch.i + k : pinch.i,
+              j = pinch.direction == 0 ? pinch.j : pinch.j + k;
+    const bool there = i >= 0 && i < background_.n1 && j >= 0 && j < background_.n2;
+    if (there && !is_near_hole(i, j)) return false;
+  }
+  return true;
+}
+
+/// Is a point behind a curve within the reach of the stencil of point (i, j)?
+bool CompositeGrid::is_near_hole(int i, int j) {
+  const int reach = options_.layers;
+  for (int row = std::max(j - reach, 0); row <= std::min(j + reach, background_.n2 - 1); ++row) {
+    intervals_.clear();
+    for (const CurveCut& cut : cuts_) cut.append_holes(row, background_.n1, intervals_);
+    for (const Interval& hole : intervals_) {
+      if (hole.begin <= i + reach && hole.end > i - reach) return true;
+    }
+  }
+  return false;
+}
+
+/// Is the point of the background that is nearest to a position unused for the thin body of `grid`?
+bool CompositeGrid::is_pinched(const Vec2& x, int grid) const {
+  const auto i = static_cast<int>(std::lround((x[0] - background_.x_a) / background_.dx())),
+             j = static_cast<int>(std::lround((x[1] - background_.y_a) / background_.dy()));
+  return std::ranges::binary_search(pinched_, PinchedPoint{.j = j, .i = i, .grid = grid});
 }
 
 /// Do background points behind the curve of `other` lie among or near the points of `grid`?
@@ -176,7 +231,10 @@ bool CompositeGrid::touches(int grid, int other) {
       if (hole.begin <= high.i + 1 + margin && hole.end > low.i - margin) return true;
     }
   }
-  return false;
+  return std::ranges::any_of(pinched_, [&](const PinchedPoint& point) {
+    return point.grid == other && point.j >= low.j - margin && point.j <= high.j + 1 + margin &&
+           point.i >= low.i - margin && point.i <= high.i + 1 + margin;
+  });
 }
 
 /// The curve of a grid bounds the domain: without its points nobody would know that it is there.
@@ -224,7 +282,8 @@ void CompositeGrid::cut_body(int grid, double t) {
 bool CompositeGrid::cut_away(const Vec2& x, int spared) const {
   if (!inside(background_, x[0], x[0], x[1], x[1])) return true;
   return std::ranges::any_of(cutters_, [&](int other) {
-    return other != spared && cuts_[static_cast<std::size_t>(other) - 1].behind(background_, x);
+    return other != spared &&
+           (cuts_[static_cast<std::size_t>(other) - 1].behind(background_, x) || is_pinched(x, other));
   });
 }
 

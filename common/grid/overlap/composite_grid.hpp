@@ -8,6 +8,9 @@
 ///     . o o | x x |       ---  curve: first line of a body-fitted grid, whose outermost lines interpolate
 ///                              from the background or from another body-fitted grid
 ///
+/// A body that passes between two points of the background without one behind its curve would not be there for it: the
+/// points nearest to its middle are unused then, too.
+///
 /// Background points are classified by the crossings of the grid rows with the curves; what is known of a row
 /// are intervals, so an update costs as much as the curves are long, whatever the number of points, and
 /// depends on the present positions only.
@@ -164,6 +167,13 @@ class CompositeGrid {
   OverlapCounts counts_;
   OverlapRecord record_;
   Orphans orphans_;
+  /// A point of the background that is unused since a body thinner than a cell passes beside it.
+  struct PinchedPoint {
+    int j = 0, i = 0;
+    int grid = 0;  ///< of the body's curve
+    auto operator<=>(const PinchedPoint&) const = default;
+  };
+  std::vector<PinchedPoint> pinched_;       ///< in order
   std::vector<Interval> intervals_, runs_;  ///< work memory
   std::vector<int> cutters_;
 
@@ -178,6 +188,10 @@ class CompositeGrid {
 
   void connect_now(double t);
   void cut_background();
+  void find_pinched();
+  bool is_kept_apart(const Pinch& pinch);
+  bool is_near_hole(int i, int j);
+  bool is_pinched(const Vec2& x, int grid) const;
   void expect_curve_inside(int grid, double t) const;
   void cut_body(int grid, double t);
   bool touches(int grid, int other);

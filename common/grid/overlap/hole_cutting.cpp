@@ -14,6 +14,9 @@ namespace fsi::grid {
 
 namespace {
 
+/// Crossings that are nearer to each other are one touch [cells].
+constexpr double touch = 1e-9;
+
 Vec2 point(const CuttingCurve& curve, int k) {
   return {curve.x[k], curve.y[k]};
 }
@@ -79,7 +82,9 @@ double area_of(const CuttingCurve& curve) {
 void CurveCut::cut(const CartesianGrid& grid, const CuttingCurve& curve, const std::string& name, double t) {
   collect(grid, curve, name, t);
   sort_by_rows(grid.n2);
-  drop_touches(1e-9 * grid.dx());
+  drop_touches(touch * grid.dx());
+  find_pinches(grid);
+  find_hidden(grid, curve);
   find_starts(curve, grid.n2, name, t);
 }
 
@@ -184,6 +189,67 @@ void CurveCut::drop_touches(double tolerance) {
   sorted_.resize(kept);
 }
 
+/// Two crossings, into a hole and out of it, without a point between them: of a row, then of a column.
+void CurveCut::find_pinches(const CartesianGrid& grid) {
+  pinches_.clear();
+  for (int j = 0; j < grid.n2; ++j) {
+    const std::span<const Crossing> row = crossings(j);
+    for (std::size_t k = 1; k < row.size(); ++k) {
+      const Crossing &in = row[k - 1], &out = row[k];
+      if (!in.into_hole || out.into_hole || in.column != out.column) continue;
+      if (in.column == 0 || in.column == grid.n1) continue;
+      pinches_.push_back({.direction = 0,
+                          .i = in.column,
+                          .j = j,
+                          .middle = (0.5 * (in.x + out.x) - grid.x(in.column - 1)) / grid.dx()});
+    }
+  }
+  cross_columns(grid);
+  for (std::size_t k = 1; k < of_columns_.size(); ++k) {
+    const ColumnCrossing &in = of_columns_[k - 1], &out = of_columns_[k];
+    if (in.column != out.column || !in.into_hole || out.into_hole) continue;
+    const int row = first_above(in.y, grid.y_a, grid.dy(), grid.n2);
+    if (row == 0 || row == grid.n2 || row != first_above(out.y, grid.y_a, grid.dy(), grid.n2)) continue;
+    if (out.y - in.y < touch * grid.dy()) continue;
+    pinches_.push_back({.direction = 1,
+                        .i = in.column,
+                        .j = row,
+                        .middle = (0.5 * (in.y + out.y) - grid.y(row - 1)) / grid.dy()});
+  }
+}
+
+/// A body that lies within a cell, so that no row or column meets it, counts as one between the points beside it.
+void CurveCut::find_hidden(const CartesianGrid& grid, const CuttingCurve& curve) {
+  if (!crossings_.empty() || !of_columns_.empty() || curve.ends == Curve::open) return;
+  const bool body_inside = (area_of(curve) > 0) != curve.domain_left;
+  const Vec2 cell((curve.x[0] - grid.x_a) / grid.dx(), (curve.y[0] - grid.y_a) / grid.dy());
+  const int i = static_cast<int>(std::floor(cell[0])), j = static_cast<int>(std::lround(cell[1]));
+  if (!body_inside || i < 0 || i + 1 >= grid.n1 || j < 0 || j >= grid.n2) return;
+  pinches_.push_back({.direction = 0, .i = i + 1, .j = j, .middle = cell[0] - i});
+}
+
+/// As add_segment does for rows.
+void CurveCut::cross_columns(const CartesianGrid& grid) {
+  of_columns_.clear();
+  for (const auto& [a, b] : segments_) {
+    const bool rightward = b[0] > a[0];
+    const int end = first_not_below(std::max(a[0], b[0]), grid.x_a, grid.dx(), grid.n1);
+    for (int i = first_not_below(std::min(a[0], b[0]), grid.x_a, grid.dx(), grid.n1); i < end; ++i) {
+      const double y = a[1] + (grid.x(i) - a[0]) * ((b[1] - a[1]) / (b[0] - a[0]));
+      of_columns_.push_back({.column = i, .y = y, .into_hole = rightward != domain_left_});
+    }
+  }
+  std::ranges::sort(of_columns_, [](const ColumnCrossing& a, const ColumnCrossing& b) {
+    return a.column != b.column ? a.column < b.column : a.y < b.y;
+  });
+}
+
+/// Does the body pass between points of the cell above and right of (i, j), or of one beside it?
+bool CurveCut::is_pinched_near(int i, int j) const {
+  return std::ranges::any_of(
+      pinches_, [=](const Pinch& pinch) { return std::abs(pinch.i - i) <= 2 && std::abs(pinch.j - j) <= 2; });
+}
+
 /// Rows with crossings know what is before the first one; along the left boundary the side changes by flips only.
 void CurveCut::find_starts(const CuttingCurve& curve, int rows, const std::string& name, double t) {
   constexpr unsigned char unknown = 2;
@@ -251,7 +317,8 @@ bool CurveCut::behind(const CartesianGrid& grid, const Vec2& position) const {
   const bool uniform = (depth(right, j) > 0) == corner && (depth(i, above) > 0) == corner &&
                        (depth(right, above) > 0) == corner;
   const Crossing* near = nearest(i, j, 2);
-  if (uniform && (near == nullptr || std::abs(near->column - i) > 3)) return corner;
+  const bool far = near == nullptr || std::abs(near->column - i) > 3;
+  if (uniform && far && !is_pinched_near(i, j)) return corner;
   int sum = depth(0, j);
   for (const Flip& flip : flips_) {
     if (flip.y > grid.y(j) && flip.y <= position[1]) sum += flip.into_hole ? 1 : -1;

@@ -35,6 +35,14 @@ struct Crossing {
   bool into_hole = false;  ///< going towards larger x
 };
 
+/// Where what lies behind the curve passes between two neighbouring points, both of which belong to the domain: a body
+/// thinner than a cell.
+struct Pinch {
+  int direction = 0;  ///< 0: between (i - 1, j) and (i, j); 1: between (i, j - 1) and (i, j)
+  int i = 0, j = 0;
+  double middle = 0;  ///< of what lies between them, from the first point to the second one [cells]
+};
+
 /// The side of a Cartesian grid's points against one curve.
 class CurveCut {
  public:
@@ -48,6 +56,7 @@ class CurveCut {
   }
   /// Appends the points of a row that lie behind the curve to `parts`, sorted and disjoint.
   void append_holes(int row, int n1, std::vector<Interval>& parts) const;
+  std::span<const Pinch> pinches() const { return pinches_; }
   /// Crossing nearest to point (i, j) within `reach` rows, null where there is none.
   const Crossing* nearest(int i, int j, int reach) const;
   /// Is a position within the grid behind the curve? Cheap away from the curve.
@@ -64,6 +73,12 @@ class CurveCut {
   struct Segment {
     Vec2 a, b;
   };
+  /// Where a column meets the curve.
+  struct ColumnCrossing {
+    int column = 0;
+    double y = 0;            ///< [length]
+    bool into_hole = false;  ///< going towards larger y
+  };
 
   bool domain_left_ = true;
   std::vector<Vec2> cutting_;  ///< the curve's points, as they cut
@@ -71,6 +86,8 @@ class CurveCut {
   std::vector<Crossing> crossings_, sorted_;
   std::vector<std::size_t> first_;
   std::vector<Flip> flips_;
+  std::vector<ColumnCrossing> of_columns_;  ///< work memory
+  std::vector<Pinch> pinches_;
   std::vector<unsigned char> starts_behind_;  ///< the side of each row before its first crossing
 
   int depth(int i, int row) const;
@@ -79,6 +96,10 @@ class CurveCut {
   void add_segment(const CartesianGrid& grid, const Vec2& a, const Vec2& b, int segment);
   void sort_by_rows(int rows);
   void drop_touches(double tolerance);
+  void find_pinches(const CartesianGrid& grid);
+  void cross_columns(const CartesianGrid& grid);
+  void find_hidden(const CartesianGrid& grid, const CuttingCurve& curve);
+  bool is_pinched_near(int i, int j) const;
   void find_starts(const CuttingCurve& curve, int rows, const std::string& name, double t);
 };
 
