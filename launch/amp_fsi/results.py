@@ -4,6 +4,7 @@ import json
 from pathlib import Path
 
 from fsi_launch.plot.reading import data
+from fsi_launch.results import probes
 from fsi_launch.telling import AS_NAMED
 
 
@@ -101,10 +102,14 @@ class Run:
 
     def _columns(self, name):
         path = self.directory / f"{name}.csv"
-        if not path.is_file():
-            there = ", ".join(sorted(one.stem for one in self.directory.glob("*.csv")))
-            raise KeyError(f"no table '{name}' in '{self.directory}'; there are {there or 'none'}")
-        table = data.read_table(path)
+        parts = probes.in_parts(self.directory)
+        if name == "probes" and parts:
+            table = data.joined_probes(self.directory)
+        elif path.is_file():
+            table = data.read_table(path)
+        else:
+            there = {one.stem for one in self.directory.glob("*.csv")} | ({"probes"} if parts else set())
+            raise KeyError(f"no table '{name}' in '{self.directory}'; there are {', '.join(sorted(there)) or 'none'}")
         return table.columns if table else {}
 
     @property

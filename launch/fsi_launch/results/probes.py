@@ -12,20 +12,34 @@ def _read(path):
     return heading[1:], {row[0]: row[1:] for row in rows if len(row) == len(heading)}
 
 
-def merge(directory, programs):
-    """Joins DIR/parts/probes_<participant>.csv into DIR/probes.csv; they stay, for a restart. A line that one
-    program did not reach, because it was killed, has empty entries there."""
+def joined(directory, programs=None):
+    """The rows of DIR/parts/probes_<participant>.csv side by side, the heading first, as far as they have come; [] where there are none. A
+    line that one program did not reach, because it was killed, has empty entries there. `programs`: their order; None: by name."""
     folder = Path(directory) / "parts"
-    parts = [path for path in (folder / f"probes_{name}.csv" for name in programs) if path.is_file()]
-    tables = [_read(path) for path in parts if path.stat().st_size > 0]
+    parts = sorted(folder.glob("probes_*.csv")) if programs is None else [folder / f"probes_{name}.csv" for name in programs]
+    tables = [_read(path) for path in parts if path.is_file() and path.stat().st_size > 0]
     if not tables:
-        return
+        return []
     times = dict.fromkeys(time for _, rows in tables for time in rows)
+    return [["t [time]", *(name for heading, _ in tables for name in heading)],
+            *([time, *(value for heading, rows in tables for value in rows.get(time, [""] * len(heading)))]
+              for time in sorted(times, key=float))]
+
+
+def in_parts(directory):
+    """Whether the parts are what there is: while a run goes on, and where its launcher was killed. A probes.csv is then that of the run
+    which a restart goes on with."""
+    directory = Path(directory)
+    ended = (directory / "summary.json").is_file() and (directory / "probes.csv").is_file()
+    return not ended and any(directory.glob("parts/probes_*.csv"))
+
+
+def merge(directory, programs):
+    """Joins DIR/parts/probes_<participant>.csv into DIR/probes.csv; they stay, for a restart."""
+    rows = joined(directory, programs)
+    if not rows:
+        return
     temporary = Path(directory) / "probes.csv.part"
     with open(temporary, "w", encoding="utf-8", newline="") as file:
-        table = csv.writer(file, lineterminator="\n")
-        table.writerow(["t [time]", *(name for heading, _ in tables for name in heading)])
-        for time in sorted(times, key=float):
-            table.writerow([time, *(value for heading, rows in tables
-                                    for value in rows.get(time, [""] * len(heading)))])
+        csv.writer(file, lineterminator="\n").writerows(rows)
     os.replace(temporary, Path(directory) / "probes.csv")

@@ -70,9 +70,21 @@ class FromPython(EndToEnd):
                              out=self.folder / "run")
         self.assertEqual([entry["met"] for entry in missed.summary["expectations"]], [False])
 
+    def probed(self):
+        """Whether each program has written two lines about its probe; probes.csv is not there yet."""
+        try:
+            table = amp_fsi.open(self.folder / "run").probes
+        except KeyError:
+            return False
+        self.in_parts = set(table)
+        return {"a.p", "b.u1"} <= self.in_parts
+
     def test_run_is_steered(self):
-        running = amp_fsi.start("elastic_piston", set=COARSE | {"time.dt": 1e-7}, out=self.folder / "run")
+        running = amp_fsi.start("elastic_piston", out=self.folder / "run", set=COARSE | {
+            "time.dt": 1e-7, "output.probes": [{"name": "a", "in": "fluid", "x": 0.5, "y": 0.05}, {"name": "b", "in": "solid", "x": 0, "y": 0}]})
         running.until(lambda: (self.folder / "run" / "interface.csv").is_file())
+        running.until(self.probed)
+        self.assertFalse((self.folder / "run" / "probes.csv").exists())
         running.pause()
         running.until(lambda: running.state()["status"] == "paused")
         self.assertTrue(running.going())
@@ -86,6 +98,8 @@ class FromPython(EndToEnd):
         self.assertEqual(watched.summary["status"], "stopped")
         self.assertGreaterEqual(len(watched.interface["t"]), steps)
         self.assertEqual(watched.interface["t"][-1], watched.summary["t"])
+        self.assertEqual(watched.probes["t"][-1], watched.summary["t"])
+        self.assertEqual(set(watched.probes), self.in_parts)
 
     def test_study_goes_on_where_it_was(self):
         vary = {"parameters.density_ratio": [0.01, 1]}

@@ -10,6 +10,7 @@ import h5py
 import numpy as np
 
 from fsi_launch.failure import UserMistake
+from fsi_launch.results import probes
 from fsi_launch.telling import AS_NAMED
 
 NOT_FIELDS = ("x", "x1", "x2", "kind", "vtkGhostType")  # "x" holds x1 and x2 side by side, for ParaView
@@ -234,22 +235,33 @@ def last_state(directory):
 def read_table(path):
     """The Table in a CSV, or None where it has less than two lines of numbers."""
     with open(path, **AS_NAMED, newline="") as file:
-        rows = [row for row in csv.reader(file) if row]
+        return _table(path.stem, [row for row in csv.reader(file) if row])
+
+
+def joined_probes(directory):
+    """The Table that probes.csv will be when the run has ended, or None where it has less than two lines of numbers."""
+    return _table("probes", probes.joined(directory))
+
+
+def _table(name, rows):
     if len(rows) < 3:
         return None
     heading, body = rows[0], [row for row in rows[1:] if len(row) == len(rows[0])]
     columns = {}
-    for k, name in enumerate(heading):
+    for k, column in enumerate(heading):
         try:
-            columns[name] = np.array([float(row[k] or "nan") for row in body])
+            columns[column] = np.array([float(row[k] or "nan") for row in body])
         except ValueError:
-            columns[name] = np.array([row[k] for row in body])
-    return Table(path.stem, columns)
+            columns[column] = np.array([row[k] for row in body])
+    return Table(name, columns)
 
 
 def all_tables(directory):
-    """Every CSV of the run that has at least two lines of numbers."""
-    tables = [read_table(path) for path in sorted(directory.glob("*.csv"))]
+    """Every CSV of the run that has at least two lines of numbers; the probes of a run that goes on, or whose launcher was killed, from
+    what each program wrote."""
+    parts = probes.in_parts(directory)
+    tables = [read_table(path) for path in sorted(directory.glob("*.csv")) if not (parts and path.stem == "probes")]
+    tables += [joined_probes(directory)] if parts else []
     return [table for table in tables if table]
 
 

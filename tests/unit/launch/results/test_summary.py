@@ -10,6 +10,8 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from launcher import InScratch  # noqa: E402
 from fsi_launch import run  # noqa: E402
 from fsi_launch.failure import NUMBERS_BROKE  # noqa: E402
+from amp_fsi.results import Run  # noqa: E402
+from fsi_launch.plot.reading import data  # noqa: E402
 from fsi_launch.results import probes, summary, verdict  # noqa: E402
 from fsi_launch.case import Case  # noqa: E402
 from fsi_launch.living.supervise import Ending, Outcome  # noqa: E402
@@ -203,6 +205,23 @@ class Probes(InScratch):
     def test_run_without_probes_has_no_table(self):
         probes.merge(self.folder, ["fluid"])
         self.assertEqual(list(self.folder.iterdir()), [])
+        self.assertFalse(probes.in_parts(self.folder))
+
+    def test_parts_are_what_there_is_until_the_run_has_ended(self):
+        """That of a run before a restart is no table of the one that goes on."""
+        (self.folder / "case.yaml").touch()
+        run = Run(self.folder)
+        with self.assertRaisesRegex(KeyError, "no table 'probes'"):
+            run.table("probes")
+        self.write("fluid", "t [time],a.p\n0,1\n0.5,2\n1,3\n")
+        self.write("solid", "t [time],b.u1\n0,3\n")
+        (self.folder / "probes.csv").write_text("t [time],a.p,b.u1\n0,7,7\n0.5,7,7\n")
+        for table in (run.table("probes"), data.all_tables(self.folder)[0].columns):
+            self.assertEqual((table["a.p"].tolist(), table["b.u1"].tolist()[0]), ([1, 2, 3], 3))
+        (self.folder / "summary.json").write_text("{}")
+        for table in (run.table("probes"), data.all_tables(self.folder)[0].columns):
+            self.assertEqual(table["a.p"].tolist(), [7, 7])
+        self.assertEqual(len(data.all_tables(self.folder)), 1)
 
 
 class ForPeople(unittest.TestCase):
