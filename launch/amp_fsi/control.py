@@ -33,9 +33,21 @@ def _command():
     return str(command)
 
 
+def _plain(value):
+    """Numbers and arrays of numpy as Python has them."""
+    if not hasattr(value, "tolist"):
+        raise TypeError(f"{value!r} is no value of a case: write a number, a text, a list or a dict of these")
+    return value.tolist()
+
+
 def _text(value):
     """A value as a case file has it."""
-    return value if isinstance(value, str) else json.dumps(value)
+    return value if isinstance(value, str) else json.dumps(value, default=_plain)
+
+
+def _list(values, text=str):
+    """Several with commas between them; what is one text already stays."""
+    return values if isinstance(values, str) else ",".join(map(text, values))
 
 
 def _words(case, set, solids):
@@ -142,12 +154,12 @@ def run(case=None, **options):
 
 
 def study(case, vary, *, set=None, solids=None, show=(), jobs=1, out=None):
-    """A case with every combination of values (`fsi study`). `vary`: {key of the case: values}. `show`: quantities of the table.
-    @returns what study.json holds: {case, vary, quantities, rows} @raises RunFailed where a run failed; the others are kept"""
+    """A case with every combination of values (`fsi study`). `vary`: {key of the case: values}. `show`: quantities of the table, or one of
+    them. @returns what study.json holds (docs/python.md) @raises RunFailed where a run failed; study.json has the table all the same"""
     directory = _folder(f"study-{Path(str(case)).stem}", out)
     words = ["study", *_words(case, set, solids), "--jobs", str(jobs), "--out", str(directory)]
-    words += [f"--vary={key}={','.join(map(_text, values))}" for key, values in vary.items()]
-    words += ["--show", ",".join(show)] if show else []
+    words += [f"--vary={key}={_list(values, _text)}" for key, values in vary.items()]
+    words += ["--show", _list(show)] if show else []
     answer = subprocess.run([_command(), *words], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, **AS_NAMED,
                             check=False)
     if answer.returncode != 0:

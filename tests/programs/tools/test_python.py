@@ -115,6 +115,15 @@ class FromPython(EndToEnd):
         changed = amp_fsi.study("elastic_piston", vary, set=COARSE | {"time.end": 0.4}, out=self.folder / "study")
         self.assertEqual({row["t"] for row in changed["rows"]}, {0.4})
 
+    def test_values_may_be_those_of_numpy_and_what_is_shown_one_name(self):
+        result = amp_fsi.study("elastic_piston", {"parameters.density_ratio": numpy.array([0.01, 1])}, show="interface.max_gap", out=self.folder / "study",
+                               set={"grid.factor": numpy.int64(2), "expect": {}, "time.end": numpy.float32(0.125),
+                                    "output.times": numpy.array([0.0625, 0.125])})
+        self.assertEqual(result["quantities"], ["interface.max_gap"])
+        self.assertEqual([row["t"] for row in result["rows"]], [0.125] * 2)
+        with self.assertRaisesRegex(TypeError, "is no value of a case"):
+            amp_fsi.run("elastic_piston", set={"time.end": object()})
+
     def test_study_checks_all_cases_first(self):
         answer = subprocess.run([FSI, "study", "elastic_piston", "--vary", "time.end=0.1,0", "--out", self.folder / "study"],
                                 capture_output=True, text=True, check=False, timeout=WATCHDOG)
