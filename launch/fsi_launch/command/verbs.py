@@ -90,7 +90,8 @@ def _add_new(verbs):
     verb.add_argument("--law", choices=LAWS, help="constitutive law of the body (default: neo_hookean)")
     verb.add_argument("--fixed", action="store_true", help="a rigid body stays where it is")
     verb.add_argument("--end", metavar="T", type=_plain_number, help="end of the run [s] (default: when the shock has passed)")
-    verb.add_argument("--cells", metavar="N", type=int, help="cells along the body (default: 20)")
+    verb.add_argument("--cells", metavar="N", type=int, help="cells along the body, at least: their size is rounded down to 1, 2, 2.5 or 5 times "
+                      "a power of ten (default: 20)")
     verb.add_argument("--defaults", action="store_true", help="ask nothing")
     verb.add_argument("--overwrite", action="store_true", help="replace a case of that name")
 
