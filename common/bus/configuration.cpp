@@ -18,6 +18,9 @@ namespace {
 /// Domains whose ports lie below Linux's ephemeral range (32768
 /// and up): nobody's outgoing connection takes them.
 constexpr std::uint32_t domains = 100;
+/// Of a domain (RTPS 9.6): from 10 on two for each participant, the first ones are those of multicast.
+constexpr int ports_of_a_domain = 250;
+static_assert(10 + 2 * places_in_a_domain <= ports_of_a_domain, "the next domain has those");
 /// Smaller receive buffers lose packets of samples of about 1 MB.
 constexpr long comfortable_rmem = 1 << 20;
 
@@ -68,8 +71,7 @@ Ways ways_of(const std::string& network) {
 std::string configuration_xml(const std::string& run, double participant_lease_s,
                               const std::string& network) {
   const Ways ways = ways_of(network);
-  std::string xml =
-      fmt::format(R"(<CycloneDDS><Domain Id="any">
+  std::string xml = fmt::format(R"(<CycloneDDS><Domain Id="any">
   <General>
     <Interfaces><NetworkInterface {}/></Interfaces>
     <AllowMulticast>false</AllowMulticast>
@@ -79,7 +81,7 @@ std::string configuration_xml(const std::string& run, double participant_lease_s
   <Discovery>
     <Tag>{}</Tag>
     <ParticipantIndex>auto</ParticipantIndex>
-    <MaxAutoParticipantIndex>31</MaxAutoParticipantIndex>
+    <MaxAutoParticipantIndex>{}</MaxAutoParticipantIndex>
     <Peers>{}</Peers>
     <LeaseDuration>{}s</LeaseDuration>
   </Discovery>
@@ -91,7 +93,8 @@ std::string configuration_xml(const std::string& run, double participant_lease_s
     <HeartbeatInterval min="1ms" minsched="2ms">10ms</HeartbeatInterval>
   </Internal>
 </Domain></CycloneDDS>)",
-                  ways.interface, ways.message, ways.fragment, escaped(run), ways.peers, participant_lease_s);
+                                ways.interface, ways.message, ways.fragment, escaped(run),
+                                places_in_a_domain - 1, ways.peers, participant_lease_s);
   const char* environment = std::getenv(more_settings);  // NOLINT(concurrency-mt-unsafe): nobody sets it here
   if (environment != nullptr && *environment != '\0') xml += std::string(",") + environment;
   return xml;

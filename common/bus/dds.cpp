@@ -65,12 +65,14 @@ void keep_freed_memory() {
   mallopt(M_TRIM_THRESHOLD, 128 << 20);
 }
 
-/// What helps, by the words of Cyclone's log. A machine has places for 32 programs in one domain; past them, creation fails.
+/// What helps, by the words of Cyclone's log. Past the last place of a domain, creation fails.
 std::string advice_on(const std::string& trouble, const std::string& run, const std::string& network) {
   if (trouble.find("participant index") != std::string::npos)
     return fmt::format(
-        ". Domain {} of this machine is full (32 programs): end other runs, or give this run another name",
-        domain_of(run));
+        ". Domain {} of this machine is full ({} programs): end other runs, or give this run another name; "
+        "if this "
+        "run alone has too many, with its monitors, let some of them run on other machines (fsi run --hosts)",
+        domain_of(run), places_in_a_domain);
   if (trouble.find("interface") == std::string::npos) return "";
   if (network.empty()) return "; is the loopback interface up? as root: ip link set lo up";
   return fmt::format("; this machine needs an interface that has the address {}", network);

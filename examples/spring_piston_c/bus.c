@@ -81,7 +81,7 @@ static void open_domain(void) {
   snprintf(xml, sizeof xml,
            "<CycloneDDS><Domain Id=\"any\"><General><Interfaces><NetworkInterface %s/></Interfaces>"
            "<AllowMulticast>false</AllowMulticast></General><Discovery><Tag>%s</Tag><Peers>%s</Peers>"
-           "<ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>31</MaxAutoParticipantIndex>"
+           "<ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>119</MaxAutoParticipantIndex>"
            "<LeaseDuration>%gs</LeaseDuration></Discovery></Domain></CycloneDDS>",
            way, seat.run, peers, fmax(10, 2 * seat.peer_timeout));
   made(dds_create_domain(domain(), xml), "domain");
