@@ -61,7 +61,8 @@ void write_body(Node& solid, const BodyGrids& chosen) {
   if (lacks(&shape, {"points", "spacing"})) put(shape, "points", number_node(chosen.outline_points, place));
   Node& fitted = section_of(solid, "body_fitted");
   if (lacks(&fitted, {"lines"})) put(fitted, "lines", number_node(chosen.lines, place));
-  if (lacks(&fitted, {"spacing"})) put(fitted, "spacing", number_node(chosen.line_spacing, place));
+  if (lacks(&fitted, {"spacing", "map"}))  // `map` says itself where the lines are
+    put(fitted, "spacing", number_node(chosen.line_spacing, place));
   Node& grid = section_of(solid, "grid");
   const auto pair = [&](double a, double b) {
     Node list{.kind = Node::Kind::list, .place = place, .entries = {}};

@@ -104,6 +104,16 @@ TEST(CaseShape, LinesOfABodyFittedGridMayBeGivenByAFormulaFromTheirCurve) {
   }
 }
 
+TEST(CaseShape, TheCoreBehindLinesThatAFormulaGivesIsChosen) {
+  std::string text = disk_case(disk_outline, "{name: ring, solid: disk}", "{" + rings + "}");
+  const std::string core = "    grid: {x: [-1, 1], y: [-1, 1], spacing: h}\n";
+  text.erase(text.find(core), core.size());
+  const Case problem = load_text(text);
+  EXPECT_GT(problem.solids.at(0).grid.n1, 5);
+  EXPECT_TRUE(problem.solids.at(0).body_fitted.at(0).map);
+  EXPECT_EQ(load_text(problem.resolved).solids.at(0).grid.n1, problem.solids.at(0).grid.n1);
+}
+
 /// A dart whose tail at (1, 0) has an angle of 2 atan(0.1).
 std::string dart_case(const std::string& more) {
   return "time: {end: 1}\ngrid: {factor: 2}\n"
