@@ -38,7 +38,10 @@ and what to write.
   For scripts, each key has its `default`, where that is a value, and its unit as `x-unit`: the name, and the powers of length,
   time and density.
 - Limits: a file of 4 MiB of UTF-8 text, 24 sections and lists within each other, 1000 keys in a section, 20 000 entries in
-  a list (or points in a file of points), 16 384 characters in a value, 100 definitions, 100 parameters that need each other one after the other.
+  a list (or points in a file of points), 16 384 characters in a value, 100 definitions, 100 parameters that need each other one after the other;
+  16 gases, 64 grids in a `body_fitted`, 64 solids, 1000 probes. On one machine at most 120 programs: the gases, the solids and the coupler of
+  a run, with their monitors, and those of other runs that share its domain of the bus. At the start all of them find each other, which takes a
+  time that grows with the square of their number: more than twenty on few cores need a longer `time.join_timeout`. A gas or a solid has at most 64 ranks.
 - **Memory**: `check` estimates what the programs of a run need together, and refuses a case that needs more than the machine
   has free, or than the control group it runs in may have.
 - **Periodic sides** may meet an interface: it then goes on beyond its ends, a period further, in gas and solid alike.

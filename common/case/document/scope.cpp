@@ -12,6 +12,7 @@
 #include <system_error>
 #include <vector>
 
+#include "common/case/schema/schema.hpp"
 #include "common/core/input/expression.hpp"
 #include "common/core/input/suggest.hpp"
 
@@ -21,6 +22,7 @@ namespace {
 
 using config::fail;
 using config::Node;
+using schema::factor_range, schema::most_definitions;
 
 bool is_name(const std::string& text) {
   const auto ordinary = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
@@ -77,7 +79,10 @@ class Parameters {
       value = 1 / (10 * value_of("j"));
     } else if (name == "j") {
       value = factor_ == nullptr ? 1 : evaluate(*factor_, "grid.factor", name);
-      if (!(value > 0)) fail(factor_->place, "grid.factor", fmt::format("must be > 0 [-], is {}", value));
+      if (!factor_range.holds(value))
+        fail(factor_->place, "grid.factor",
+             fmt::format("must be > {} and <= {} [1/length], is {}", factor_range.low, factor_range.high,
+                         value));
     } else {
       value = evaluate(*parameters_->find(name), "parameters." + name, name);
     }
@@ -164,7 +169,6 @@ Scope evaluate_scope(Node& root) {
     fail(definitions->place, "definitions",
          "must be a section `name: formula`, is " + config::describe(*definitions));
   }
-  constexpr std::size_t most_definitions = 100;
   for (const config::Entry& entry : definitions->entries) {
     check_name(entry, "definitions");
     if (scope.definitions.size() >= most_definitions)

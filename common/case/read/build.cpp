@@ -98,7 +98,7 @@ FluidSpec fluid_of(const Reader& reader, const FluidSection<const Node>& section
   return result;
 }
 
-/// `scaled`: its part that is a rate times the time step, where the scheme does not have the key.
+/// `scaled`: its part that does not depend on the time step, where the scheme does not have the key.
 Beta beta_of(const Node* scheme, const char* key, double scaled) {
   const Node* node = scheme == nullptr ? nullptr : scheme->find(key);
   if (node == nullptr) return {.rate = 0, .scaled = scaled};

@@ -3,11 +3,13 @@
 #include <array>
 
 #include "common/case/case.hpp"
+#include "common/core/input/config.hpp"
 
 namespace fsi::schema {
 
 namespace {
 
+using config::most_keys;
 using std::array;
 using std::string_view;
 /// [s]; Cyclone remembers a silent participant for an hour at most, and must for twice as long.
@@ -21,7 +23,7 @@ constexpr array grid_keys{
         .meaning = "resolution factor j; expressions know h = 1 / (10 j)",
         .unit = "1/length",
         .fallback = "1",
-        .range = {.low = 0, .high = 10000, .low_open = true}},
+        .range = factor_range},
 };
 constexpr Section resolution{.title = "Resolution", .keys = grid_keys};
 
@@ -45,13 +47,14 @@ constexpr array time_keys{
         .fallback = "2",
         .range = {.low = 1, .high = 2}},
     Key{.name = "dt",
-        .meaning = "largest time step, for studies",
+        .meaning = "largest time step, for studies; a beam without a gas needs it",
         .unit = "time",
         .fallback = "no limit",
         .range = positive},
     Key{.name = "join_timeout",
-        .meaning = "a program that has not joined the run is lost after so long in which it neither computed "
-                   "nor waited for a disk",
+        .meaning =
+            "a program is lost when it has been idle for so long before joining the run; computing and "
+            "waiting for a disk do not count",
         .unit = "s",
         .fallback = "20",
         .range = at_most_a_day},
@@ -61,8 +64,8 @@ constexpr array time_keys{
         .fallback = "4",
         .range = at_most_half_an_hour},
     Key{.name = "step_timeout",
-        .meaning = "a program that computes for so long without ending its step is stuck, unless it needed a "
-                   "twentieth of that before",
+        .meaning = "a program that computes for longer than this, and than twenty times its longest step so "
+                   "far, without ending its step is stuck",
         .unit = "s",
         .fallback = "120",
         .range = at_most_a_day},
@@ -108,14 +111,13 @@ constexpr array<string_view, 2> on_failure_words{"end", "go_on"};
 constexpr array output_keys{
     Key{.name = "times",
         .type = Type::numbers,
-        .meaning = "fields are written at these times, hit exactly; those after time.end are left out, those "
-                   "closer than 1e-8 "
-                   "of the run are one",
+        .meaning = "fields are written at these times, hit exactly, and at time.end; those after it are left "
+                   "out, those closer than 1e-8 of the run are one",
         .unit = "time",
         .fallback = "[time.end]",
         .range = not_negative},
     Key{.name = "every",
-        .meaning = "fields are written at its multiples too",
+        .meaning = "fields are written at its multiples too, and at t = 0",
         .unit = "time",
         .fallback = "only `times`",
         .range = positive},
@@ -164,7 +166,7 @@ constexpr Key solid_element{
     .name = "solid", .type = Type::section, .meaning = "a solid", .section = &solid_section};
 constexpr Key expectation_element{.name = "expectation",
                                   .type = Type::section,
-                                  .meaning = "limits of a quantity; a bare word is `equals`",
+                                  .meaning = "limits of a quantity; a bare value is `equals`",
                                   .section = &expectation_section};
 
 constexpr array<string_view, 2> unit_systems{"none", "SI"};
@@ -184,11 +186,13 @@ constexpr array case_keys{
         .type = Type::named,
         .meaning = "named numbers, for every expression and `--set parameters.NAME=..`",
         .fallback = "none",
+        .most = most_keys,
         .element = &parameter_element},
     Key{.name = "definitions",
         .type = Type::named,
         .meaning = "named formulas of x, y, r, s, t, parameters and each other, for fields and maps",
         .fallback = "none",
+        .most = most_definitions,
         .element = &definition_element},
     Key{.name = "grid",
         .type = Type::section,
@@ -235,8 +239,11 @@ constexpr array case_keys{
         .section = &reference_section},
     Key{.name = "expect",
         .type = Type::named,
-        .meaning = "what summary.json must say, by path (`errors.rho`)",
+        .meaning = "what summary.json must say, by path (`errors.rho`); a bare value is `equals`. `build`, "
+                   "`restart` "
+                   "and `failure` cannot be expected",
         .fallback = "nothing",
+        .most = most_keys,
         .element = &expectation_element},
 };
 

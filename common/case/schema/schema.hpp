@@ -42,6 +42,10 @@ struct Range {
 inline constexpr Range any_number{};
 inline constexpr Range positive{.low = 0, .low_open = true};
 inline constexpr Range not_negative{.low = 0};
+inline constexpr Range factor_range{
+    .low = 0, .high = 10000, .low_open = true};  ///< of `grid.factor` [1/length]
+
+inline constexpr std::size_t most_definitions = 100;
 
 struct Section;
 

@@ -104,10 +104,12 @@ constexpr Section refine_section{.title = "Where the background of the gas is re
 constexpr array level_keys{
     Key{.name = "levels",
         .type = Type::integer,
-        .meaning =
-            "of a rectangle: levels that follow the gas and the bodies, each three times as coarse as the "
-            "next finer one, `spacing` or `points` being those of the finest; points are added until they "
-            "fit (points - 1 of each direction a multiple of 3^(levels - 1), and at least four times it)",
+        .meaning = "of a rectangle without `rotation`, `shake` and sides that solids move: levels that "
+                   "follow the gas and "
+                   "the bodies, each three times as coarse as the next finer one, `spacing` or `points` "
+                   "being those of "
+                   "the finest; points are added until they fit (points - 1 of each direction a multiple of "
+                   "3^(levels - 1), and at least four times it)",
         .fallback = "1",
         .range = {.low = 1, .high = 6}},
     Key{.name = "refine",
@@ -222,7 +224,9 @@ constexpr array fluid_keys{
     Key{.name = "body_fitted",
         .type = Type::list,
         .meaning = "grids before `grid`, which then is a rectangle that covers them: around solids and walls",
-        .fallback = "one around each solid with a `shape`",
+        .fallback =
+            "besides those listed, one around each solid with a `shape` that none of them names; with "
+            "`fluids` only those listed",
         .most = 64,
         .element = &gas_fitted_element},
     Key{.name = "scheme",

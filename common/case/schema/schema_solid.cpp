@@ -10,6 +10,7 @@
 #include "common/case/schema/law_numbers.hpp"
 #include "common/case/schema/laws.hpp"
 #include "common/case/schema/schema.hpp"
+#include "common/core/input/config.hpp"
 #include "solid_solver/boundary/every_boundary.hpp"
 
 namespace fsi::schema {
@@ -78,12 +79,12 @@ constexpr Section solid_boundaries{.title = "Boundaries of a solid", .keys = sol
 
 constexpr array beta_keys{
     Key{.name = "rate",
-        .meaning = "the part that is a rate",
+        .meaning = "part that grows with the time step: rate * dt",
         .unit = "1/time",
         .fallback = "0",
         .range = not_negative},
     Key{.name = "scaled",
-        .meaning = "the part that is a rate times the time step",
+        .meaning = "part that is the same in every step, whatever dt is",
         .fallback = "0",
         .range = not_negative},
 };
@@ -121,12 +122,15 @@ constexpr Section solid_scheme{.title = "Scheme of a solid", .keys = solid_schem
 constexpr array solid_initial_keys{
     Key{.name = "u",
         .type = Type::vector,
-        .meaning = "displacement, of the reference position",
+        .meaning = "displacement, of the reference position; rigid bodies and beams may begin with `v` and "
+                   "nothing else",
         .unit = "length",
         .fallback = "[0, 0]"},
     Key{.name = "v",
         .type = Type::vector,
-        .meaning = "velocity, of the reference position",
+        .meaning = "velocity, of the reference position; a rigid body takes that of its centre, and the "
+                   "rotation that fits "
+                   "the velocities along its outline best",
         .unit = "velocity",
         .fallback = "[0, 0]"},
 };
@@ -155,7 +159,7 @@ constexpr array beam_keys{
         .type = Type::field,
         .meaning = "thickness d, of the reference position: axial force E' d, shear 5/6 mu d, bending E' d^3 "
                    "/ 12, with E' = "
-                   "E / (1 - nu^2); mass rho d",
+                   "E / (1 - nu^2); mass rho d; > 0 all along the line",
         .unit = "length",
         .required = true},
     Key{.name = "elements",
@@ -165,10 +169,13 @@ constexpr array beam_keys{
         .range = {.low = 3, .high = 5000}},
     Key{.name = "ends",
         .type = Type::list,
-        .meaning =
-            "what holds the first and the last end: free, pinned (its place), clamped (place and "
-            "direction), guided "
-            "(direction, and it moves across the line only); where one of them is not free, `rho` may be 0",
+        .meaning = "what holds the first and the last end: free, pinned (its place), clamped (place and "
+                   "direction), guided "
+                   "(direction, and it moves across the line only). Where one of them is not free, `rho` may "
+                   "be 0; without a gas the "
+                   "ends must then hold every motion: one clamped, both pinned, one pinned and one guided, "
+                   "or both guided across "
+                   "different directions",
         .fallback = "[free, free]",
         .element = &end_element},
 };
@@ -189,9 +196,10 @@ constexpr array solid_keys{
         .type = Type::named,
         .meaning = "numbers for the program of an external solid",
         .fallback = "none",
+        .most = config::most_keys,
         .element = &data_element},
     Key{.name = "rho",
-        .meaning = "density of the reference configuration",
+        .meaning = "density of the reference configuration, > 0 but for a beam that is held",
         .unit = "mass/volume",
         .required = true,
         .range = not_negative},
@@ -261,8 +269,9 @@ constexpr array solid_keys{
         .section = &shape_section},
     Key{.name = "body_fitted",
         .type = Type::section,
-        .meaning = "the grid along the outline: at most 0.6 of its smallest radius of curvature deep, with "
-                   "points of `grid` a fifth of that apart",
+        .meaning =
+            "the grid along the outline; where it is chosen, at most 0.6 of the outline's smallest radius of "
+            "curvature deep, and points of `grid` less than a quarter of its depth apart",
         .fallback = "all defaults",
         .section = &solid_fitted_section},
     Key{.name = "scheme",

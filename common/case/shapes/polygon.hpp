@@ -26,8 +26,9 @@ struct Polygon {
       schema::Key{
           .name = "sharpness",
           .meaning =
-              "in place of `radius`: one over the radius of the rounded corners, in parts of the length; "
-              "the outline is drawn in from its corners",
+              "in place of `radius`: one over the width of the bell that rounds the corners, in parts of the "
+              "length of the edges together; a right angle then has a smallest radius of length / (1.41 "
+              "sharpness), a sharper corner a smaller one; the outline is drawn in from its corners",
           .fallback = "50",
           .range = schema::positive},
       blunt_key,

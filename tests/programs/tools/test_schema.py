@@ -63,6 +63,12 @@ class Schema(unittest.TestCase):
             case["time"]["end"] = "2 * h"
         self.assertEqual(self.mistakes(formula), [])
 
+    def test_as_many_names_as_the_reader_takes(self):
+        keys, solid = (self.schema["definitions"][name] for name in ("The case", "A solid"))
+        most = {name: keys["properties"][name]["maxProperties"] for name in ("parameters", "definitions", "fluids", "solids", "expect")}
+        self.assertEqual(most, {"parameters": 1000, "definitions": 100, "fluids": 16, "solids": 64, "expect": 1000})
+        self.assertEqual(solid["properties"]["data"]["maxProperties"], 1000)
+
     def test_units_are_powers_of_length_time_and_density_and_defaults_are_values(self):
         keys = self.schema["definitions"]["The gas"]["properties"]
         self.assertEqual(keys["p_e"]["x-unit"], {"name": "pressure", "length": 2, "time": -2, "density": 1})

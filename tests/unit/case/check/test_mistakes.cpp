@@ -88,7 +88,8 @@ const Mistake keys[] = {
     {"MissingSection", "time: {end: 1, cfl: 0.9}\n", "",
      "case.yaml:1:1: `time` is missing (time and time steps)"},
     {"MissingKey", "    rho: 1\n", "",
-     "case.yaml:18:5: solids.solid: `rho` is missing (density of the reference configuration [mass/volume])"},
+     "case.yaml:18:5: solids.solid: `rho` is missing (density of the reference configuration, > 0 but for a "
+     "beam that is held [mass/volume])"},
     {"MissingSide", "    right: outflow\n", "",
      "case.yaml:11:5: fluid.boundary: `right` is missing (a side of the gas; a bare word is its kind, with "
      "data from the reference solution)"},
