@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <system_error>
 
 #include "common/core/failure.hpp"
@@ -84,37 +85,46 @@ void check_origin(const Hdf5& file, const std::string& path, const CheckpointOri
   check("processor", reader.processor, "on another kind of processor");
 }
 
-/// Folders of sets, the latest first.
-/// By its name; 0 for a folder that is none of ours.
-std::uint64_t step_of(const files::path& set) {
-  const std::string name = set.filename().string();
+/// A folder of a set.
+struct Set {
+  files::path path;
   std::uint64_t step = 0;
-  std::from_chars(name.data(), name.data() + name.size(), step);
+};
+
+/// By the name of a folder of ours, which is digits and nothing else; none for somebody else's.
+std::optional<std::uint64_t> step_of(const std::string& name) {
+  std::uint64_t step = 0;
+  const char *begin = name.data(), *end = begin + name.size();
+  const auto [stop, error] = std::from_chars(begin, end, step);
+  if (error != std::errc() || stop != end) return std::nullopt;
   return step;
 }
 
-std::vector<files::path> sets_of(const std::string& run_dir) {
-  std::vector<files::path> sets;
+/// The latest first. What else lies there, a user's copies or links to other places, is not ours (the same in
+/// launch/fsi_launch/results/restart.py).
+std::vector<Set> sets_of(const std::string& run_dir) {
+  std::vector<Set> sets;
   std::error_code error;
   for (const auto& entry : files::directory_iterator(run_dir + "/checkpoints", error)) {
-    if (entry.is_directory()) sets.push_back(entry.path());
+    const auto step = step_of(entry.path().filename().string());
+    if (step && entry.is_directory(error) && !entry.is_symlink(error))
+      sets.push_back({.path = entry.path(), .step = *step});
   }
-  std::ranges::sort(sets, std::greater<>(), step_of);
+  std::ranges::sort(sets, std::greater<>(), &Set::step);
   return sets;
 }
 
 /// Keeps the newest set and the last complete one before it.
-void remove_others(const std::string& run_dir, const std::string& newest) {
+void remove_others(const std::string& run_dir, std::uint64_t newest) {
   int kept = 0;
-  for (const files::path& set : sets_of(run_dir)) {
-    const bool later = step_of(set) > step_of(newest);
-    if (!later && kept < 2 && files::exists(set / manifest_name)) {
+  for (const Set& set : sets_of(run_dir)) {
+    if (set.step <= newest && kept < 2 && files::exists(set.path / manifest_name)) {
       ++kept;
       continue;
     }
     std::error_code error;  // what cannot be removed does no harm
-    files::remove(set / manifest_name, error);
-    files::remove_all(set, error);
+    files::remove(set.path / manifest_name, error);
+    files::remove_all(set.path, error);
   }
 }
 
@@ -178,7 +188,7 @@ std::vector<std::string> complete_checkpoint(const std::string& run_dir, const S
   const nlohmann::ordered_json manifest = {
       {"step", at.step}, {"t", at.t}, {"case", case_digest}, {"files", entries}};
   write_atomically(fmt::format("{}/{}", folder, manifest_name), manifest.dump(2) + "\n");
-  remove_others(run_dir, folder);
+  remove_others(run_dir, at.step);
   return {};
 }
 

@@ -5,7 +5,8 @@
 ///                                             somebody else's may leave NAME.state, in a format of its own
 ///   DIR/checkpoints/00000400/manifest.json    written last: the set is complete, and these are its checksums
 ///
-/// Files are written to a temporary one, synced and renamed. The last two complete sets are kept.
+/// Files are written to a temporary one, synced and renamed. The last two complete sets are kept; other folders
+/// than those whose names are digits, and links, are somebody else's and stay as they are.
 
 #include <cstdint>
 #include <span>

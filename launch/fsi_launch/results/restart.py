@@ -11,6 +11,7 @@ from fsi_launch.results import former
 from fsi_launch.failure import Failure, OUTPUT_FAILED, UserMistake
 
 CHUNK = 1 << 20
+LAST_STEP = (1 << 64) - 1     # that a program can count
 
 
 @dataclass
@@ -74,10 +75,15 @@ def _opened(path, digest):
     return found
 
 
+def _is_set(path):
+    """Is it a folder that the programs made? Others there are somebody's own (the same in common/io/checkpoint.cpp)."""
+    named = path.name.isascii() and path.name.isdecimal() and int(path.name) <= LAST_STEP
+    return named and path.is_dir() and not path.is_symlink()
+
+
 def _folders(directory):
     """Folders of sets, the latest first."""
-    return sorted((path for path in (directory / "checkpoints").glob("[0-9]*") if path.is_dir() and path.name.isdecimal()),
-                  key=lambda path: int(path.name), reverse=True)
+    return sorted(filter(_is_set, (directory / "checkpoints").glob("*")), key=lambda path: int(path.name), reverse=True)
 
 
 def latest(directory, say=lambda text: None, digest=None):

@@ -143,6 +143,30 @@ TEST_F(Checkpoint, SetsAreInTheOrderOfTheirStepsHoweverManyDigitsTheseHave) {
   EXPECT_TRUE(kept(100'000'000));
 }
 
+TEST_F(Checkpoint, WhatSomebodyElseKeepsBesideTheSetsStays) {
+  namespace files = std::filesystem;
+  const files::path sets = files::path(dir) / "checkpoints", elsewhere = files::path(dir) / "elsewhere";
+  const std::string too_large(25, '9');  // digits, but no step
+  for (const std::string name : {"keep", "10_old", "notes", "-5", "+5", too_large.c_str()}) {
+    files::create_directories(sets / name / "x");
+    std::ofstream(sets / name / "manifest.json") << "{}";
+  }
+  files::create_directories(elsewhere);
+  std::ofstream(elsewhere / "manifest.json") << "{}";
+  files::create_directory_symlink(elsewhere, sets / "00000005");
+  files::create_directory_symlink(elsewhere, sets / "00000099");
+  for (const std::uint64_t step : {10U, 20U, 30U}) write(step);
+  for (const std::string name : {"keep", "10_old", "notes", "-5", "+5", too_large.c_str()}) {
+    EXPECT_TRUE(files::exists(sets / name / "x")) << name;
+    EXPECT_TRUE(files::exists(sets / name / "manifest.json")) << name;
+  }
+  for (const char* link : {"00000005", "00000099"}) EXPECT_TRUE(files::is_symlink(sets / link)) << link;
+  EXPECT_TRUE(files::exists(elsewhere / "manifest.json")) << "not through a link either";
+  EXPECT_FALSE(files::exists(checkpoint_folder(dir, 10))) << "what is not a set takes no set's place";
+  for (const std::uint64_t step : {20U, 30U})
+    EXPECT_NO_THROW(read_checkpoint(checkpoint_folder(dir, step), gas)) << step;
+}
+
 TEST_F(Checkpoint, ArchiveOfAnotherProgramIsRefused) {
   State state;
   Archive saved;

@@ -58,6 +58,21 @@ class Sets(InScratch):
             self.assertEqual(restart.latest(self.folder, flaws.append).step, 10, new)
             self.assertRegex(" ".join(flaws), rf"^the checkpoint of step 20 is damaged: .*{words}")
 
+    def test_only_folders_with_the_programs_names_are_sets(self):
+        states = {"fluid.h5": b"gas"}
+        elsewhere = self.write(40, states)
+        elsewhere.rename(self.folder / "elsewhere")
+        elsewhere.symlink_to(self.folder / "elsewhere", target_is_directory=True)
+        for name in ("keep", "50_old", "5\u0660", str(1 << 64)):
+            (self.folder / "checkpoints" / name / "x").mkdir(parents=True)
+        (self.folder / "checkpoints" / "60").write_text("a file")
+        self.assertIsNone(restart.latest(self.folder))
+        for step in (10, 20, 30):
+            self.write(step, states)
+        flaws = []
+        self.assertEqual(restart.latest(self.folder, flaws.append).step, 30)
+        self.assertEqual(flaws, [])
+
     def test_one_that_lacks_a_file_or_its_manifest_is_not_used(self):
         (self.write(10, {"fluid.h5": b"gas"}) / "manifest.json").unlink()
         (self.write(20, {"fluid.h5": b"gas", "piston.state": b"q"}) / "piston.state").unlink()
