@@ -34,7 +34,8 @@ bool is_proposal(const std::string& heading) {
 }  // namespace
 
 void Series::add(double at, double value) {
-  if (!points_.empty() && !(at > points_.back().at)) return;
+  if (newest_ && !(at > newest_->at)) return;
+  newest_ = {.at = at, .value = value};
   if (gathered_ > 0 && gathered_ < every_) {
     Point& last = points_.back();
     last.at = at;

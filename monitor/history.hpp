@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,12 +23,16 @@ class Series {
 
   /// Points that do not lie behind the last one are left out.
   void add(double at, double value);
+  /// The history: a point may stand for many newcomers, the last one too.
   const std::vector<Point>& points() const { return points_; }
+  /// What was added last, as it was; none before there was anything.
+  const std::optional<Point>& newest() const { return newest_; }
 
  private:
   void thin_out();
 
   std::vector<Point> points_;
+  std::optional<Point> newest_;
   std::size_t every_ = 1;     ///< newcomers per point
   std::size_t gathered_ = 0;  ///< newcomers in the last point
 };

@@ -36,14 +36,16 @@ std::string words(const json& part, const char* key) {
 }
 
 /// What a program reported at its end, as it would have said it.
-wire::Telemetry last_words(const json& part) {
+/// @param t_end of the run, where that is known
+wire::Telemetry last_words(const json& part, const std::optional<double>& t_end) {
   const json health = part.value("health", json::object()), counters = part.value("counters", json::object());
   wire::Telemetry said;
   said.from = words(part, "participant");
   said.role = words(part, "role");
   said.state = "done";
   said.step = static_cast<std::uint64_t>(number(part, "steps"));
-  said.t = said.t_end = number(part, "t");
+  said.t = number(part, "t");
+  said.t_end = t_end.value_or(said.t);
   said.compute_s = number(part, "compute_s");
   said.wait_s = number(part, "wait_s");
   said.point_updates_per_s = number(part, "point_updates_per_s");
@@ -63,6 +65,13 @@ wire::Telemetry last_words(const json& part) {
   return said;
 }
 
+/// The last value of a column of the table; not the last point of its history, which is the largest of several
+/// lines in a long run.
+double last_of(const History& history, const std::string& column, double missing) {
+  const auto& newest = history.of(column).newest();
+  return newest ? newest->value : missing;
+}
+
 /// The interfaces as the last line of the coupler's table has them.
 std::vector<wire::Telemetry::Interface> interfaces_of(const History& history, const json& part) {
   const std::string gap = ".gap";
@@ -72,9 +81,8 @@ std::vector<wire::Telemetry::Interface> interfaces_of(const History& history, co
     if (!name.ends_with(gap)) continue;
     wire::Telemetry::Interface side;
     side.name = name.substr(0, name.size() - gap.size());
-    const auto last = [&](const std::string& what) {
-      const auto& points = history.of(side.name + what).points();
-      return points.empty() ? 0 : points.back().value;
+    const auto last = [&](const std::string& what, double missing = 0) {
+      return last_of(history, side.name + what, missing);
     };
     side.velocity_jump = last(".velocity_jump");
     side.traction_jump = last(".traction_jump");
@@ -82,7 +90,9 @@ std::vector<wire::Telemetry::Interface> interfaces_of(const History& history, co
     side.power = last(".power");
     side.velocity_scale = number(scales, "velocity_scale");
     side.traction_scale = number(scales, "traction_scale");
-    side.shear = side.p_min = side.p_max = side.v_min = side.v_max = std::nan("");  // nobody wrote them
+    side.shear = last(".shear", std::nan(""));
+    side.p_max = last(".p_max", std::nan(""));
+    side.p_min = side.v_min = side.v_max = std::nan("");  // nobody wrote them
     sides.push_back(std::move(side));
   }
   return sides;
@@ -93,7 +103,8 @@ std::vector<wire::Telemetry::Interface> interfaces_of(const History& history, co
 std::optional<Ending> ending_of(const std::string& run_dir) {
   const json summary = object_in(fs::path(run_dir) / "summary.json");
   if (summary.is_null()) return std::nullopt;
-  Ending ending{.name = words(summary, "case"), .abort = std::nullopt};
+  Ending ending{.name = words(summary, "case"), .t_end = std::nullopt, .abort = std::nullopt};
+  if (const double t_end = number(summary, "t_end"); t_end > 0) ending.t_end = t_end;
   if (words(summary, "status") != "failed") return ending;
   const json failure = summary.value("failure", json::object());
   ending.abort = wire::Abort{.run = {},
@@ -132,12 +143,10 @@ void EndedRun::listen(RunState& state, double /*seconds*/) {
     try {
       const json part = object_in(path);
       if (part.is_null()) continue;
-      wire::Telemetry said = last_words(part);
+      wire::Telemetry said = last_words(part, ending_.t_end);
       if (said.role == "coupler") said.interfaces = interfaces_of(state.history(), part);
-      if (said.t > 0 && said.dt == 0 && !state.history().of("dt").points().empty())
-        said.dt = state.history().of("dt").points().back().value;
-      const auto& proposed = state.history().of(said.from + ".proposed_dt").points();
-      if (!proposed.empty()) said.proposed_dt = proposed.back().value;
+      if (said.t > 0) said.dt = last_of(state.history(), "dt", said.dt);
+      said.proposed_dt = last_of(state.history(), said.from + ".proposed_dt", said.proposed_dt);
       state.hear(said, 0);
     } catch (const json::exception&) {  // of another version
       continue;

@@ -11,14 +11,16 @@ namespace fsi::monitor {
 
 /// How a run ended, as the launcher wrote it down.
 struct Ending {
-  std::string name;  ///< of the case
+  std::string name;             ///< of the case
+  std::optional<double> t_end;  ///< time the case was to reach; a summary of former versions does not say it
   std::optional<wire::Abort> abort;
 };
 
 /// None while the folder holds no summary.
 std::optional<Ending> ending_of(const std::string& run_dir);
 
-/// Shown like a run that has just ended: what its programs reported, and the history that its tables hold.
+/// Shown like a run that has just ended: what its programs reported, and the history that its tables hold. What
+/// is present are the values of the last line.
 class EndedRun : public Source {
  public:
   /// @throws UserMistake where the folder is none of a run that is over

@@ -20,9 +20,9 @@ using config::Node;
 using std::string_view;
 
 // What summary.json has (docs/output.md).
-constexpr std::array<string_view, 15> quantities{
-    "status", "reason",         "case",      "t",        "steps", "dt",      "wall_s",      "participants",
-    "errors", "errors_missing", "interface", "counters", "noise", "overlap", "conservation"};
+constexpr std::array<string_view, 16> quantities{
+    "status",       "reason", "case",           "t",         "t_end",    "steps", "dt",      "wall_s",
+    "participants", "errors", "errors_missing", "interface", "counters", "noise", "overlap", "conservation"};
 constexpr std::array<string_view, 5> errors_of_gas{"rho", "v1", "v2", "T", "rho_mean"};
 constexpr std::array<string_view, 3> errors_of_solid{"u_bar", "v_bar", "P_bar"};
 constexpr std::array<string_view, 10> counters{"floors",

@@ -79,7 +79,7 @@ def merge(parts, case, status, reason, wall_s, known=None, done=()):
     speaker = parts.get(case.speaker()) or max([*parts.values(), *([known] if known else [])], key=lambda part: part.get("t", 0), default={})
     summary = {
         "status": status, "reason": reason, "case": case.name,
-        "t": speaker.get("t", 0.0), "steps": speaker.get("steps", 0),
+        "t": speaker.get("t", 0.0), "t_end": case.end, "steps": speaker.get("steps", 0),
         "dt": {"min": speaker.get("dt_min"), "max": speaker.get("dt_max"), "limited_by": speaker.get("dt_limited_by") or {}},
         "wall_s": round(wall_s, 4),
         "participants": {}, "errors": _ordered(_merged(parts, "errors", _worse)),

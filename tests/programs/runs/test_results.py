@@ -38,7 +38,7 @@ class Results(EndToEnd):
 
     def test_summary_has_every_promised_number(self):
         summary = self.run_.summary()
-        for key in ("status", "reason", "case", "t", "steps", "dt", "wall_s", "participants", "errors", "interface",
+        for key in ("status", "reason", "case", "t", "t_end", "steps", "dt", "wall_s", "participants", "errors", "interface",
                     "counters"):
             self.assertIn(key, summary)
         for part in summary["participants"].values():
@@ -49,6 +49,7 @@ class Results(EndToEnd):
         for key in ("max_velocity_jump", "max_traction_jump", "max_gap"):
             self.assertTrue(math.isfinite(summary["interface"][key]), key)
         self.assertAlmostEqual(summary["t"], 0.8)
+        self.assertEqual(summary["t_end"], 0.8)
 
     def test_interface_table_has_a_line_per_step(self):
         lines = (self.run_.directory / "interface.csv").read_text().splitlines()

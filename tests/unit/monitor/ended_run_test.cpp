@@ -140,9 +140,49 @@ TEST_F(Folder, ItsReportsAreTheLastStateOfTheRun) {
   EXPECT_EQ(state.leader()->dt, 0.05);
   ASSERT_EQ(state.interfaces().size(), 1U);
   EXPECT_EQ(state.interfaces()[0].gap, 2e-3);
-  EXPECT_TRUE(std::isnan(state.interfaces()[0].shear));
+  EXPECT_TRUE(std::isnan(state.interfaces()[0].shear)) << "its table has no such column";
+  EXPECT_TRUE(std::isnan(state.interfaces()[0].p_max));
+  EXPECT_EQ(state.progress(), 1) << "its summary does not say how far it was to go";
   ASSERT_TRUE(state.abort());
   EXPECT_EQ(state.abort()->place.step, 21);
+}
+
+TEST_F(Folder, ItsPresentValuesAreThoseOfTheLastLineHoweverLongTheTableIs) {
+  io::Part part;
+  part.participant = part.role = "coupler";
+  constexpr int steps = 1498;  // so many that a point of a history stands for several lines, the last one too
+  part.steps = steps;
+  part.t = 0.1;
+  part.limited_by = {{"left", steps - 1}, {"time.growth", 1}};
+  io::write_part(path_.string(), part);
+  {
+    std::ofstream table(path_ / "interface.csv");
+    table << "step,t [time],dt [time],beam.velocity_jump [length/time],beam.traction_jump [force/area],"
+             "beam.gap [length],beam.power [power/depth],beam.shear [force/area],beam.p_max [force/area],"
+             "limited_by\n";
+    for (int k = 0; k <= steps; ++k) {
+      const bool odd = k % 2 == 1;
+      table << k << ',' << k * 0.1 / steps << ',' << (odd ? 2e-3 : 1e-3) << ',' << (odd ? 3 : 2) << ','
+            << (odd ? 30 : 20) << ',' << (odd ? "1" : "1e-6") << ',' << (odd ? -5 : 0.25) << ','
+            << (odd ? 0.7 : 0.5) << ',' << (odd ? 9 : 4) << ',' << (k < steps ? "left" : "time.growth")
+            << '\n';
+    }
+  }
+  write("summary.json", R"({"case": "piston", "status": "failed", "t": 0.1, "t_end": 0.8})");
+  EndedRun run(path_.string());
+  RunState state(run.run());
+  run.listen(state, 1);
+  ASSERT_EQ(state.interfaces().size(), 1U);
+  const wire::Telemetry::Interface& side = state.interfaces()[0];
+  EXPECT_EQ(side.velocity_jump, 2);
+  EXPECT_EQ(side.traction_jump, 20);
+  EXPECT_EQ(side.gap, 1e-6);
+  EXPECT_EQ(side.power, 0.25);
+  EXPECT_EQ(side.shear, 0.5);
+  EXPECT_EQ(side.p_max, 4);
+  EXPECT_EQ(state.leader()->dt, 1e-3);
+  EXPECT_EQ(state.leader()->t_end, 0.8);
+  EXPECT_DOUBLE_EQ(state.progress(), 0.125);
 }
 
 }  // namespace

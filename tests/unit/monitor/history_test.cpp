@@ -39,6 +39,19 @@ TEST(Series, WhatLiesBehindTheLastPointIsLeftOut) {
   EXPECT_EQ(series.points()[0].value, 5);
 }
 
+TEST(Series, TheNewestValueIsKeptBesideThePeaks) {
+  Series series;
+  EXPECT_FALSE(series.newest());
+  for (int k = 0; k < 5000; ++k) {
+    series.add(k, k % 2 == 0 ? 8 : 1);
+    ASSERT_TRUE(series.newest());
+    ASSERT_EQ(series.newest()->at, k);
+    ASSERT_EQ(series.newest()->value, k % 2 == 0 ? 8 : 1);
+  }
+  series.add(4999, 7);
+  EXPECT_EQ(series.newest()->value, 1) << "what lies not behind the last one is no newer";
+}
+
 TEST(Series, WhatIsNotFiniteIsNotForgotten) {
   Series series;
   for (int k = 0; k < 5000; ++k) series.add(k, k == 2000 ? std::numeric_limits<double>::quiet_NaN() : k);

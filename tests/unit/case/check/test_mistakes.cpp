@@ -195,9 +195,9 @@ const Mistake values[] = {
      "case.yaml:22:11: solids.solid.bulk: must be at least 4/3 (c10 + c01) = 2, so that lambda is not "
      "negative"},
     {"ExpectedQuantityThatDoesNotExist", "status: completed", "eror.rho: {max: 1}",
-     "case.yaml:29:20: expect: summary.json has no `eror.rho` (status, reason, case, t, steps, dt, wall_s, "
-     "participants, errors, errors_missing, interface, counters, noise, overlap, conservation); did you mean "
-     "`errors`?"},
+     "case.yaml:29:20: expect: summary.json has no `eror.rho` (status, reason, case, t, t_end, steps, dt, "
+     "wall_s, participants, errors, errors_missing, interface, counters, noise, overlap, conservation); did "
+     "you mean `errors`?"},
     {"ExpectedCounterThatDoesNotExist", "status: completed", "counters.flors: {max: 0}",
      "case.yaml:29:26: expect: summary.json has no `counters.flors` (floors, positive_fluxes, "
      "positive_values, bounded_side_points, vacuum_points, first_order_fallbacks, "

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """summary.json is merged from what the programs leave, and the case's expectations are held against it."""
 
+import dataclasses
 import json
 import sys
 import unittest
@@ -58,6 +59,12 @@ class Summary(InScratch):
         self.assertEqual(merged({"t": 0.5, "steps": 10}), (0.5, 10))
         self.assertEqual(merged(None, checkpoint), (0.1, 2))    # the table is of the former run
         self.assertEqual(merged(said, checkpoint), (0.4, 8))
+
+    def test_end_that_the_case_wanted_stands_beside_the_time_reached(self):
+        self.part("coupler", steps=3, t=0.1)
+        case = dataclasses.replace(piston(), end=0.8)
+        merged = summary.merge(summary.read_parts(self.folder, case.programs), case, "failed", "", 1.0)
+        self.assertEqual((merged["t"], merged["t_end"]), (0.1, 0.8))
 
     def test_program_without_a_report_that_ended_well_is_not_lost(self):
         for status, done, expected in (("completed", ["solid"], "completed"), ("completed", [], "lost"), ("failed", ["solid"], "lost")):
