@@ -84,6 +84,14 @@ class Output {
   std::vector<io::GridOutput> grids_;
 };
 
+/// What an output shows of a quantity; none where it has nothing of it. @throws OutputFailed
+std::optional<wire::Picture> picture_in(const io::Hdf5& output, const std::string& quantity) {
+  const Output fields(output, planes_of(quantity));
+  std::optional<wire::Picture> picture = picture_of(fields.grids(), quantity);
+  if (picture) picture->step = static_cast<std::uint64_t>(output.number_attribute("step"));
+  return picture;
+}
+
 /// "fluid.h5" -> {"fluid", "fluid"}, "solid_beam.h5" -> {"beam", "solid"}; none for other files.
 std::optional<std::pair<std::string, std::string>> speaker_of(const fs::path& path) {
   const std::string stem = path.stem().string();
@@ -114,18 +122,20 @@ std::vector<wire::Picture> FieldFiles::next_of(const Series& one, const std::str
   const auto outputs = static_cast<std::size_t>(file.number_attribute("outputs"));
   std::size_t& given = given_[{one.from, quantity}];
   while (given < outputs && pictures.size() < at_once) {
-    const io::Hdf5 output = file.group(io::output_name(given));
-    const double t = output.number_attribute("t");
-    if (t > until) break;
+    try {
+      const io::Hdf5 output = file.group(io::output_name(given));
+      const double t = output.number_attribute("t");
+      if (t > until) break;
+      if (std::optional<wire::Picture> picture = picture_in(output, quantity)) {
+        picture->from = one.from;
+        picture->role = one.role;
+        picture->t = t;
+        pictures.push_back(std::move(*picture));
+      }
+    } catch (const OutputFailed&) {
+      if (given + 1 == outputs) break;  // the newest one may be there soon
+    }
     ++given;
-    const Output fields(output, planes_of(quantity));
-    std::optional<wire::Picture> picture = picture_of(fields.grids(), quantity);
-    if (!picture) continue;
-    picture->from = one.from;
-    picture->role = one.role;
-    picture->t = t;
-    picture->step = static_cast<std::uint64_t>(output.number_attribute("step"));
-    pictures.push_back(std::move(*picture));
   }
   return pictures;
 }
@@ -141,7 +151,7 @@ std::vector<wire::Picture> FieldFiles::next(const std::vector<std::string>& wish
       try {
         for (wire::Picture& picture : next_of(one, quantity, until)) all.push_back(std::move(picture));
       } catch (const OutputFailed&) {
-        continue;  // damaged, or about to be replaced
+        continue;  // the series is damaged, or about to be replaced
       }
     }
   }

@@ -18,7 +18,8 @@ class FieldFiles {
   explicit FieldFiles(std::string run_dir) : run_dir_(std::move(run_dir)) {}
 
   /// Pictures that were not given before, for these wishes (ROLE.QUANTITY) and for output times up to `until`
-  /// [time]; a few at a time, those of one output time together. What cannot be read is passed over.
+  /// [time]; a few at a time, those of one output time together. An output that cannot be read is passed over,
+  /// the newest one until it can.
   std::vector<wire::Picture> next(const std::vector<std::string>& wishes, double until);
 
  private:

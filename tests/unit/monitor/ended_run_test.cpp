@@ -185,5 +185,27 @@ TEST_F(Folder, ItsPresentValuesAreThoseOfTheLastLineHoweverLongTheTableIs) {
   EXPECT_DOUBLE_EQ(state.progress(), 0.125);
 }
 
+TEST_F(Folder, AnOutputThatCannotBeReadTakesNoOthersWithIt) {
+  const auto steps_of = [&] {
+    FieldFiles files(path_.string());
+    std::set<std::uint64_t> steps;
+    for (int again = 0; again < 3; ++again) {
+      for (const wire::Picture& one : files.next({"fluid.speed"}, 9)) steps.insert(one.step);
+    }
+    return steps;
+  };
+  write("fields/fluid_left_000001.h5", "this is no such file");
+  EXPECT_EQ(steps_of(), (std::set<std::uint64_t>{0, 20}));
+  fs::remove(path_ / "fields" / "fluid_left_000001.h5");
+  EXPECT_EQ(steps_of(), (std::set<std::uint64_t>{0, 20}));
+  const fs::path newest = path_ / "fields" / "fluid_left_000002.h5", away = path_ / "away.h5";
+  fs::rename(newest, away);
+  FieldFiles files(path_.string());
+  EXPECT_EQ(files.next({"fluid.speed"}, 9).size(), 1U);
+  EXPECT_TRUE(files.next({"fluid.speed"}, 9).empty());
+  fs::rename(away, newest);
+  EXPECT_EQ(files.next({"fluid.speed"}, 9).size(), 1U) << "it was not there yet";
+}
+
 }  // namespace
 }  // namespace fsi::monitor
