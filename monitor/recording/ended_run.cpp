@@ -25,9 +25,17 @@ json object_in(const fs::path& path) {
   return content.is_object() ? content : json();
 }
 
+/// What is not finite is written as null.
 double number(const json& part, const char* key, double missing = 0) {
   const auto found = part.find(key);
-  return found != part.end() && found->is_number() ? found->get<double>() : missing;
+  if (found == part.end()) return missing;
+  if (found->is_null()) return std::nan("");
+  return found->is_number() ? found->get<double>() : missing;
+}
+
+std::uint64_t counted(const json& part, const char* key) {
+  const double found = number(part, key);
+  return found > 0 ? static_cast<std::uint64_t>(found) : 0;
 }
 
 std::string words(const json& part, const char* key) {
@@ -43,20 +51,19 @@ wire::Telemetry last_words(const json& part, const std::optional<double>& t_end)
   said.from = words(part, "participant");
   said.role = words(part, "role");
   said.state = "done";
-  said.step = static_cast<std::uint64_t>(number(part, "steps"));
+  said.step = counted(part, "steps");
   said.t = number(part, "t");
   said.t_end = t_end.value_or(said.t);
   said.compute_s = number(part, "compute_s");
   said.wait_s = number(part, "wait_s");
   said.point_updates_per_s = number(part, "point_updates_per_s");
   said.proposed_dt = std::nan("");
-  said.health = {
-      .min_rho = number(health, "min_rho"),
-      .min_p = number(health, "min_p"),
-      .min_det_F = number(health, "min_det_F"),
-      .min_cell_quality = number(health, "min_cell_quality", 1),
-      .first_order_fallbacks = static_cast<std::uint64_t>(number(counters, "first_order_fallbacks")),
-      .floors = static_cast<std::uint64_t>(number(counters, "floors"))};
+  said.health = {.min_rho = number(health, "min_rho"),
+                 .min_p = number(health, "min_p"),
+                 .min_det_F = number(health, "min_det_F"),
+                 .min_cell_quality = number(health, "min_cell_quality", 1),
+                 .first_order_fallbacks = counted(counters, "first_order_fallbacks"),
+                 .floors = counted(counters, "floors")};
   const json limits = part.value("dt_limited_by", json::object());
   for (const auto& [by, steps] : limits.items())
     said.limits.push_back({.by = by, .steps = steps.get<std::uint64_t>()});
@@ -98,6 +105,16 @@ std::vector<wire::Telemetry::Interface> interfaces_of(const History& history, co
   return sides;
 }
 
+/// Adds to what a program reported what the last line of the coupler's table says of it.
+void add_last_line(wire::Telemetry& said, const History& history, const json& part) {
+  if (said.t > 0) said.dt = last_of(history, "dt", said.dt);
+  said.proposed_dt = last_of(history, said.from + ".proposed_dt", said.proposed_dt);
+  if (said.role != "coupler") return;
+  said.interfaces = interfaces_of(history, part);
+  const auto& changes = history.limiters().changes();
+  if (!changes.empty()) said.limited_by = said.dt_reason = changes.back().by;  // else who did most often
+}
+
 }  // namespace
 
 std::optional<Ending> ending_of(const std::string& run_dir) {
@@ -109,7 +126,7 @@ std::optional<Ending> ending_of(const std::string& run_dir) {
   const json failure = summary.value("failure", json::object());
   ending.abort = wire::Abort{.run = {},
                              .from = "launcher",
-                             .exit_code = static_cast<std::int32_t>(number(failure, "exit_code")),
+                             .exit_code = static_cast<std::int32_t>(counted(failure, "exit_code")),
                              .place = {},
                              .what = words(summary, "reason")};
   try {
@@ -144,9 +161,7 @@ void EndedRun::listen(RunState& state, double /*seconds*/) {
       const json part = object_in(path);
       if (part.is_null()) continue;
       wire::Telemetry said = last_words(part, ending_.t_end);
-      if (said.role == "coupler") said.interfaces = interfaces_of(state.history(), part);
-      if (said.t > 0) said.dt = last_of(state.history(), "dt", said.dt);
-      said.proposed_dt = last_of(state.history(), said.from + ".proposed_dt", said.proposed_dt);
+      add_last_line(said, state.history(), part);
       state.hear(said, 0);
     } catch (const json::exception&) {  // of another version
       continue;

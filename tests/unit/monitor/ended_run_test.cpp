@@ -207,5 +207,30 @@ TEST_F(Folder, AnOutputThatCannotBeReadTakesNoOthersWithIt) {
   EXPECT_EQ(files.next({"fluid.speed"}, 9).size(), 1U) << "it was not there yet";
 }
 
+TEST_F(Folder, ItsReportsKeepWhatIsNotFiniteAndWhoLimitedTheLastStep) {
+  io::Part coupler, gas;
+  coupler.participant = coupler.role = "coupler";
+  coupler.t = gas.t = 0.5;
+  coupler.limited_by = {{"left", 2}, {"time.growth", 1}};
+  coupler.interface = io::InterfaceExtremes{.velocity_scale = std::nan(""), .traction_scale = 3};
+  gas.participant = "left";
+  gas.role = "fluid";
+  gas.health = {{"min_rho", 0.5}, {"min_p", std::nan("")}};
+  for (const io::Part& part : {coupler, gas}) io::write_part(path_.string(), part);
+  write("interface.csv",
+        "step,t [time],beam.gap [length],limited_by\n1,0.1,0,left\n2,0.3,0,left\n3,0.5,0,time.growth\n");
+  write("summary.json", R"({"case": "piston", "status": "completed"})");
+  EndedRun run(path_.string());
+  RunState state(run.run());
+  run.listen(state, 1);
+  EXPECT_EQ(state.programs().at("left").health.min_rho, 0.5);
+  EXPECT_TRUE(std::isnan(state.programs().at("left").health.min_p)) << "the part has null";
+  EXPECT_EQ(state.programs().at("left").health.min_det_F, 0) << "the part has none";
+  EXPECT_EQ(state.non_finite(), std::vector<std::string>{"health of left"});
+  EXPECT_TRUE(std::isnan(state.interfaces().at(0).velocity_scale));
+  EXPECT_EQ(state.leader()->limited_by, "time.growth");
+  EXPECT_EQ(state.history().limiters().changes().back().t, 0.3) << "nobody limited a step after the last one";
+}
+
 }  // namespace
 }  // namespace fsi::monitor
