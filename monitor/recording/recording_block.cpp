@@ -7,10 +7,12 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <span>
 #include <string>
 
 #include "common/core/failure.hpp"
+#include "common/io/place_json.hpp"
 
 namespace fsi::monitor {
 
@@ -71,6 +73,8 @@ constexpr const char* profile_columns =
 constexpr std::size_t profile_width = 12;
 constexpr const char* abort_columns = "at from exit_code reason";
 constexpr std::size_t abort_width = 4;
+constexpr const char* place_columns = "place what";
+constexpr std::size_t place_width = 2;
 
 double count(std::uint64_t number) {
   return static_cast<double>(number);
@@ -198,6 +202,26 @@ wire::Traffic traffic_from(std::span<const double> row, const TextOf& text) {
           .latency_p99_us = row[7]};
 }
 
+std::string json_of(const Place& place) {
+  using nlohmann::ordered_json;
+  return io::to_json(place).dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+}
+
+/// Its place is in the sentence only where it is no number, and in recordings of former versions.
+wire::Abort abort_from(std::span<const double> row, Rows& places, const TextOf& text) {
+  wire::Abort abort{
+      .run = {}, .from = text(row[1]), .exit_code = static_cast<std::int32_t>(row[2]), .what = text(row[3])};
+  if (!places.more()) return abort;
+  const auto place = places.take();
+  try {
+    abort.place = io::place_of(nlohmann::json::parse(text(place[0])));
+    abort.what = text(place[1]);
+  } catch (const nlohmann::json::exception&) {
+    return abort;
+  }
+  return abort;
+}
+
 /// The tables of a block, filled message by message.
 class Tables {
  public:
@@ -215,9 +239,10 @@ class Tables {
   void add(double at, const wire::Abort& abort) {
     aborts_.row(std::array{at, texts_.number(abort.from), static_cast<double>(abort.exit_code),
                            texts_.number(abort.reason())});
+    places_.row(std::array{texts_.number(json_of(abort.place)), texts_.number(abort.what)});
   }
   void write(io::Hdf5& group) const {
-    for (const Table* table : {&messages_, &sides_, &profiles_, &traffic_, &limits_, &aborts_})
+    for (const Table* table : {&messages_, &sides_, &profiles_, &traffic_, &limits_, &aborts_, &places_})
       table->write(group);
     for (std::size_t k = 0; k < texts_.all().size(); ++k)
       group.write_attribute(fmt::format("text_{}", k), texts_.all()[k]);
@@ -231,6 +256,7 @@ class Tables {
   Table traffic_{.name = "traffic", .columns = traffic_columns};
   Table limits_{.name = "limits", .columns = limit_columns};
   Table aborts_{.name = "aborts", .columns = abort_columns};
+  Table places_{.name = "places", .columns = place_columns};
 
   void add_state(double at, const wire::Telemetry& m) {
     messages_.row(std::array{at,
@@ -294,7 +320,8 @@ std::vector<Heard> read_block(const io::Hdf5& group) {
   };
   Rows messages(group, "messages", message_width), sides(group, "interfaces", interface_width),
       profiles(group, "profiles", profile_width), traffic(group, "traffic", traffic_width),
-      limits(group, "limits", limit_width), aborts(group, "aborts", abort_width);
+      limits(group, "limits", limit_width), aborts(group, "aborts", abort_width),
+      places(group, "places", place_width);
   std::vector<Heard> heard;
   while (messages.more()) {
     const auto row = messages.take();
@@ -311,11 +338,7 @@ std::vector<Heard> read_block(const io::Hdf5& group) {
   }
   while (aborts.more()) {
     const auto row = aborts.take();
-    heard.push_back({.at = row[0],
-                     .abort = wire::Abort{.run = {},
-                                          .from = text(row[1]),
-                                          .exit_code = static_cast<std::int32_t>(row[2]),
-                                          .what = text(row[3])}});
+    heard.push_back({.at = row[0], .abort = abort_from(row, places, text)});
   }
   return heard;
 }

@@ -72,7 +72,12 @@ TEST_F(Recordings, ComeBackTheSameNumberForNumber) {
     state.hear(coupler(step), at);
     expected.push_back(to_json(state, at));
   }
-  const wire::Abort abort{.run = "r-1", .from = "fluid", .exit_code = 3, .what = "p < 0"};
+  const wire::Abort abort{
+      .run = "r-1",
+      .from = "fluid",
+      .exit_code = 3,
+      .place = {.step = 40, .t = 1.37, .grid = "ring", .point = {14, 3}, .position = {1.0 / 3, 0.1}},
+      .what = "p < 0"};
   recorder.add(abort, 121);
   state.hear(abort);
   expected.push_back(to_json(state, 21));
@@ -81,6 +86,21 @@ TEST_F(Recordings, ComeBackTheSameNumberForNumber) {
   Recording recording(path());
   EXPECT_EQ(recording.run().run, "r-1");
   EXPECT_EQ(shown(recording), expected);
+}
+
+TEST_F(Recordings, KeepTheReasonWhereItsPlaceIsNoNumber) {
+  const wire::Abort abort{.run = "r-1",
+                          .from = "beam",
+                          .exit_code = 3,
+                          .place = {.step = 40, .grid = "ring", .position = {std::nan(""), 0.1}},
+                          .what = "det F < 0"};
+  Recorder recorder(path(), run(), 0);
+  recorder.add(abort, 1);
+  recorder.close();
+  const std::vector<Heard> heard = Recording(path()).next();
+  ASSERT_EQ(heard.size(), 1U);
+  ASSERT_TRUE(heard[0].abort);
+  EXPECT_EQ(heard[0].abort->reason(), abort.reason());
 }
 
 TEST_F(Recordings, OpenWhileTheyGrowWithAllButTheLastSeconds) {
