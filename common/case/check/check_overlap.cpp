@@ -28,7 +28,11 @@ void check_background(const OverlapCheck& check) {
       fail(node->place, path + "." + key, "a background of body-fitted grids lies still; leave it out");
   }
   for (const bool periodic : check.background.periodic) {
-    if (periodic) fail(grid.place, path, "a background of body-fitted grids cannot be periodic");
+    if (periodic)
+      fail(grid.place, path,
+           "sides of a rectangle with grids around curves cannot be periodic, for these do not repeat; where "
+           "the flow "
+           "is its own mirror image in these sides write symmetry there, else sides that lie far away");
   }
 }
 

@@ -44,7 +44,8 @@ and what to write.
   time that grows with the square of their number: more than twenty on few cores need a longer `time.join_timeout`. A gas or a solid has at most 64 ranks.
 - **Memory**: `check` estimates what the programs of a run need together, and refuses a case that needs more than the machine
   has free, or than the control group it runs in may have.
-- **Periodic sides** may meet an interface: it then goes on beyond its ends, a period further, in gas and solid alike.
+- **Periodic sides** may meet an interface: it then goes on beyond its ends, a period further, in gas and solid alike. A rectangle with grids around
+  curves (one for each `shape`) has no periodic sides.
 
 Units are those of a consistent system of the user's choice; `-` is a pure number.
 )";
