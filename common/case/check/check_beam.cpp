@@ -95,6 +95,20 @@ void check_held_side(const SolidSpec& solid, Side side, const Node& node) {
            ends.front() == 1 ? "last" : "first", ends.front() == 1 ? ".., clamped" : "clamped, .."));
 }
 
+/// A wall keeps an end of a beam on it where the gas ends at that wall too (solid_solver/beam/skin.cpp): beside an
+/// interface.
+void check_wall(const SolidSpec& solid, Side side, const Node& node) {
+  const BoundarySpec& spec = solid.boundary[static_cast<std::size_t>(side)];
+  if (spec.kind == BoundaryKind::none || schema::solid_boundary(spec.kind).holds != Hold::normal) return;
+  const auto meets_gas = [&](Side beside) {
+    return solid.boundary[static_cast<std::size_t>(beside)].kind == BoundaryKind::interface;
+  };
+  if (!solid.body_fitted.empty() || std::ranges::any_of(sides_beside(side), meets_gas)) return;
+  fail(node.place, fmt::format("solids.{}.boundary.{}", solid.name, name_of(side)),
+       "holds nothing of a beam: no gas ends at this side; write free, and what holds the beam as "
+       "`beam: {ends: [.., ..]}`");
+}
+
 /// A beam is held at its ends and loaded by gases and its body force: what else a side of its grid says would be
 /// ignored.
 void check_side(const SolidSpec& solid, Side side, const Node& node) {
@@ -228,6 +242,7 @@ void check_beams(const Case& problem, const Node& root) {
           check(solid, side, *own);
     };
     each_side(check_side);
+    each_side(check_wall);
     check_line(solid, *node.find("beam"), thickness);
     if (problem.fluids.empty() && !problem.time.dt) {
       fail(root.find("time")->place, "time",

@@ -147,5 +147,27 @@ TEST(Beams, AreNotClampedByTheSideOfTheirGrid) {
   EXPECT_EQ(mistake_in(alone, arch), "");
 }
 
+// What is beyond the end of the gas keeps the end of a beam that is there; at any other side it would do nothing.
+TEST(Beams, AreKeptByAWallOnlyWhereAGasEndsAtIt) {
+  const std::string plate = text_of_file(FSI_ROOT "/configs/plate.yaml"),
+                    bar = text_of_file(FSI_ROOT "/configs/clamped_bar.yaml");
+  const char* const says =
+      "holds nothing of a beam: no gas ends at this side; write free, and what holds the "
+      "beam as `beam: {ends: [.., ..]}`";
+  expect_messages({{plate, "solids.plate.boundary.top=symmetry", ""},
+                   {plate, "solids.plate.boundary.left=slip_wall", says},
+                   {bar, "", ""},
+                   {bar, "solids.bar.boundary.right=slip_wall,solids.bar.beam.ends=[free, free]", says},
+                   {bar, "solids.bar.boundary.right=symmetry", says},
+                   {alone, "solids.bar.boundary.left=slip_wall", says},
+                   {alone, "solids.bar.boundary.bottom=symmetry", says}});
+  EXPECT_NE(mistake_in(alone, {"solids.bar.boundary.left=slip_wall"}).find("solids.bar.boundary.left: "),
+            std::string::npos);
+}
+
+TEST(Beams, BetweenTwoGasesAreKeptByTheWallsOfBoth) {
+  EXPECT_EQ(mistake_in(text_of_file(FSI_ROOT "/configs/piston_between_gases.yaml"), {}, {"piston=beam"}), "");
+}
+
 }  // namespace
 }  // namespace fsi
