@@ -305,7 +305,7 @@ void check_foot(const SolidSpec& solid, const Case& problem, const Node& root) {
   const Side foot = walls->front();
   const BoundaryKind kind = solid.boundary[static_cast<std::size_t>(foot)].kind;
   const bool open = kind == BoundaryKind::none && problem.fluids.empty();
-  if (!open && kind != BoundaryKind::interface && kind != BoundaryKind::periodic) return;
+  if (!open && kind != BoundaryKind::periodic) return;
   const Node& node = *root.find("solids")->find(solid.name);
   const Node* boundary = node.find("boundary");
   fail(boundary != nullptr ? boundary->place : node.place, fmt::format("solids.{}.boundary", solid.name),

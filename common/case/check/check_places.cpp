@@ -103,13 +103,6 @@ void check_initial(const SolidSpec& solid, const Node& node) {
                    solid.law == beam_law ? "beam" : "rigid solid"));
 }
 
-/// Of a solid with a shape only the walls on which its ends stand are sides of the body.
-std::vector<Side> sides_of_body(const SolidSpec& solid) {
-  if (solid.body_fitted.empty()) return {Side::left, Side::right, Side::bottom, Side::top};
-  const auto& walls = solid.body_fitted.front().curve.walls;
-  return walls ? std::vector<Side>{walls->begin(), walls->end()} : std::vector<Side>{};
-}
-
 /// Where a side lets a rigid body go: a straight way that is the same for all of them.
 void check_ways(const SolidSpec& solid, const Node& boundary, const std::string& path) {
   constexpr double parallel = 1e-8;

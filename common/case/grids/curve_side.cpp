@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <iterator>
 #include <utility>
 
 #include "common/core/component_major.hpp"
@@ -117,6 +119,17 @@ void put_body_to_the_left(CurveSpec& curve, const std::optional<std::array<doubl
   }
   std::ranges::sort(curve.corners);
   if (curve.walls) std::swap(curve.walls->front(), curve.walls->back());
+}
+
+std::vector<Side> sides_of_body(const SolidSpec& solid) {
+  if (solid.body_fitted.empty()) return {std::begin(all_sides), std::end(all_sides)};
+  const std::optional<std::array<Side, 2>>& walls = solid.body_fitted.front().curve.walls;
+  if (!walls) return {};
+  constexpr std::array in_turn{Side::bottom, Side::right, Side::top, Side::left};  // the body to their left
+  std::vector<Side> sides{walls->back()};
+  for (auto k = std::ranges::find(in_turn, walls->back()) - in_turn.begin(); sides.back() != walls->front();)
+    sides.push_back(in_turn[static_cast<std::size_t>(++k % 4)]);
+  return sides;
 }
 
 bool lies_behind(const BodyFittedSpec& spec, const GridSpec& background, const Vec2& x) {

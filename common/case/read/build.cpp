@@ -16,6 +16,7 @@
 #include "common/case/read/build_levels.hpp"
 #include "common/case/read/build_material.hpp"
 #include "common/case/read/build_shape.hpp"
+#include "common/case/read/idle_sides.hpp"
 #include "common/case/read/name_gases.hpp"
 #include "common/case/schema/laws.hpp"
 #include "common/core/input/suggest.hpp"
@@ -178,6 +179,7 @@ SolidSpec solid_of(const Reader& reader, const config::Entry& entry) {
   result.grid = build_solid_grid(reader, owner);
   result.boundary = build_boundaries(reader, owner, result.grid);
   result.body_fitted = build_outline_grid(reader, owner, result.boundary);
+  refuse_idle_sides(node, owner.path, result);
   complete_block(node, owner.path, result);
   result.scheme = solid_scheme_of(node.find("scheme"));
   result.beam = build_beam(reader, node, result.law, owner.path);

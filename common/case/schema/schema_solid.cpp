@@ -259,7 +259,7 @@ constexpr array solid_keys{
         .section = &grid_section},
     Key{.name = "boundary",
         .type = Type::section,
-        .meaning = "its four sides",
+        .meaning = "its four sides; with a `shape` those are free that are no side of the body",
         .fallback = "required, but where `shape` leaves nothing of them",
         .section = &solid_boundaries},
     Key{.name = "shape",

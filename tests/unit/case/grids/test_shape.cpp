@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "common/case/grids/composite_from_case.hpp"
+#include "common/case/grids/curve_side.hpp"
 #include "common/case/report/cost.hpp"
 #include "tests/unit/case/cases.hpp"
 
@@ -240,6 +243,56 @@ TEST(CaseShape, GridOfASolidHasAnotherNameThanTheOneAlongItsOutline) {
   EXPECT_EQ(mistake_in(disk_case(disk_outline), {"solids.disk.grid.name=inner"}), "");
   const std::string message = mistake_in(disk_case(disk_outline), {"solids.disk.grid.name=outline"});
   EXPECT_NE(message.find("there are two grids `outline`"), std::string::npos) << message;
+}
+
+/// What a case of configs/ says with other sides of its solid.
+std::string with_side(const std::string& name, const std::string& side,
+                      const std::vector<std::string>& laws = {}) {
+  return mistake_in(tests::text_of_file(FSI_ROOT "/configs/" + name + ".yaml"), {"solids." + side}, laws);
+}
+
+TEST(CaseShape, LeavesSidesThatAreNoSideOfTheBodyFree) {
+  const std::string idle =
+      "is no side of the body, whose outline is `shape`, and would have no effect; write free, and what "
+      "holds "
+      "on the outline as `body_fitted: {boundary: ..}`";
+  for (const char* side : {"bar.boundary.left=clamped", "bar.boundary.top=slip_wall",
+                           "bar.boundary.right={kind: traction, value: [-5, 0]}"})
+    EXPECT_NE(with_side("bar_on_wall", side).find(idle), std::string::npos) << with_side("bar_on_wall", side);
+  EXPECT_NE(
+      with_side("bar_on_wall", "bar.boundary.left=clamped").find(" solids.bar.boundary.left: is no side"),
+      std::string::npos);
+  EXPECT_EQ(with_side("bar_on_wall", "bar.boundary.right={kind: traction, value: [0, 0]}"), "");
+  EXPECT_NE(with_side("beam", "beam.boundary.left=interface").find(idle), std::string::npos);
+  EXPECT_NE(with_side("beam", "beam.boundary.left=clamped", {"beam=beam"}).find(idle), std::string::npos);
+  const std::string of_disk = "    boundary: {left: free, right: free, bottom: clamped, top: free}\n";
+  EXPECT_NE(mistake_in(disk_case(disk_outline) + of_disk).find("solids.disk.boundary.bottom: " + idle),
+            std::string::npos);
+}
+
+TEST(CaseShape, StandsOnNoInterface) {
+  const std::string bar = with_side("bar_on_wall", "bar.boundary.bottom=interface");
+  EXPECT_NE(bar.find("solids.bar.boundary.bottom: the body stands on this side; write `bottom: clamped` or "
+                     "`bottom: slip_wall`"),
+            std::string::npos)
+      << bar;
+  const std::string rigid = with_side("beam", "beam.boundary.bottom=interface", {"beam=rigid"});
+  EXPECT_NE(rigid.find("the body stands on this side; write `bottom: slip_wall`"), std::string::npos)
+      << rigid;
+}
+
+/// The body is to the left of its outline: a hill from the right side to the left one has the bottom below it.
+TEST(CaseShape, HasTheSidesBetweenTheEndsOfItsOutline) {
+  const auto sides = [](Side first, Side last) {
+    SolidSpec solid;
+    solid.body_fitted.emplace_back();
+    solid.body_fitted.front().curve.walls = std::array{first, last};
+    return sides_of_body(solid);
+  };
+  EXPECT_EQ(sides(Side::bottom, Side::bottom), (std::vector{Side::bottom}));
+  EXPECT_EQ(sides(Side::right, Side::left), (std::vector{Side::left, Side::bottom, Side::right}));
+  EXPECT_EQ(sides(Side::right, Side::bottom), (std::vector{Side::bottom, Side::right}));
+  EXPECT_EQ(sides(Side::left, Side::top), (std::vector{Side::top, Side::left}));
 }
 
 }  // namespace
