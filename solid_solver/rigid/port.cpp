@@ -1,5 +1,7 @@
 #include "solid_solver/rigid/port.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <limits>
@@ -7,6 +9,7 @@
 #include <vector>
 
 #include "common/core/component_major.hpp"
+#include "common/core/failure.hpp"
 #include "common/interface/modal.hpp"
 #include "common/wire/sparse.hpp"
 
@@ -23,6 +26,12 @@ RigidParticipant::RigidParticipant(const Setup& setup, const SolidSpec& spec)
       from_case_(body_from_case(spec)),
       body_(from_case_.body),
       own_(own_load(0)) {
+  if (!from_case_.meets_gas && spec.body_force && !spec.fixed && !setup.problem.time.dt) {
+    throw UserMistake(fmt::format(
+        "solid \"{}\" is rigid and without a gas: nothing limits the step with which it follows its "
+        "`body_force`; write `time.dt`",
+        spec.name));
+  }
   Shape shape{.outlines = {}, .points = body_.points(), .meets_gas = from_case_.meets_gas};
   for (std::size_t k = 0; k < body_.outlines(); ++k) shape.outlines.push_back(body_.outline(k));
   const bool is_grid = !from_case_.across.empty();

@@ -132,6 +132,16 @@ void check_rigid(const SolidSpec& solid, const Node& node) {
   check_ways(solid, *boundary, path);
 }
 
+/// A rigid body has no waves that would limit a step: under a force of its own it would go from output to output in one.
+void check_step(const Case& problem, const SolidSpec& solid, const Node& root) {
+  if (!problem.fluids.empty() || problem.time.dt || solid.fixed || !solid.body_force) return;
+  fail(root.find("time")->place, "time",
+       fmt::format(
+           "the rigid solid `{}` without a gas has no largest step of its own, with which to follow its "
+           "`body_force`; write `dt` [time]",
+           solid.name));
+}
+
 }  // namespace
 
 void check_probe_places(const Case& problem, const Node& root) {
@@ -152,7 +162,10 @@ void check_laws(const Case& problem, const Node& root) {
   for (const SolidSpec& solid : problem.solids) {
     const Node& node = *root.find("solids")->find(solid.name);
     if (solid.law == rigid_law || solid.law == beam_law) check_initial(solid, node);
-    if (solid.law == rigid_law) check_rigid(solid, node);
+    if (solid.law == rigid_law) {
+      check_rigid(solid, node);
+      check_step(problem, solid, root);
+    }
     if (!problem.reference.computed() || is_continuum(solid.law)) continue;
     fail(node.find("law")->place, fmt::format("solids.{}.law", solid.name),
          fmt::format(

@@ -185,5 +185,26 @@ TEST(CaseLaw, LoadedSideCannotBeRigid) {
   EXPECT_NE(message.find("a rigid solid cannot carry a load"), std::string::npos) << message;
 }
 
+/// A rigid body alone; `more`: keys of its own.
+std::string rigid_alone(const std::string& more, const std::string& time = "end: 2") {
+  return tests::mistake_in(
+      fmt::format("time: {{{}}}\nsolids:\n  body:\n    law: rigid\n    rho: 1\n{}", time, more));
+}
+
+TEST(CaseLaw, ARigidBodyWithoutAGasFollowsItsForceInStepsThatTheCaseGives) {
+  const std::string square =
+      "    grid: {x: [0, 1], y: [0, 1], points: [11, 11]}\n"
+      "    boundary: {left: free, right: free, top: free, bottom: free}\n";
+  const std::string force = square + "    body_force: [sin(pi * t), 0]\n";
+  EXPECT_EQ(rigid_alone(square), "");
+  EXPECT_EQ(rigid_alone(force, "end: 2, dt: 0.01"), "");
+  EXPECT_EQ(rigid_alone(force + "    motion: fixed\n"), "");
+  EXPECT_NE(
+      rigid_alone(force).find("time: the rigid solid `body` without a gas has no largest step of its own, "
+                              "with which to follow its `body_force`; write `dt` [time]"),
+      std::string::npos)
+      << rigid_alone(force);
+}
+
 }  // namespace
 }  // namespace fsi
