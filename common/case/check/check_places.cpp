@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "common/case/document/node_at.hpp"
 #include "common/case/grids/curve_side.hpp"
 #include "common/case/grids/grid_points.hpp"
 #include "common/case/schema/boundary_facts.hpp"
@@ -132,6 +133,20 @@ void check_rigid(const SolidSpec& solid, const Node& node) {
   check_ways(solid, *boundary, path);
 }
 
+/// What moves as sections or as a whole takes nothing at the points of its outline but a gas.
+void check_free_outline(const Case& problem, const SolidSpec& solid, const Node& node) {
+  if (!problem.fluids.empty() || solid.body_fitted.empty()) return;  // with a gas it must be an interface
+  const BodyFittedSpec& outline = solid.body_fitted.front();
+  const BoundarySpec& spec = outline.boundary[static_cast<std::size_t>(outline.side)];
+  const Hold holds = schema::solid_boundary(spec.kind).holds;
+  if (holds == Hold::others || (holds == Hold::nothing && !carries_load(spec))) return;
+  fail(node_at(node, {"body_fitted", "boundary"}).place,
+       fmt::format("solids.{}.body_fitted.boundary", solid.name),
+       fmt::format("a {} takes no load, no motion and no wall at its outline: write free, and the load as "
+                   "`body_force`",
+                   solid.law == beam_law ? "beam" : "rigid solid"));
+}
+
 /// A rigid body has no waves that would limit a step: under a force of its own it would go from output to output in one.
 void check_step(const Case& problem, const SolidSpec& solid, const Node& root) {
   if (!problem.fluids.empty() || problem.time.dt || solid.fixed || !solid.body_force) return;
@@ -161,7 +176,10 @@ void check_probe_places(const Case& problem, const Node& root) {
 void check_laws(const Case& problem, const Node& root) {
   for (const SolidSpec& solid : problem.solids) {
     const Node& node = *root.find("solids")->find(solid.name);
-    if (solid.law == rigid_law || solid.law == beam_law) check_initial(solid, node);
+    if (solid.law == rigid_law || solid.law == beam_law) {
+      check_initial(solid, node);
+      check_free_outline(problem, solid, node);
+    }
     if (solid.law == rigid_law) {
       check_rigid(solid, node);
       check_step(problem, solid, root);

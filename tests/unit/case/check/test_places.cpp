@@ -206,5 +206,37 @@ TEST(CaseLaw, ARigidBodyWithoutAGasFollowsItsForceInStepsThatTheCaseGives) {
       << rigid_alone(force);
 }
 
+/// With `shape` the load of a side is that of the outline, where neither program looks for one.
+TEST(CaseLaw, ABodyThatIsNoContinuumTakesNothingAtItsOutline) {
+  const auto disk = [](const std::string& boundary) {
+    return rigid_alone(
+        fmt::format("    shape: {{kind: circle, radius: 1}}\n    body_fitted: {{boundary: {}}}\n", boundary));
+  };
+  const auto flap = [](const std::string& boundary) {
+    return tests::mistake_in(fmt::format(
+        "time: {{end: 2, dt: 0.02}}\nsolids:\n  flap:\n    law: beam\n    rho: 1\n    E: 250\n    nu: 0.25\n"
+        "    shape: {{kind: polygon, corners: [[-0.05, 0], [-0.05, 1], [0.05, 1], [0.05, 0]], radius: 0, "
+        "walls: [bottom, bottom]}}\n"
+        "    body_fitted: {{boundary: {}}}\n"
+        "    boundary: {{left: free, right: free, bottom: clamped, top: free}}\n"
+        "    beam: {{line: [[0, 0], [0, 1]], thickness: 0.1, elements: 20, ends: [clamped, free]}}\n",
+        boundary));
+  };
+  EXPECT_EQ(disk("free"), "");
+  EXPECT_EQ(flap("free"), "");
+  for (const char* given : {"{kind: traction, value: [0.01, 0]}",
+                            "{kind: displacement, value: [0.1 * t^2, 0]}", "clamped", "slip_wall"}) {
+    EXPECT_NE(
+        disk(given).find("solids.body.body_fitted.boundary: a rigid solid takes no load, no motion and no "
+                         "wall at its outline: write free, and the load as `body_force`"),
+        std::string::npos)
+        << disk(given);
+    EXPECT_NE(
+        flap(given).find("solids.flap.body_fitted.boundary: a beam takes no load, no motion and no wall"),
+        std::string::npos)
+        << flap(given);
+  }
+}
+
 }  // namespace
 }  // namespace fsi
