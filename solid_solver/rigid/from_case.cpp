@@ -85,7 +85,7 @@ Side opposite(Side side) {
   std::abort();  // each has one
 }
 
-/// Direction of a side that has to be straight to slide.
+/// Direction of a side; `check` lets straight ones slide.
 Vec2 direction_along(const std::vector<double>& x) {
   const std::size_t n = x.size() / 2;
   return Vec2(x[n - 1] - x[0], x[2 * n - 1] - x[n]).normalized();

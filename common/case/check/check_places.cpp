@@ -104,6 +104,18 @@ void check_initial(const SolidSpec& solid, const Node& node) {
                    solid.law == beam_law ? "beam" : "rigid solid"));
 }
 
+/// Whether all points of a side lie on the line through its ends.
+bool is_straight(const GridSpec& grid, Side side) {
+  constexpr double round_off = 1e-8;  // of its length
+  const int last = points_along(grid, side) - 1;
+  const Vec2 first = side_point(grid, side, 0), chord = side_point(grid, side, last) - first;
+  for (int k = 1; k < last; ++k) {
+    if (!(std::abs(cross(chord, side_point(grid, side, k) - first)) <= round_off * chord.squaredNorm()))
+      return false;
+  }
+  return true;
+}
+
 /// Where a side lets a rigid body go: a straight way that is the same for all of them.
 void check_ways(const SolidSpec& solid, const Node& boundary, const std::string& path) {
   constexpr double parallel = 1e-8;
@@ -111,12 +123,18 @@ void check_ways(const SolidSpec& solid, const Node& boundary, const std::string&
   for (const Side side : sides_of_body(solid)) {
     const BoundarySpec& spec = solid.boundary[static_cast<std::size_t>(side)];
     if (solid.fixed || schema::solid_boundary(spec.kind).holds != Hold::normal) continue;
+    const auto refuse = [&](const char* why) {
+      fail(boundary.find(name_of(side))->place, fmt::format("{}.{}", path, name_of(side)), why);
+    };
+    if (!is_straight(solid.grid, side))
+      refuse(
+          "the body slides along a wall that is not straight, so that it cannot move; write `motion: fixed`, "
+          "or free");
     const Vec2 along =
         (side_point(solid.grid, side, points_along(solid.grid, side) - 1) - side_point(solid.grid, side, 0))
             .normalized();
-    if (way && std::abs(way->x() * along.y() - way->y() * along.x()) > parallel)
-      fail(
-          boundary.find(name_of(side))->place, fmt::format("{}.{}", path, name_of(side)),
+    if (way && std::abs(cross(*way, along)) > parallel)
+      refuse(
           "this side and another one let the body slide along different walls, so that it cannot move; write "
           "`motion: fixed`, or free for one of them");
     way = along;

@@ -27,6 +27,12 @@ std::string disk_probe(const std::string& in, const std::string& x, const std::s
                     {"output.probes=[{name: a, in: " + in + ", x: " + x + ", y: " + y + "}]"});
 }
 
+/// A rigid body alone; `more`: keys of its own.
+std::string rigid_alone(const std::string& more, const std::string& time = "end: 2") {
+  return tests::mistake_in(
+      fmt::format("time: {{{}}}\nsolids:\n  body:\n    law: rigid\n    rho: 1\n{}", time, more));
+}
+
 TEST(StartOfASolid, IsFiniteAndLeavesTheOutlineWhereTheGasHasIt) {
   const auto ellipse = [](const std::string& value) {
     return mistake_of("shock_ellipse", {"solids.ellipse." + value});
@@ -179,16 +185,28 @@ TEST(CaseLaw, ARigidBodyBetweenCrossingWaysCannotMove) {
   EXPECT_EQ(mistake_of("rigid_piston", {"parameters.angle=30"}), "");
 }
 
+TEST(CaseLaw, ARigidBodySlidesAlongAStraightWallOnly) {
+  const auto on_floor = [](const char* floor, const char* motion = "free") {
+    return rigid_alone(fmt::format(
+        "    motion: {}\n"
+        "    grid: {{kind: mapped, points: [21, 11], map: [r - 1, \"0.5 * s + (1 - s) * ({})\"]}}\n"
+        "    boundary: {{left: free, right: free, bottom: slip_wall, top: free}}\n",
+        motion, floor));
+  };
+  EXPECT_EQ(on_floor("0"), "");
+  EXPECT_EQ(on_floor("0.2 * r"), "");
+  EXPECT_EQ(on_floor("-0.1 * sin(pi * r)", "fixed"), "");
+  for (const char* floor : {"-0.1 * sin(pi * r)", "1e-6 * sin(2 * pi * r)"})
+    EXPECT_NE(on_floor(floor).find("solids.body.boundary.bottom: the body slides along a wall that is not "
+                                   "straight, so that it cannot move; write `motion: fixed`, or free"),
+              std::string::npos)
+        << on_floor(floor);
+}
+
 TEST(CaseLaw, LoadedSideCannotBeRigid) {
   const std::string side = "solids.beam.boundary.bottom={kind: traction, value: [t, 0]}";
   const std::string message = mistake_of("beam", {side}, {"beam=rigid"});
   EXPECT_NE(message.find("a rigid solid cannot carry a load"), std::string::npos) << message;
-}
-
-/// A rigid body alone; `more`: keys of its own.
-std::string rigid_alone(const std::string& more, const std::string& time = "end: 2") {
-  return tests::mistake_in(
-      fmt::format("time: {{{}}}\nsolids:\n  body:\n    law: rigid\n    rho: 1\n{}", time, more));
 }
 
 TEST(CaseLaw, ARigidBodyWithoutAGasFollowsItsForceInStepsThatTheCaseGives) {
