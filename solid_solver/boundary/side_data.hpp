@@ -35,11 +35,20 @@ struct SideData {
   std::function<VectorFunction()> exact_traction = {};
 };
 
-/// Rate of change of a formula in t, by fourth-order differences. @param time_scale time in which it changes by
-/// much [time]
+/// Rate of change of a formula in t, by fourth-order differences: central ones, and one-sided ones where the formula
+/// has no value so much earlier, as t^1.5 at the start, or later. @param time_scale time in which it changes by much [time]
 inline VectorFunction rate_of(VectorFunction f, double time_scale) {
   return [f = std::move(f), h = 1e-3 * time_scale](double x, double y, double t) -> Vec2 {
-    return (8 * (f(x, y, t + h) - f(x, y, t - h)) - (f(x, y, t + 2 * h) - f(x, y, t - 2 * h))) / (12 * h);
+    const Vec2 central =
+        (8 * (f(x, y, t + h) - f(x, y, t - h)) - (f(x, y, t + 2 * h) - f(x, y, t - 2 * h))) / (12 * h);
+    if (central.allFinite()) return central;
+    const auto one_sided = [&](double step) -> Vec2 {
+      return (-25 * f(x, y, t) + 48 * f(x, y, t + step) - 36 * f(x, y, t + 2 * step) +
+              16 * f(x, y, t + 3 * step) - 3 * f(x, y, t + 4 * step)) /
+             (12 * step);
+    };
+    const Vec2 forward = one_sided(h);
+    return forward.allFinite() ? forward : one_sided(-h);
   };
 }
 

@@ -22,7 +22,13 @@ void Tractions::find(ConstFieldView q, Side side, double t, SideMemory& memory) 
                                                        (stretched.norm() * along.norm())
                                                  : 0.0;
     const Vec2 now = tau(x.x(), x.y(), t);
-    const Vec2 now_rate = (tau(x.x(), x.y(), t + delta) - tau(x.x(), x.y(), t - delta)) / (2.0 * delta);
+    const Vec2 later = tau(x.x(), x.y(), t + delta), before = tau(x.x(), x.y(), t - delta);
+    Vec2 now_rate = (later - before) / (2.0 * delta);
+    if (!now_rate.allFinite()) {  // a formula without values before the start, or after the end
+      const double step = later.allFinite() ? delta : -delta;
+      const Vec2 next = later.allFinite() ? later : before;
+      now_rate = (-3.0 * now + 4.0 * next - tau(x.x(), x.y(), t + 2.0 * step)) / (2.0 * step);
+    }
     T = now * per_reference_area;
     rate = now_rate * per_reference_area + now * its_rate;
   }

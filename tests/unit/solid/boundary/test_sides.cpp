@@ -4,6 +4,8 @@
 
 #include <array>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <vector>
 
 #include "solid_solver/boundary/conditions/ghost_frame.hpp"
@@ -140,6 +142,46 @@ TEST(GivenMotion, OfASideIsThatOfItsFunctionsAndOfItsCorners) {
   ASSERT_TRUE(corner);
   EXPECT_EQ(corner->u, Vec2(3, 2));
   EXPECT_FALSE(given_motion(body.sides, Side::top, 1, 3) || given_motion(body.sides, Side::top, 6, 3));
+}
+
+/// Of a motion that has values from 0 to 1 alone.
+VectorFunction from_0_to_1(const std::function<Vec2(double)>& motion) {
+  return [motion](double /*x*/, double /*y*/, double t) -> Vec2 {
+    return t < 0 || t > 1 ? Vec2::Constant(std::numeric_limits<double>::quiet_NaN()) : motion(t);
+  };
+}
+
+TEST(RateOfAFormula, IsThatOfAPolynomialWhereThisHasNoValueBeforeOrAfter) {
+  const VectorFunction rate = rate_of(from_0_to_1([](double t) -> Vec2 {
+                                        return {3 * t, 1 - 2 * t + t * t * t * t};
+                                      }),
+                                      1.0);
+  for (const double t : {0.0, 5e-4, 1e-3, 0.5, 0.999, 1.0}) {
+    // Round-off of numbers of size 1, of which sums are divided by 1e-3.
+    EXPECT_NEAR((rate(0, 0, t) - Vec2(3, -2 + 4 * t * t * t)).norm(), 0, 1e-11) << t;
+  }
+}
+
+TEST(RateOfAFormula, HasTheErrorOfCentralDifferencesWhereTheseHaveAllValues) {
+  const double h = 0.02;  // their error is h^4 / 30 of the fifth derivative, that of one-sided ones h^4 / 5
+  const VectorFunction rate = rate_of(from_0_to_1([](double t) -> Vec2 {
+                                        return {std::sin(t), 0};
+                                      }),
+                                      1e3 * h);
+  EXPECT_LT(std::abs(rate(0, 0, 0.5).x() - std::cos(0.5)), h * h * h * h / 25);
+  EXPECT_LT(std::abs(rate(0, 0, 0).x() - 1), h * h * h * h / 4);
+}
+
+TEST(Tractions, HaveARateWhereTheirFormulaHasNoValueBeforeOrAfter) {
+  Boundaries boundaries;
+  boundaries[3].vector = from_0_to_1([](double t) -> Vec2 { return {1 + t, 2 * t * t}; });
+  for (const double t : {0.0, 0.25, 1.0}) {
+    Body body(test::unit_square(6), boundaries);
+    body.assign([](double, double) { return SolidState{}; });
+    Tractions(body.sides, body.chosen, 1.0).find(body.q.view(), Side::top, t, body.memory);
+    for (int k = 0; k < 7; ++k)
+      EXPECT_NEAR((body.memory.T_rate(Side::top, k) - Vec2(1, 4 * t)).norm(), 0, 1e-11) << t;
+  }
 }
 
 TEST(Eq42Traction, OfAStretchedSideIsThatOfItsPresentLength) {
