@@ -177,14 +177,17 @@ void SolidComponent<L>::set_body_force(VectorFunction force) {
   force_ = body_force_ ? Field(layout(), 2) : Field();
 }
 
-/// Where the prediction needs it.
+/// Where the prediction needs it; at ghost points, where a formula may have no value, that of the point beside them.
 template <Law L>
 void SolidComponent<L>::evaluate_force(double t) {
   if (!body_force_) return;
   const ConstFieldView x = grid_.x();
+  const auto force_at = [&](int i, int j) -> Vec2 { return body_force_(x(0, i, j), x(1, i, j), t); };
   const auto evaluate = [&](int j, const grid::Interval& run) {
     for (int i = run.begin; i < run.end; ++i) {
-      const Vec2 force = body_force_(x(0, i, j), x(1, i, j), t);
+      Vec2 force = force_at(i, j);
+      if (!force.allFinite())
+        force = force_at(std::clamp(i, 0, layout().n1 - 1), std::clamp(j, 0, layout().n2 - 1));
       force_(0, i, j) = force.x();
       force_(1, i, j) = force.y();
     }

@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "common/core/failure.hpp"
 #include "solid_solver/boundary/every_boundary.hpp"
@@ -82,6 +84,30 @@ TEST(Eq37Displacement, FollowsAUniformForceAsAStoneFallsEq2) {
   const Errors errors = solver.errors(falling, solver.t());
   EXPECT_LT(errors.u, 1e-12);  // the scheme is exact for quadratic u(t); round-off over h
   EXPECT_LT(errors.v, 1e-12);
+}
+
+// Ghost points are no part of the body: that a formula has no value there says nothing.
+TEST(Eq37Displacement, FollowsAForceThatHasValuesInTheBodyAlone) {
+  const auto fall = [](bool everywhere) {
+    Boundaries all_free;
+    SolidSolver<NeoHookean> solver(test::unit_square(12), NeoHookean{.lambda = 1, .mu = 1}, {.rho = 2},
+                                   all_free, 0);
+    solver.set_body_force([everywhere](double x, double y, double) -> Vec2 {
+      constexpr double none = std::numeric_limits<double>::quiet_NaN(), round_off = 1e-12;
+      const bool inside = std::min(x, y) > -round_off && std::max(x, y) < 1 + round_off;
+      return {0, everywhere || inside ? -6.0 : none};
+    });
+    solver.assign_initial_conditions([](double, double, double) { return SolidState{}; });
+    advance(solver, 10);
+    std::vector<double> values;
+    for (int k = 0; k < plane::count; ++k) {
+      for (int j = 0; j < 13; ++j) {
+        for (int i = 0; i < 13; ++i) values.push_back(std::as_const(solver).state()(k, i, j));
+      }
+    }
+    return values;
+  };
+  EXPECT_EQ(fall(false), fall(true));
 }
 
 TEST(SolidErrors, SayThatAValueIsNoNumberWhereverItIs) {
