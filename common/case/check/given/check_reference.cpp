@@ -61,6 +61,21 @@ void check_motion_of_solids(const Case& problem, const Node& root) {
   }
 }
 
+/// What holds on the outline of a solid with a `shape`; null where it has none.
+const BoundarySpec* on_outline(const SolidSpec& solid) {
+  if (solid.body_fitted.empty()) return nullptr;
+  const BodyFittedSpec& outline = solid.body_fitted.front();
+  return &outline.boundary[static_cast<std::size_t>(outline.side)];
+}
+
+std::string path_of_outline(const SolidSpec& solid) {
+  return fmt::format("solids.{}.body_fitted.boundary", solid.name);
+}
+
+const Node& node_of_outline(const SolidSpec& solid, const Node& root) {
+  return node_at(root, {"solids", solid.name, "body_fitted", "boundary"});
+}
+
 /// Who takes data from the reference finds them there.
 void check_takers(const Case& problem, const Node& root) {
   const auto need = [&](const BoundarySpec& spec, bool is_gas, const std::string& path, const Node& node) {
@@ -87,6 +102,10 @@ void check_takers(const Case& problem, const Node& root) {
     if (solid.initial_from_reference)
       check_start(problem.reference, false, "solids." + solid.name,
                   node_at(root, {"solids", solid.name, "initial"}));
+  }
+  for (const SolidSpec& solid : problem.solids) {
+    if (const BoundarySpec* outline = on_outline(solid))
+      need(*outline, false, path_of_outline(solid), node_of_outline(solid, root));
   }
   for (const Side side : all_sides) {
     const auto index = static_cast<std::size_t>(side);
@@ -249,6 +268,9 @@ void check_solid(const Case& problem, const SolidSpec& solid, const GivenVector&
     const double t = looked_at_time(problem, k);
     if (problem.reference.kind == ReferenceKind::manufactured)
       check_solid_strain(solid, u, t, node_at(root, {"reference", "u"}), "reference.u");
+    if (const BoundarySpec* outline = on_outline(solid); outline != nullptr && outline->from_reference)
+      check_solid_data(u, outline_points(solid.body_fitted.front().curve), t, node_of_outline(solid, root),
+                       path_of_outline(solid));
     for (const Side side : all_sides) {
       if (solid.boundary[static_cast<std::size_t>(side)].from_reference)
         check_solid_data(u, sample_points(solid.grid, side), t, node_at(node, {"boundary", name_of(side)}),

@@ -282,5 +282,36 @@ TEST(GivenReference, WithAPathOfTheInterfaceIsForElasticBodies) {
   EXPECT_NE(message.find("interface.motion: is the path of elastic bodies"), std::string::npos) << message;
 }
 
+/// A disk alone whose outline follows a reference.
+std::string led_disk(const std::string& boundary, const std::string& reference) {
+  return fmt::format(R"(time: {{end: 0.1}}
+grid: {{factor: 2}}
+solids:
+  disk:
+    law: neo_hookean
+    rho: 1
+    lambda: 1
+    mu: 1
+    shape: {{kind: circle, radius: 1}}
+    body_fitted: {{boundary: {}}}
+reference: {}
+)",
+                     boundary, reference);
+}
+
+TEST(GivenOutline, ComesFromAReferenceThatHasIt) {
+  EXPECT_EQ(mistake_in(led_disk("displacement", "{kind: manufactured, u: [0.1 * t * x, 0]}")), "");
+  expect_refused(led_disk("displacement", "{kind: expressions, fluid: {rho: 1, v: [0, 0], p: 1}}"),
+                 "solids.disk.body_fitted.boundary: takes its data from `reference`, which has no `u`");
+  expect_refused(
+      led_disk("{kind: traction, value: reference}", "{kind: elastic_piston, density_ratio: 1, c_p: 1}"),
+      "solids.disk.body_fitted.boundary: takes its traction from `reference`, and `elastic_piston` "
+      "has none");
+  expect_refused(
+      led_disk("displacement", "{kind: expressions, u: [sqrt(x + 0.99), 0]}"),
+      "solids.disk.body_fitted.boundary: takes its data from `reference`, whose displacement is not "
+      "finite at (-");
+}
+
 }  // namespace
 }  // namespace fsi
