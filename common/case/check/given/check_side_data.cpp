@@ -36,9 +36,9 @@ struct GivenSide {
   }
 };
 
-/// A point of a side of a solid and its neighbour inside.
+/// A point of a side of a solid, its neighbour inside, and the direction of the side there.
 struct SidePoint {
-  Vec2 x, inner;
+  Vec2 x, inner, along;
 };
 
 GivenSide given_side(Side side, const BoundarySpec& spec, const Node& boundary, const std::string& path) {
@@ -69,20 +69,41 @@ void check_values(const GivenSide& side, const Vec2& x, double t) {
   }
 }
 
+/// What is wrong with the first cell where a side begins with another displacement than the body, or "".
+std::string wrong_in_first_cell(const SolidSpec& solid, const SidePoint& point, const Vec2& of_side,
+                                const GivenVector& u) {
+  const Vec2 inwards = point.inner - point.x;
+  return unbearable(
+      solid, Mat2::Identity() + (u(point.inner, 0) - of_side) * inwards.transpose() / inwards.squaredNorm());
+}
+
 /// A displacement that does not begin where the body does is a jump over the first cell, which must bear it.
 void check_jump(const SolidSpec& solid, const GivenSide& side, const SidePoint& point, const GivenVector& u) {
   if (schema::solid_boundary(side.spec.kind).holds != Hold::motion || !side.spec.vector || !u) return;
   const Vec2 of_side = given_by(*side.spec.vector)(point.x, 0), own = u(point.x, 0);
-  const Vec2 inwards = point.inner - point.x;
-  const Mat2 F =
-      Mat2::Identity() + (u(point.inner, 0) - of_side) * inwards.transpose() / inwards.squaredNorm();
-  const std::string wrong = unbearable(solid, F);
+  const std::string wrong = wrong_in_first_cell(solid, point, of_side, u);
   if (wrong.empty()) return;
   fail(side.node_of("value").place, side.path_of("value"),
        fmt::format(
            "{} at once in the cell at ({:.4g}, {:.4g}): it begins with ({:.3g}, {:.3g}), and the solid with "
            "({:.3g}, {:.3g}); let it grow from there, or let `initial.u` be the same there",
            wrong, point.x[0], point.x[1], of_side[0], of_side[1], own[0], own[1]));
+}
+
+/// The same of a body that begins beside the wall along which it slides.
+void check_jump_to_wall(const SolidSpec& solid, const GivenSide& side, const SidePoint& point,
+                        const GivenVector& u) {
+  if (schema::solid_boundary(side.spec.kind).holds != Hold::normal || !u) return;
+  constexpr double round_off = 1e-12;
+  const Vec2 own = u(point.x, 0), on_wall = point.along * point.along.dot(own);
+  if ((own - on_wall).norm() <= round_off * point.x.norm()) return;
+  const std::string wrong = wrong_in_first_cell(solid, point, on_wall, u);
+  if (wrong.empty()) return;
+  fail(side.node.place, side.path,
+       fmt::format(
+           "{} at once in the cell at ({:.4g}, {:.4g}): the wall holds the body across it, which begins with "
+           "({:.3g}, {:.3g}); let `initial.u` lead along the wall there, or be zero",
+           wrong, point.x[0], point.x[1], own[0], own[1]));
 }
 
 /// The points of a side of the grid of a solid, or of its outline, at which its data are looked at.
@@ -92,7 +113,10 @@ std::vector<SidePoint> points_of(const GridSpec& grid, Side side) {
   const int n = points_along(grid, side);
   for (int b = 0; b <= samples; ++b) {
     const int k = b * (n - 1) / samples;
-    points.push_back({.x = side_point(grid, side, k), .inner = inner_point(grid, side, k)});
+    const Vec2 along =
+        side_point(grid, side, std::min(k + 1, n - 1)) - side_point(grid, side, std::max(k - 1, 0));
+    points.push_back(
+        {.x = side_point(grid, side, k), .inner = inner_point(grid, side, k), .along = along.normalized()});
   }
   return points;
 }
@@ -104,7 +128,7 @@ std::vector<SidePoint> points_of(const BodyFittedSpec& fitted) {
   for (std::size_t k = 0; k + 1 < outline.size(); k += std::max<std::size_t>(1, outline.size() / samples)) {
     const Vec2 along = (outline[k + 1] - outline[k]).normalized();
     const Vec2 inwards(-along[1], along[0]);  // the body is to the left
-    points.push_back({.x = outline[k], .inner = outline[k] + fitted.spacing * inwards});
+    points.push_back({.x = outline[k], .inner = outline[k] + fitted.spacing * inwards, .along = along});
   }
   return points;
 }
@@ -114,7 +138,10 @@ void check_solid_side(const Case& problem, const SolidSpec& solid, const GivenSi
   const GivenVector u = initial_displacement(problem, solid);
   for (int k = 0; k < looked_at_times; ++k)
     for (const SidePoint& point : points) check_values(side, point.x, looked_at_time(problem, k));
-  for (const SidePoint& point : points) check_jump(solid, side, point, u);
+  for (const SidePoint& point : points) {
+    check_jump(solid, side, point, u);
+    check_jump_to_wall(solid, side, point, u);
+  }
 }
 
 void check_sides_of_solid(const Case& problem, const SolidSpec& solid, const Node& node) {

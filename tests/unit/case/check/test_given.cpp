@@ -17,7 +17,7 @@ using tests::mistake_in;
 /// A solid alone.
 struct Solid {
   std::string law = "neo_hookean", left = "clamped", right = "{kind: traction, value: [0, 0]}",
-              initial = "{v: [0, 0]}", more = {};
+              initial = "{v: [0, 0]}", more = {}, bottom = "symmetry";
 
   std::string text() const {
     return fmt::format(R"(time: {{end: 2}}
@@ -28,10 +28,10 @@ solids:
     lambda: 2
     mu: 1
     grid: {{x: [-1, 0], y: [0, 1], points: [11, 11]}}
-    boundary: {{left: {}, right: {}, bottom: symmetry, top: symmetry}}
+    boundary: {{left: {}, right: {}, bottom: {}, top: {}}}
     initial: {}
 {})",
-                       law, left, right, initial, more);
+                       law, left, right, bottom, bottom, initial, more);
   }
 };
 
@@ -71,6 +71,24 @@ TEST(GivenSide, LeavesTheFirstCellOfTheBodyWhole) {
   EXPECT_EQ(mistake_in(Solid{.left = "{kind: displacement, value: [-0.3, 0.3]}"}.text()), "");
   expect_refused(Solid{.initial = "{u: [-0.3, 0]}"}.text(),
                  "solids.s.boundary.left: turns the material inside out");
+}
+
+/// A wall holds what is across it alone.
+TEST(GivenSide, ThatIsAWallLeavesTheFirstCellOfTheBodyWholeToo) {
+  for (const char* wall : {"slip_wall", "symmetry"}) {
+    const auto begins = [&](const char* initial) {
+      return Solid{.left = wall, .initial = fmt::format("{{u: [{}, 0.3]}}", initial), .bottom = "free"}
+          .text();
+    };
+    EXPECT_EQ(mistake_in(begins("0")), "");
+    EXPECT_EQ(mistake_in(begins("0.05")), "");
+    EXPECT_EQ(mistake_in(begins("-0.5 * (x + 1)")), "");
+    expect_refused(
+        begins("-0.3"),
+        "solids.s.boundary.left: turns the material inside out (det F = -2) at once in the cell at "
+        "(-1, 0): the wall holds the body across it, which begins with (-0.3, 0.3); let `initial.u` "
+        "lead along the wall there, or be zero");
+  }
 }
 
 TEST(GivenSide, IsFiniteForTheWholeRun) {
