@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "common/case/check/given/sample.hpp"
 #include "common/case/document/node_at.hpp"
 #include "common/case/grids/curve_side.hpp"
 #include "common/case/grids/grid_points.hpp"
@@ -22,6 +23,14 @@ namespace {
 using config::fail;
 using config::Node;
 
+/// The points of a curve, component-major.
+std::vector<double> curve_through(const std::vector<Vec2>& points) {
+  std::vector<double> x;
+  for (const Vec2& point : points) x.push_back(point[0]);
+  for (const Vec2& point : points) x.push_back(point[1]);
+  return x;
+}
+
 /// All points of the rim of a grid at t = 0, the first one again at the end.
 std::vector<double> rim_of(const GridSpec& grid) {
   std::vector<Vec2> points;
@@ -33,18 +42,16 @@ std::vector<double> rim_of(const GridSpec& grid) {
   append(Side::right, false);
   append(Side::top, true);
   append(Side::left, true);
-  std::vector<double> rim(2 * points.size());
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    rim[k] = points[k][0];
-    rim[points.size() + k] = points[k][1];
-  }
-  return rim;
+  return curve_through(points);
+}
+
+bool within(const std::vector<double>& rim, const Vec2& x) {
+  constexpr double round_off = 1e-9;
+  return grid::encloses(rim, x) || grid::distance_to(rim, x) <= round_off * (1 + x.norm());
 }
 
 bool within_rim(const GridSpec& grid, const Vec2& x) {
-  const std::vector<double> rim = rim_of(grid);
-  constexpr double round_off = 1e-9;
-  return grid::encloses(rim, x) || grid::distance_to(rim, x) <= round_off * (1 + x.norm());
+  return within(rim_of(grid), x);
 }
 
 void check_probe_in_gas(const FluidSpec& fluid, const Vec2& x, const Node& node, const std::string& path) {
@@ -63,12 +70,30 @@ void check_probe_in_gas(const FluidSpec& fluid, const Vec2& x, const Node& node,
   }
 }
 
+bool is_in_continuum(const SolidSpec& solid, const Vec2& x) {
+  const auto is_behind = [&](const BodyFittedSpec& spec) { return lies_behind(spec, solid.grid, x); };
+  return within_rim(solid.grid, x) && std::ranges::none_of(fitted_grids(solid), is_behind);
+}
+
+/// A beam has its outline alone, closed by the wall on which it stands; rounded corners may leave the end of its line
+/// outside.
+bool is_in_beam(const SolidSpec& solid, const Vec2& x) {
+  constexpr double round_off = 1e-9;
+  if (solid.beam && grid::distance_to(curve_through(solid.beam->line), x) <= round_off * (1 + x.norm()))
+    return true;
+  if (fitted_grids(solid).empty()) return within_rim(solid.grid, x);
+  const BodyFittedSpec& outline = solid.body_fitted.front();
+  const CurveSpec& curve = outline.curve;
+  if (curve.walls && curve.walls->front() != curve.walls->back()) return !lies_behind(outline, solid.grid, x);
+  std::vector<Vec2> rim = outline_points(curve);
+  rim.push_back(rim.front());
+  return within(curve_through(rim), x);
+}
+
 void check_probe_in_solid(const SolidSpec& solid, const Vec2& x, const Node& node, const std::string& path) {
-  if (!is_continuum(solid.law)) return;  // their motion is known everywhere
-  bool outside = !within_rim(solid.grid, x);
-  for (const BodyFittedSpec& spec : fitted_grids(solid))
-    outside = outside || lies_behind(spec, solid.grid, x);
-  if (!outside) return;
+  if (solid.law == rigid_law || solid.law == external_law)
+    return;  // the motion of the one is known everywhere
+  if (solid.law == beam_law ? is_in_beam(solid, x) : is_in_continuum(solid, x)) return;
   fail(node.place, path,
        fmt::format(
            "({:.6g}, {:.6g}) lies outside solid `{}` in its reference configuration; move it into the "

@@ -103,6 +103,24 @@ TEST(CaseProbe, OfASolidOutsideItsGridIsRefused) {
   EXPECT_NE(message.find("(0.5, 0.5) lies outside solid `block`"), std::string::npos) << message;
 }
 
+TEST(CaseProbe, OfABeamIsInItsBody) {
+  const auto probe = [](const char* name, const char* solid, const std::string& place) {
+    return mistake_of(name, {fmt::format("output.probes=[{{name: a, in: {}, {}}}]", solid, place)});
+  };
+  for (const char* place : {"x: 0, y: 0", "x: 0, y: 50", "x: 0.5, y: 20", "x: 0.2, y: 7"})
+    EXPECT_EQ(probe("shocked_panel", "panel", place), "") << place;
+  for (const char* place : {"x: 0, y: 51", "x: 2, y: 20", "x: 0, y: -1"}) {
+    const std::string message = probe("shocked_panel", "panel", place);
+    EXPECT_NE(
+        message.find("lies outside solid `panel` in its reference configuration; move it into the body"),
+        std::string::npos)
+        << place << message;
+  }
+  EXPECT_EQ(probe("plate", "plate", "x: 0, y: 0.01"), "");
+  EXPECT_NE(probe("plate", "plate", "x: 0.1, y: 0.01").find("(0.1, 0.01) lies outside solid `plate`"),
+            std::string::npos);
+}
+
 TEST(CaseProbe, BesideABeamOnAWallIsInTheGas) {
   EXPECT_EQ(mistake_of("beam", {"output.probes=[{name: a, in: fluid, x: 0.2, y: 0.5}]"}), "");
   EXPECT_NE(
