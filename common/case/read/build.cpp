@@ -121,12 +121,16 @@ SolidScheme solid_scheme_of(const Node* node) {
   return result;
 }
 
-/// `program` and an external law go together.
+/// `program` and an external law go together, and so does `data`.
 void check_program(const SolidSpec& solid, const Node& node, const std::string& path) {
-  const bool external = solid.law == external_law;
-  if (external == !solid.program.empty()) return;
-  if (external) fail(node.place, path, "law `external` needs `program: NAME`, the program that is the solid");
-  fail(node.find("program")->place, path + ".program", "belongs to `law: external`");
+  if (solid.law == external_law) {
+    if (solid.program.empty())
+      fail(node.place, path, "law `external` needs `program: NAME`, the program that is the solid");
+    return;
+  }
+  for (const char* key : {"program", "data"})
+    if (const Node* own = node.find(key))
+      fail(own->place, fmt::format("{}.{}", path, key), "belongs to `law: external`; leave it out");
 }
 
 /// Whether its ends alone hold every motion of a beam that does not deform.

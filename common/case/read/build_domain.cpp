@@ -132,6 +132,9 @@ BoundarySpec build_boundary(const Reader& reader, const Owner& owner, const Node
       read_value(reader, key, *value, path, result);
     }
   }
+  if (result.from_reference && result.velocity)
+    fail(node.find("velocity")->place, path + ".velocity",
+         "has no effect: `reference` brings the velocity with the displacement; leave it out");
   return result;
 }
 

@@ -286,6 +286,18 @@ TEST(GivenReference, HasATractionWhereItHasADisplacement) {
       << message;
 }
 
+TEST(GivenReference, BringsTheVelocityWithTheDisplacement) {
+  const auto led = [](const char* velocity) {
+    return Solid{.right = fmt::format("{{kind: displacement, value: reference{}}}", velocity),
+                 .more = "reference: {kind: manufactured, u: [0.1 * t * (x + 1), 0]}\n"}
+        .text();
+  };
+  EXPECT_EQ(mistake_in(led("")), "");
+  expect_refused(led(", velocity: [0.1, 0]"),
+                 "solids.s.boundary.right.velocity: has no effect: `reference` brings the velocity with the "
+                 "displacement; leave it out");
+}
+
 TEST(GivenReference, ThatIsChosenBringsTheForcesThatMakeItTheSolution) {
   EXPECT_EQ(mistake("solid_manufactured.yaml", {}), "");
   const std::string message = mistake("solid_manufactured.yaml", {"solids.solid.body_force=[1, 0]"});

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/case/case.hpp"
+#include "common/core/failure.hpp"
 
 namespace fsi {
 namespace {
@@ -55,6 +56,23 @@ TEST(Moduli, MayMakeASolidNearlyIncompressible) {
 TEST(Moduli, OfOneLawAreNotAskedOfAnother) {
   EXPECT_TRUE(solid_with("neo_hookean", "lambda: 1, mu: 1").data.empty());
   EXPECT_EQ(solid_with("gent", "lambda: 1, mu: 1, J_m: 8, c01: 9").data.size(), 1u);
+}
+
+TEST(Moduli, OfAProgramAreItsOwn) {
+  const auto refused = [](const std::string& law, const std::string& words) -> std::string {
+    try {
+      solid_with(law, words);
+      return "";
+    } catch (const UserMistake& mistake) {
+      return mistake.what();
+    }
+  };
+  EXPECT_EQ(refused("gent", "lambda: 1, mu: 1, J_m: 8"), "");
+  for (const char* data : {"stiffness: 3", "J_m: 3"}) {
+    const std::string words = std::string("lambda: 1, mu: 1, J_m: 8, data: {") + data + "}";
+    EXPECT_NE(refused("gent", words).find("belongs to `law: external`; leave it out"), std::string::npos)
+        << refused("gent", words);
+  }
 }
 
 }  // namespace

@@ -163,7 +163,9 @@ const Mistake values[] = {
     {"ExternalSolidWithoutAProgram", "law: neo_hookean", "law: external",
      "case.yaml:18:5: solids.solid: law `external` needs `program: NAME`, the program that is the solid"},
     {"ProgramOfALaw", "law: neo_hookean", "law: neo_hookean\n    program: mine",
-     "case.yaml:19:14: solids.solid.program: belongs to `law: external`"},
+     "case.yaml:19:14: solids.solid.program: belongs to `law: external`; leave it out"},
+    {"DataOfALaw", "law: neo_hookean", "law: neo_hookean\n    data: {stiffness: 3}",
+     "case.yaml:19:11: solids.solid.data: belongs to `law: external`; leave it out"},
     {"ModulusLeftOutWithALawOfDeformation", "    mu: 1\n", "",
      "case.yaml:18:5: solids.solid: `mu` is missing; the moduli are `lambda` and `mu`, or `E` and `nu`, or "
      "`c10`, `c01` "
