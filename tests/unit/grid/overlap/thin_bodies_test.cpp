@@ -12,7 +12,7 @@
 #include "common/grid/shapes/rounded_polygon.hpp"
 #include "tests/unit/grid/marched.hpp"
 
-namespace fsi::grid {
+namespace fsi::grid::thin_bodies {
 namespace {
 
 constexpr double h = 0.05;
@@ -124,4 +124,4 @@ TEST(ThinBodies, WhereAPointLiesBehindTheCurveNothingChanges) {
 }
 
 }  // namespace
-}  // namespace fsi::grid
+}  // namespace fsi::grid::thin_bodies
