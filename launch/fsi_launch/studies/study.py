@@ -35,9 +35,18 @@ class Trial:
     seconds: float = 0.0
     code: int = None        # exit code of its run; None: not yet
     summary: dict = field(default_factory=dict)
+    former: dict = field(default_factory=dict)  # {file: moment} of what lay in its folder before its run began
 
     def name(self):
         return self.directory.name
+
+    def files(self, pattern):
+        """Files of its folder that are its own run's: one that is refused leaves those of the run before it."""
+        return [path for path in sorted(self.directory.glob(pattern)) if self.former.get(path.name) != _moment(path)]
+
+    def table(self, name):
+        """Path of one of its tables, or None."""
+        return next((path for path in self.files("*.csv") if path.stem == name), None)
 
 
 # --- what is asked for
@@ -57,6 +66,12 @@ def values_of(text):
     if not found or not key.strip() or not all(values):
         raise UserMistake(f"--vary {text}: write KEY=VALUE,VALUE,.., as --vary parameters.rho_bar=0.1,1,10")
     return key.strip(), values
+
+
+def _moment(path):
+    """What changes when a file is written anew."""
+    found = path.stat()
+    return found.st_mtime_ns, found.st_ino
 
 
 def _folder_name(values, short):
@@ -96,6 +111,7 @@ def _finished(trial):
 
 
 def _start(trial, options):
+    trial.former = {path.name: _moment(path) for pattern in ("summary.json", "*.csv") for path in trial.directory.glob(pattern)}
     command = [str(paths.ROOT / "launch" / "fsi"), "run", options.case, "--no-progress", "--overwrite", "--out", str(trial.directory)]
     command += [f"--set={override}" for override in _overrides(trial, options)] + [f"--solid={law}" for law in options.laws]
     return subprocess.Popen(leashed(command), stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, **AS_NAMED,
@@ -106,8 +122,9 @@ def _end(trial, process, started):
     trial.code, trial.seconds = process.returncode, time.monotonic() - started
     said = process.stderr.read().strip().splitlines()
     process.stderr.close()
-    path = trial.directory / "summary.json"
-    trial.summary = json.loads(path.read_text(**AS_NAMED)) if path.is_file() else {
+    said = [line for line in said if line.startswith("fsi: ")] or said
+    own = trial.files("summary.json")
+    trial.summary = json.loads(own[0].read_text(**AS_NAMED)) if own else {
         "status": "failed", "reason": said[-1].removeprefix("fsi: ") if said else ""}
     if trial.code == EXPECTATION_MISSED and trial.summary["status"] == "completed":
         trial.code = DONE   # what the case expects holds for its own values
@@ -150,8 +167,7 @@ def _columns(path):
         return {heading.split(" ")[0]: heading for heading in next(csv.reader(file), [])}
 
 
-def _of_table(directory, name, column, statistic):
-    path = directory / f"{name}.csv"
+def _of_table(path, column, statistic):
     heading = _columns(path).get(column)
     with open(path, **AS_NAMED, newline="") as file:
         values = [float(row[heading]) for row in csv.DictReader(file)] if heading else []
@@ -165,11 +181,11 @@ def _expect_shown(trial, wanted):
         table, _, column = path.partition(".")
         if value_at(trial.summary, path) is not None or table == "errors":
             continue        # a run without errors may still be followed by one that has them
-        file = trial.directory / f"{table}.csv"
-        if not file.is_file() and table not in trial.summary:
-            tables = ", ".join(sorted(one.stem for one in trial.directory.glob("*.csv")))
+        file = trial.table(table)
+        if not file and table not in trial.summary:
+            tables = ", ".join(one.stem for one in trial.files("*.csv"))
             raise UserMistake(f"--show {name}: there is no {table!r} in summary.json and no such table; there are {tables}")
-        if file.is_file() and column not in _columns(file):
+        if file and column not in _columns(file):
             raise UserMistake(f"--show {name}: {table} has no column {column!r}; it has {', '.join(_columns(file))}")
 
 
@@ -181,9 +197,8 @@ def quantity(trial, wanted):
     if isinstance(value, (int, float)):
         return value
     table, _, column = path.partition(".")
-    if not (trial.directory / f"{table}.csv").is_file():
-        return None
-    return _of_table(trial.directory, table, column, statistic or "last")
+    file = trial.table(table)
+    return _of_table(file, column, statistic or "last") if file else None
 
 
 def _shown(found, wanted):
@@ -191,7 +206,7 @@ def _shown(found, wanted):
     if wanted:
         return wanted
     errors = list(dict.fromkeys(f"errors.{name}" for trial in found for name in trial.summary.get("errors", {})))
-    tables = sorted({path.stem for trial in found for path in trial.directory.glob("forces_*.csv")})
+    tables = sorted({path.stem for trial in found for path in trial.files("forces_*.csv")})
     return errors or [f"{table}.{column}" for table in tables for column in OF_A_BODY]
 
 

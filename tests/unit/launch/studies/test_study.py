@@ -1,9 +1,13 @@
 #!/usr/bin/python3
 """Studies: what is varied, which runs that makes, what is read from them."""
 
+import io
+import json
 import sys
 import unittest
 from pathlib import Path
+from types import SimpleNamespace
+from unittest import mock
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 import launcher  # noqa: E402
@@ -57,6 +61,54 @@ class Quantities(launcher.InScratch):
         self.assertEqual(study.result_of([trial], "c", {"a": ["1"]}, [])["quantities"], ["errors.rho"])
         trial.summary = {"status": "failed"}
         self.assertEqual(study.result_of([trial], "c", {"a": ["1"]}, [])["rows"][0]["quantities"]["forces_disk.angle"], 1)
+
+
+class FormerResults(launcher.InScratch):
+    """A run of a study that leaves nothing of its own, or not all, in a folder that holds another one's results."""
+
+    OPTIONS = SimpleNamespace(case="c", overrides=[], laws=[], jobs=1, show=[])
+
+    def made(self, code, said="", leave=lambda folder: None):
+        """The trial after its run, which says this, leaves this and ends so."""
+        (self.folder / "summary.json").write_text(json.dumps({"status": "completed", "errors": {"rho": 0.25}}))
+        for name in ("forces_a", "forces_b"):
+            (self.folder / f"{name}.csv").write_text("t [time],angle [rad]\n0,1\n1,2\n")
+        trial = study.Trial({"a": "1"}, self.folder)
+
+        def run(*_, **__):
+            leave(self.folder)
+            return SimpleNamespace(returncode=code, poll=lambda: code, stderr=io.StringIO(said))
+        with mock.patch.object(study, "leashed", lambda command: command), mock.patch.object(study, "tell"), \
+                mock.patch.object(study.subprocess, "Popen", run):
+            study._make([trial], self.OPTIONS, 0, 1)
+        return trial
+
+    def row(self, trial):
+        return study.result_of([trial], "c", {"a": ["1"]}, [])["rows"][0]
+
+    def test_are_not_those_of_a_run_that_is_refused_and_its_reason_is_told(self):
+        trial = self.made(2, "a warning\nfsi: c.yaml:3: no such key\n")
+        self.assertEqual((trial.code, trial.summary), (2, {"status": "failed", "reason": "c.yaml:3: no such key"}))
+        self.assertEqual(self.row(trial)["quantities"], {})
+        self.assertEqual([study.quantity(trial, name) for name in ("errors.rho", "forces_a.angle")], [None, None])
+
+    def test_a_launcher_that_breaks_has_not_missed_an_expectation(self):
+        trial = self.made(1, "Traceback ..\nKeyError: 'a'\n")
+        self.assertEqual((trial.code, trial.summary["status"], trial.summary["reason"]), (1, "failed", "KeyError: 'a'"))
+
+    def test_of_a_run_that_got_as_far_as_its_tables_these_are_its_own(self):
+        def leave(folder):
+            (folder / "new").write_text("t [time],angle [rad]\n0,1\n1,7\n")
+            (folder / "new").rename(folder / "forces_a.csv")
+        self.assertEqual(self.row(self.made(4, "fsi: lost\n", leave))["quantities"], {"forces_a.centre1": None, "forces_a.centre2": None,
+                                                                                     "forces_a.angle": 7})
+
+    def test_a_run_that_misses_what_its_case_expects_counts(self):
+        def leave(folder):
+            (folder / "new").write_text(json.dumps({"status": "completed", "errors": {"rho": 0.5}}))
+            (folder / "new").rename(folder / "summary.json")
+        trial = self.made(1, "fsi: check failed\n", leave)
+        self.assertEqual((trial.code, study.quantity(trial, "errors.rho")), (0, 0.5))
 
 
 if __name__ == "__main__":
