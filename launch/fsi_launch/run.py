@@ -14,7 +14,7 @@ from pathlib import Path
 from fsi_launch import case as cases
 from fsi_launch import paths
 from fsi_launch.living import hosts, interrupts, ranks, registry
-from fsi_launch.results import folder, former, probes, restart, summary, verdict
+from fsi_launch.results import alone, folder, former, probes, restart, summary, verdict
 from fsi_launch.failure import (DONE, EXPECTATION_MISSED, Failure, INTERRUPTED, NUMBERS_BROKE, OUTPUT_FAILED, PEER_LOST, TERMINATED,
                                 USER_MISTAKE, UserMistake)
 from fsi_launch.living.progress import Progress
@@ -209,18 +209,20 @@ def _resolved(request, say, path, own=None):
     return case
 
 
-def _begin(request, say):
-    """(Case, folder, folders that were made for it or None, checkpoint or None) of a run; the folder is there."""
+def _begin(request, say, until):
+    """(Case, folder, folders that were made for it or None, checkpoint or None) of a run; the folder is there, and no other command works
+    in it `until` the end of this contextlib.ExitStack."""
     if request.restart is None:
         if request.case is None:
             raise UserMistake("run: name a case, or a run with --restart DIR")
         case = _resolved(request, say, request.case)
-        directory, made = folder.make(request.out, case.name, request.overwrite)
+        directory, made = folder.make(request.out, case.name, request.overwrite, until)
         checkpoint = None
     else:
         if request.out is not None or request.overwrite:
             raise UserMistake("--restart goes on in the folder of the run; leave --out and --overwrite away")
         directory, made = Path(request.restart), None
+        until.enter_context(alone.at_work(directory, f"--restart {directory}", restart.REMEDY))
         restart.expect_run(directory)
         own = str(directory / "case.yaml")
         case = _resolved(request, say, request.case or own, own)
@@ -254,12 +256,13 @@ def _look_around(far, case, directory, request):
 def run(request):
     """Runs a case to its end. Throws UserMistake before anything is started; everything later is in the Result."""
     say = (lambda text: None) if request.quiet else tell
-    case, directory, made, checkpoint = _begin(request, say)
-    with folder.kept_if_begun(directory, made), former.kept(directory):
-        _write_case(case, directory)
-        if far := hosts.wanted(request.hosts, case):
-            _look_around(far, case, directory, request)
-        return _run(case, directory, checkpoint, request, say)
+    with contextlib.ExitStack() as until:
+        case, directory, made, checkpoint = _begin(request, say, until)
+        with folder.kept_if_begun(directory, made), former.kept(directory):
+            _write_case(case, directory)
+            if far := hosts.wanted(request.hosts, case):
+                _look_around(far, case, directory, request)
+            return _run(case, directory, checkpoint, request, say)
 
 
 def _refused(code, directory, result, checkpoint):

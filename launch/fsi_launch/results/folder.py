@@ -7,12 +7,13 @@ import time
 from pathlib import Path
 
 from fsi_launch.failure import Failure, OUTPUT_FAILED, UserMistake
-from fsi_launch.results import former, restart
+from fsi_launch.results import alone, former, restart
 
 OF_A_RUN = ("case.yaml", "summary.json", "log", "parts", "fields", "checkpoints", "last_state", "plots", "*.csv", "run.xmf",
             "fluid.h5", "fluid_*.h5", "solid_*.h5", "reference.h5", former.ASIDE)
 OF_THE_START = ("case.yaml", "case.yaml.tmp", "log")    # what is there before the first program begins
 # What a person has to put right; anything else is a fault of the disk.
+REMEDY = "name another folder, or wait for its end"
 PLACES = (errno.EACCES, errno.EPERM, errno.EROFS, errno.ENOTDIR, errno.ELOOP, errno.ENAMETOOLONG, errno.ENOENT)
 
 
@@ -54,7 +55,7 @@ def _expect_free(directory, overwrite):
     """No results are in it, or they are those of a run that is over and may be replaced: then they are gone."""
     if not directory.is_dir() or not any(directory.iterdir()):
         return
-    restart.expect_over(directory, f"--out {directory}", "name another folder, or wait for its end")
+    restart.expect_over(directory, f"--out {directory}", REMEDY)
     if not (directory / "case.yaml").is_file() or not (directory / "log").is_dir():
         raise UserMistake(f"--out {directory} is not empty and holds no run; name a new folder")
     if not overwrite:
@@ -63,25 +64,31 @@ def _expect_free(directory, overwrite):
 
 
 def _make(directory):
-    """The folder with log/ in it; returns those that were not there before, the innermost first. Of two runs that begin at the same
-    moment one makes log/."""
+    """The folder; returns those that were not there before, the innermost first."""
     made = [path for path in (directory, *directory.parents) if not path.exists()]
     directory.mkdir(parents=True, exist_ok=True)
+    return made
+
+
+def _make_log(directory):
+    """Of two runs that begin at the same moment, where the file system knows no locks, one makes log/."""
     try:
         (directory / "log").mkdir()
     except FileExistsError:
         raise UserMistake(f"--out {directory}: another run is beginning there; name another folder") from None
-    return made
 
 
-def make(out, name, overwrite):
+def make(out, name, overwrite, until):
     """(the folder of a new run's results with log/ in it, the folders that were made for it). `out`: where the user wants it, or None.
-    Throws UserMistake where none can be."""
+    `until`: the contextlib.ExitStack until whose end no other command may work there. Throws UserMistake where none can be."""
     directory = Path(out) if out else _free_name(name, time.strftime("%Y%m%d-%H%M%S"))
     try:
         _expect_place(directory)
+        made = _make(directory)
+        until.enter_context(alone.at_work(directory, f"--out {directory}", REMEDY))
         _expect_free(directory, overwrite)
-        return directory, _make(directory)
+        _make_log(directory)
+        return directory, made
     except OSError as error:
         if error.errno in PLACES:
             where = f": {error.filename}" if error.filename and str(error.filename) != str(directory) else ""

@@ -12,6 +12,7 @@ from fsi_launch.failure import Failure, OUTPUT_FAILED, UserMistake
 
 CHUNK = 1 << 20
 LAST_STEP = (1 << 64) - 1     # that a program can count
+REMEDY = "wait for its end, or stop it"
 
 
 @dataclass
@@ -96,7 +97,7 @@ def latest(directory, say=lambda text: None, digest=None):
     return None
 
 
-def expect_over(directory, option, remedy="wait for its end, or stop it"):
+def expect_over(directory, option, remedy=REMEDY):
     """Nobody may touch the folder of a run that lives. `option`: what the user typed."""
     if run := registry.running_in(directory):
         raise UserMistake(f"{option}: the run is still going on (launcher {run}); {remedy}")

@@ -2,6 +2,7 @@
 """A run goes on from its checkpoint as if it had never ended: all its files are the same to the bit."""
 
 import datetime
+import fcntl
 import json
 import os
 import re
@@ -310,6 +311,41 @@ class Refused(Interrupted):
         self.assertEqual(again.wait(), 143, again.stderr)
         self.assertEqual((again.summary()["status"], again.summary()["steps"]), ("failed", step))
         self.assertEqual(self.record(again).keys(), record.keys())
+
+
+class Alone(Interrupted):
+    """One command at a time works in a folder."""
+
+    def lock(self, run):
+        """Works in its folder, as another command would, until the test is over or this is closed. Throws BlockingIOError."""
+        held = os.open(run.directory, os.O_RDONLY | os.O_DIRECTORY)
+        self.addCleanup(os.close, held)
+        fcntl.flock(held, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        return held
+
+    def test_a_second_command_is_refused_and_touches_nothing(self):
+        case = self.case(self.NAME, "--set", "time.end=0.1", "--set", "output.times=[0.1]")
+        run = self.complete(*case)
+        before = results(run.directory)
+        held = self.lock(run)
+        for words, out in ((("--restart", str(run.directory), "--set", "time.end=0.2"), None), ((*case, "--overwrite"), "run")):
+            second = self.launch(*words, out=out)
+            self.assertEqual(second.wait(), 2, second.stderr)
+            self.assertRegex(second.stderr, f"fsi: --(restart|out) {run.directory}: another command is at work there; ")
+            self.assertEqual(results(run.directory), before)
+        fcntl.flock(held, fcntl.LOCK_UN)
+        self.assertEqual(self.restart(run, "--set", "time.end=0.2").wait(), 0)
+
+    def test_a_run_holds_its_folder_until_its_launcher_ends_and_its_programs_do_not(self):
+        run = self.begin()
+        with self.assertRaises(BlockingIOError):
+            self.lock(run)
+        for pid in run.programs().values():
+            opened = {os.path.realpath(path) for path in Path(f"/proc/{pid}/fd").iterdir()}
+            self.assertNotIn(str(run.directory.resolve()), opened)
+        run.process.kill()
+        run.wait()
+        self.lock(run)
 
 
 class Alive(EndToEnd):

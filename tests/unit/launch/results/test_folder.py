@@ -1,7 +1,9 @@
 #!/usr/bin/python3
 """Where results may lie, and what a run that is refused before a program has begun leaves of its folder: nothing."""
 
+import contextlib
 import errno
+import fcntl
 import os
 import sys
 import unittest
@@ -20,10 +22,12 @@ class Made(InScratch):
         registry = mock.patch.dict(os.environ, XDG_RUNTIME_DIR=str(self.folder))
         registry.start()
         self.addCleanup(registry.stop)
+        self.until = contextlib.ExitStack()     # the runs that have a folder here are over
+        self.addCleanup(self.until.close)
 
     def refused(self, out, code=2):
         with self.assertRaises(Failure) as caught:
-            folder.make(str(out), "piston", False)
+            folder.make(str(out), "piston", False, self.until)
         self.assertEqual(caught.exception.code, code)
         return str(caught.exception)
 
@@ -47,12 +51,20 @@ class Made(InScratch):
 
     def test_of_two_runs_that_begin_at_the_same_moment_one_is_refused(self):
         with mock.patch.object(folder, "_expect_free"):     # both have looked before either has begun
-            folder.make(str(self.folder / "run"), "piston", False)
+            folder.make(str(self.folder / "run"), "piston", False, self.until)
+            self.assertEqual(self.refused(self.folder / "run"), f"--out {self.folder / 'run'}: another command is at work there; name another folder, or wait for its end")
+            self.until.close()
             self.assertIn("another run is beginning there", self.refused(self.folder / "run"))
+
+    def test_a_file_system_without_locks_takes_runs_as_any_other(self):
+        for number in (errno.ENOLCK, errno.EBADF, errno.ENOTSUP):
+            with mock.patch.object(fcntl, "flock", side_effect=OSError(number, os.strerror(number))):
+                directory, _ = folder.make(str(self.folder / str(number)), "piston", False, self.until)
+                self.assertTrue((directory / "log").is_dir())
 
     def begun(self, leave=lambda directory: None, error=UserMistake("no"), out="a/b/run"):
         """What is left of the folder of a run that ends by `error`, after `leave(directory)`."""
-        directory, made = folder.make(str(self.folder / out), "piston", False)
+        directory, made = folder.make(str(self.folder / out), "piston", False, self.until)
         with self.assertRaises(type(error)), folder.kept_if_begun(directory, made):
             (directory / "case.yaml").write_text("name: piston\n", encoding="utf-8")
             leave(directory)
