@@ -14,7 +14,7 @@ from pathlib import Path
 from fsi_launch import case as cases
 from fsi_launch import paths
 from fsi_launch.living import hosts, interrupts, ranks, registry
-from fsi_launch.results import alone, folder, former, probes, restart, summary, verdict
+from fsi_launch.results import alone, folder, former, probes, replaced, restart, summary, verdict
 from fsi_launch.failure import (DONE, EXPECTATION_MISSED, Failure, INTERRUPTED, NUMBERS_BROKE, OUTPUT_FAILED, PEER_LOST, TERMINATED,
                                 USER_MISTAKE, UserMistake)
 from fsi_launch.living.progress import Progress
@@ -293,6 +293,7 @@ def _run(case, directory, checkpoint, request, say):
         entered = registry.Entry(identity, directory.resolve(), case.name, protection, case.programs, network)
         with interrupts.held(), entered as entry, ranks.memory(_ranks_here(request, case)) as memory, interrupts.heard():
             programs = _programs(case, directory, entry, checkpoint, reports, memory, request)
+            replaced.drop(directory)
             outcome, told = _watched(case, directory, programs, identity, request, say, checkpoint)
         parts = summary.read_parts(directory, case.programs, _copies(reports))
     found = verdict.judge(outcome, case, directory, parts)

@@ -2,12 +2,11 @@
 
 import contextlib
 import errno
-import shutil
 import time
 from pathlib import Path
 
 from fsi_launch.failure import Failure, OUTPUT_FAILED, UserMistake
-from fsi_launch.results import alone, former, restart
+from fsi_launch.results import alone, former, replaced, restart
 
 OF_A_RUN = ("case.yaml", "summary.json", "log", "parts", "fields", "checkpoints", "last_state", "plots", "*.csv", "run.xmf",
             "fluid.h5", "fluid_*.h5", "solid_*.h5", "reference.h5", former.ASIDE)
@@ -25,17 +24,12 @@ def _free_name(name, stamp):
     raise Failure(OUTPUT_FAILED, "no free name for the results in runs/")
 
 
-def remove_former_run(directory):
-    """Everything a run and its pictures leave (docs/output.md). Throws UserMistake if there is anything else."""
+def _expect_own(directory):
+    """Nothing but what a run and its pictures leave (docs/output.md) is in it. Throws UserMistake."""
     found = sorted(path for path in directory.iterdir() if not path.name.endswith((".part", ".tmp")))
     if strangers := [path.name for path in found if not any(path.match(pattern) for pattern in OF_A_RUN)]:
         raise UserMistake(f"--out {directory} also holds {', '.join(strangers[:3])}, which no run wrote; name a new folder, "
                           "or move it away")
-    for path in directory.iterdir():
-        if path.is_dir() and not path.is_symlink():
-            shutil.rmtree(path)
-        else:
-            path.unlink()
 
 
 def _expect_place(directory):
@@ -52,15 +46,17 @@ def _expect_place(directory):
 
 
 def _expect_free(directory, overwrite):
-    """No results are in it, or they are those of a run that is over and may be replaced: then they are gone."""
+    """No results are in it, or they are those of a run that is over and may be replaced: then they are laid aside."""
     if not directory.is_dir() or not any(directory.iterdir()):
         return
     restart.expect_over(directory, f"--out {directory}", REMEDY)
+    replaced.put_back(directory)    # by a run whose launcher was killed before its programs began
     if not (directory / "case.yaml").is_file() or not (directory / "log").is_dir():
         raise UserMistake(f"--out {directory} is not empty and holds no run; name a new folder")
     if not overwrite:
         raise UserMistake(f"--out {directory} holds the results of a run; name a new folder or add --overwrite")
-    remove_former_run(directory)
+    _expect_own(directory)
+    replaced.lay_aside(directory)
 
 
 def _make(directory):
@@ -80,12 +76,14 @@ def _make_log(directory):
 
 def make(out, name, overwrite, until):
     """(the folder of a new run's results with log/ in it, the folders that were made for it). `out`: where the user wants it, or None.
-    `until`: the contextlib.ExitStack until whose end no other command may work there. Throws UserMistake where none can be."""
+    `until`: the contextlib.ExitStack until whose end no other command may work there; if it ends by an error, results that the run would
+    have replaced are there again, unless replaced.drop was called. Throws UserMistake where none can be."""
     directory = Path(out) if out else _free_name(name, time.strftime("%Y%m%d-%H%M%S"))
     try:
         _expect_place(directory)
         made = _make(directory)
         until.enter_context(alone.at_work(directory, f"--out {directory}", REMEDY))
+        until.enter_context(replaced.kept(directory))
         _expect_free(directory, overwrite)
         _make_log(directory)
         return directory, made
@@ -112,7 +110,8 @@ def kept_if_begun(directory, made):
     except Exception:
         with contextlib.suppress(OSError):
             if made is not None and _holds_a_start(directory):
-                remove_former_run(directory)
+                for path in directory.iterdir():
+                    replaced.remove(path)
                 for path in made:
                     path.rmdir()
         raise

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from fsi_launch.living import processes, registry
-from fsi_launch.results import former
+from fsi_launch.results import former, replaced
 from fsi_launch.failure import Failure, OUTPUT_FAILED, UserMistake
 
 CHUNK = 1 << 20
@@ -107,9 +107,10 @@ def expect_over(directory, option, remedy=REMEDY):
 
 def expect_run(directory):
     """In `directory` is a run that is over and has left checkpoints."""
-    if not (directory / "case.yaml").is_file() and not former.is_aside(directory):
+    if not (directory / "case.yaml").is_file() and not former.is_aside(directory) and not replaced.is_aside(directory):
         raise UserMistake(f"--restart {directory} holds no run; name the folder of a run")
     expect_over(directory, f"--restart {directory}")
+    replaced.put_back(directory)    # by a run whose launcher was killed before its programs began
     former.put_back(directory)      # of a restart whose launcher was killed before the first step
     if not _folders(directory):
         raise UserMistake(f"--restart {directory} has no checkpoint; begin anew, with --set output.checkpoint_every=N")

@@ -190,6 +190,26 @@ class BadInput(EndToEnd):
         self.assertNotIn("--overwrite", unasked.stderr)
         self.assertEqual(len(living.programs()), 3)
 
+    def test_results_stay_where_the_run_that_would_replace_them_is_refused_or_killed_before_its_programs_start(self):
+        short = ("elastic_piston", "--set", "grid.factor=1", "--set", "expect={}")
+        run = self.complete(*short)
+
+        def found():
+            return {path: path.read_bytes() for path in run.directory.rglob("*") if path.is_file()}
+        before = found()
+        refused = self.launch(*short, "--overwrite", script="from fsi_launch import run\nfrom fsi_launch.failure import UserMistake\n"
+                              "def no(*_): raise UserMistake('no')\nrun._programs = no\n")
+        self.assertEqual(refused.wait(), 2, refused.stderr)
+        self.assertEqual(found(), before)
+        killed = self.launch(*short, "--overwrite", script="import os\nfrom fsi_launch import run\n"
+                             "run._programs = lambda *_: os.kill(os.getpid(), 9)\n")
+        killed.wait()
+        unasked = self.launch(*short)
+        self.assertEqual(unasked.wait(), 2, unasked.stderr)
+        self.assertEqual({path: content for path, content in found().items() if path.suffix != ".tmp"}, before)
+        again = self.complete(*short, "--overwrite")
+        self.assertEqual([path.name for path in again.directory.iterdir() if path.name.startswith(".")], [])
+
     def test_results_without_a_name_or_at_a_link_to_nowhere(self):
         run = self.launch("elastic_piston", "--out", "", out=None)
         self.assertEqual(run.wait(), 2, run.stderr)

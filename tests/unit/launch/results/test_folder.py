@@ -13,10 +13,10 @@ from unittest import mock
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from launcher import InScratch  # noqa: E402
 from fsi_launch.failure import Failure, OUTPUT_FAILED, UserMistake  # noqa: E402
-from fsi_launch.results import folder  # noqa: E402
+from fsi_launch.results import folder, replaced, restart  # noqa: E402
 
 
-class Made(InScratch):
+class Making(InScratch):
     def setUp(self):
         super().setUp()
         registry = mock.patch.dict(os.environ, XDG_RUNTIME_DIR=str(self.folder))
@@ -31,6 +31,8 @@ class Made(InScratch):
         self.assertEqual(caught.exception.code, code)
         return str(caught.exception)
 
+
+class Made(Making):
     def test_a_link_to_nowhere_is_named_with_where_it_leads(self):
         link = self.folder / "link"
         link.symlink_to("nowhere")
@@ -87,6 +89,91 @@ class Made(InScratch):
 
     def test_a_request_to_end_leaves_all(self):
         self.assertEqual(self.begun(error=KeyboardInterrupt()), ["a/b/run/case.yaml", "a/b/run/log"])
+
+
+class Replaced(Making):
+    """What --overwrite replaces is there until the programs of the new run start, at whatever moment the launcher ends."""
+
+    def setUp(self):
+        super().setUp()
+        self.run = self.folder / "run"
+        for path, content in (("case.yaml", "old"), ("log/fluid.log", "old"), ("fields/fluid_000000.h5", "old"), ("summary.json", "old")):
+            (self.run / path).parent.mkdir(parents=True, exist_ok=True)
+            (self.run / path).write_text(content)
+        self.before = self.found()
+
+    def found(self):
+        return {str(path.relative_to(self.run)): path.read_text() if path.is_file() else None for path in self.run.rglob("*")}
+
+    def begin(self):
+        folder.make(str(self.run), "piston", True, self.until)
+        (self.run / "case.yaml").write_text("new")
+        (self.run / "log" / "fluid.out").touch()
+
+    def test_a_run_that_is_refused_puts_it_back(self):
+        for error in (UserMistake("no"), OSError(errno.ENOSPC, "full"), KeyboardInterrupt()):
+            with self.assertRaises(type(error)), self.until:
+                self.begin()
+                self.assertFalse((self.run / "summary.json").exists())
+                raise error
+            self.assertEqual(self.found(), self.before)
+
+    def test_a_folder_that_cannot_be_cleared_puts_it_back(self):
+        rename, moved = Path.rename, []
+
+        def fail(path, target):
+            moved.append(path)
+            if len(moved) == 3:
+                raise OSError(errno.EBUSY, "a disk of its own", str(path))
+            return rename(path, target)
+        with self.assertRaises(Failure), mock.patch.object(Path, "rename", fail), self.until:
+            self.begin()
+        self.assertEqual(self.found(), self.before)
+
+    def killed(self, moment):
+        """As a launcher leaves it that is killed at this moment."""
+        aside = self.run / replaced.ASIDE
+        if moment == "before":
+            return
+        if moment == "half aside":
+            aside.mkdir()
+            (self.run / "case.yaml").rename(aside / "case.yaml")
+        else:
+            self.begin()
+            (self.run / "case.yaml.tmp").touch()
+        if moment == "half back":
+            (self.run / "case.yaml").unlink()
+            (aside / "case.yaml").rename(self.run / "case.yaml")
+
+    def test_after_a_launcher_that_was_killed_it_is_found_and_no_stranger(self):
+        for moment in ("before", "half aside", "aside", "half back"):
+            with self.subTest(moment):
+                self.killed(moment)
+                self.until.close()
+                with self.assertRaisesRegex(UserMistake, "--overwrite"), self.until:
+                    folder.make(str(self.run), "piston", False, self.until)
+                (self.run / "case.yaml.tmp").unlink(missing_ok=True)
+                self.assertEqual(self.found(), self.before)
+                with self.assertRaises(KeyboardInterrupt), self.until:
+                    self.begin()
+                    raise KeyboardInterrupt
+                self.assertEqual(self.found(), self.before)
+
+    def test_a_restart_finds_it_too(self):
+        self.killed("aside")
+        self.until.close()
+        (self.run / "case.yaml").unlink()
+        with self.assertRaisesRegex(UserMistake, "has no checkpoint"):
+            restart.expect_run(self.run)
+        (self.run / "case.yaml.tmp").unlink()
+        self.assertEqual(self.found(), self.before)
+
+    def test_it_is_gone_once_the_programs_start(self):
+        with self.assertRaises(KeyboardInterrupt), self.until:
+            self.begin()
+            replaced.drop(self.run)
+            raise KeyboardInterrupt
+        self.assertEqual(self.found(), {"case.yaml": "new", "log": None, "log/fluid.out": ""})
 
 
 if __name__ == "__main__":
