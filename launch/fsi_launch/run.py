@@ -131,6 +131,20 @@ def _write_exact(case, directory):
         raise Failure(OUTPUT_FAILED, answer.stderr.strip() or "reference_exact failed")
 
 
+def _finish(case, directory):
+    """What the launcher adds to the results when the programs have ended, as far as it can be written. Returns the first Failure, or None."""
+    failures = []
+    for add in (lambda: probes.merge(directory, case.programs), lambda: _write_xdmf(directory), lambda: _write_exact(case, directory)):
+        try:
+            add()
+        except Failure as failure:
+            failures.append(failure)
+        except OSError as error:
+            failures.append(Failure(OUTPUT_FAILED, f"cannot write {error.filename or directory}: {error.strerror}; make room there, and the run can "
+                                                   "go on from its last checkpoint"))
+    return next(iter(failures), None)
+
+
 # --- the whole
 
 
@@ -308,13 +322,9 @@ def _run(case, directory, checkpoint, request, say):
     if _refused(code, directory, result, checkpoint):
         return _put_back(code, directory, result)
     former.drop(directory)
-    try:
-        probes.merge(directory, case.programs)
-        _write_xdmf(directory)
-        _write_exact(case, directory)
-    except Failure as failure:
-        if code == DONE:
-            code, result["status"], result["reason"] = failure.code, "failed", str(failure)
+    failure = _finish(case, directory)
+    if failure and code == DONE:
+        code, result["status"], result["reason"] = failure.code, "failed", str(failure)
     expect = case.expect if request.judge and status == "completed" else []
     missed = summary.missed_expectations(result, expect)
     try:

@@ -1,5 +1,6 @@
 """probes.csv: what every program wrote about its own probes, side by side in one table over time."""
 
+import contextlib
 import csv
 import os
 from pathlib import Path
@@ -40,6 +41,11 @@ def merge(directory, programs):
     if not rows:
         return
     temporary = Path(directory) / "probes.csv.part"
-    with open(temporary, "w", encoding="utf-8", newline="") as file:
-        csv.writer(file, lineterminator="\n").writerows(rows)
-    os.replace(temporary, Path(directory) / "probes.csv")
+    try:
+        with open(temporary, "w", encoding="utf-8", newline="") as file:
+            csv.writer(file, lineterminator="\n").writerows(rows)
+        os.replace(temporary, Path(directory) / "probes.csv")
+    except OSError as error:
+        with contextlib.suppress(OSError):
+            temporary.unlink(missing_ok=True)   # the summary may find room in its place
+        raise OSError(error.errno, error.strerror, str(Path(directory) / "probes.csv")) from None

@@ -96,6 +96,24 @@ class FullDisk(EndToEnd):
         self.assertIn("/checkpoints", run.summary()["reason"])
 
 
+class FullDiskAtTheEnd(EndToEnd):
+    """The launcher finds no room for its own files; the summary, which has room, says so, and what the programs have ended with counts."""
+
+    NO_ROOM = "from fsi_launch.results import probes\ndef no(*_): raise OSError(28, 'No space left on device', 'probes.csv')\nprobes.merge = no\n"
+
+    def test_a_run_that_was_well_fails_and_says_where(self):
+        run = self.launch("sod_tube", "--set", "grid.factor=2", "--set", "expect={}", script=self.NO_ROOM)
+        self.assertEqual(run.wait(), 5, run.stderr)
+        self.assertEqual(run.summary()["status"], "failed")
+        self.assertRegex(run.summary()["reason"], "^cannot write probes.csv: No space left on device; ")
+        self.assertTrue((run.directory / "run.xmf").is_file())
+
+    def test_a_run_whose_numbers_broke_ends_so(self):
+        run = self.launch(*BREAKS, script=self.NO_ROOM)
+        self.assertEqual(run.wait(), 3, run.stderr)
+        self.assertRegex(run.summary()["reason"], r"step \d+")
+
+
 class FullDiskOfOneProgram(EndToEnd):
     """Limits of the size of files that single programs get while their run is paused. The lines of tables go to the disk sixteen at
     a time; those that are left at the end are fewer."""

@@ -2,15 +2,17 @@
 """summary.json is merged from what the programs leave, and the case's expectations are held against it."""
 
 import dataclasses
+import errno
 import json
 import sys
 import unittest
 from pathlib import Path
+from unittest import mock
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from launcher import InScratch  # noqa: E402
 from fsi_launch import run  # noqa: E402
-from fsi_launch.failure import NUMBERS_BROKE  # noqa: E402
+from fsi_launch.failure import Failure, NUMBERS_BROKE, OUTPUT_FAILED  # noqa: E402
 from amp_fsi.results import Run  # noqa: E402
 from fsi_launch.plot.reading import data  # noqa: E402
 from fsi_launch.results import probes, summary, verdict  # noqa: E402
@@ -28,6 +30,32 @@ class Advice(unittest.TestCase):
         self.assertRegex(run.advice_after(NUMBERS_BROKE, "traditional"), "projection=simplified may not$")
         for code, projection in ((NUMBERS_BROKE, "simplified"), (0, "traditional")):
             self.assertEqual(run.advice_after(code, projection), "")
+
+
+class Finishing(unittest.TestCase):
+    """What the launcher adds when the programs have ended."""
+
+    def finished(self, **ends):
+        """(the first failure, what was tried) where some of it ends so."""
+        tried = []
+
+        def act(name):
+            def add(*_):
+                tried.append(name)
+                if name in ends:
+                    raise ends[name]
+            return add
+        with mock.patch.object(run.probes, "merge", act("probes")), mock.patch.object(run, "_write_xdmf", act("xdmf")), \
+                mock.patch.object(run, "_write_exact", act("exact")):
+            return run._finish(piston(), Path("DIR")), tried
+
+    def test_one_that_fails_keeps_none_of_the_others_from_being_written_and_the_first_is_told(self):
+        full = OSError(errno.ENOSPC, "No space left on device", "DIR/probes.csv")
+        failure, tried = self.finished(probes=full, exact=Failure(OUTPUT_FAILED, "reference_exact failed"))
+        self.assertEqual((failure.code, tried), (OUTPUT_FAILED, ["probes", "xdmf", "exact"]))
+        self.assertRegex(str(failure), "^cannot write DIR/probes.csv: No space left on device; ")
+        self.assertEqual(str(self.finished(xdmf=Failure(OUTPUT_FAILED, "no xdmf"))[0]), "no xdmf")
+        self.assertEqual(self.finished(), (None, ["probes", "xdmf", "exact"]))
 
 
 class Summary(InScratch):
@@ -208,6 +236,14 @@ class Probes(InScratch):
         self.write("solid", "t [time],b.u1\n0,3\n")
         probes.merge(self.folder, ["fluid", "solid"])
         self.assertEqual((self.folder / "probes.csv").read_text(), "t [time],a.p,b.u1\n0,1,3\n0.5,2,\n")
+
+    def test_a_table_without_room_is_named_and_leaves_none_of_it(self):
+        self.write("fluid", "t [time],a.p\n0,1\n")
+        with mock.patch.object(probes.os, "replace", side_effect=OSError(errno.ENOSPC, "No space left")):
+            with self.assertRaises(OSError) as caught:
+                probes.merge(self.folder, ["fluid"])
+        self.assertEqual((caught.exception.errno, caught.exception.filename), (errno.ENOSPC, str(self.folder / "probes.csv")))
+        self.assertEqual([path.name for path in self.folder.iterdir()], ["parts"])
 
     def test_run_without_probes_has_no_table(self):
         probes.merge(self.folder, ["fluid"])
