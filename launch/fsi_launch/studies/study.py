@@ -1,11 +1,12 @@
 """`fsi study`: the same case with every combination of some of its values; what came out as text, markdown, CSV, JSON and a picture.
 
-Runs that are there already and whose case is the same are not made again: a study that was interrupted goes on by the same command.
+Runs that are there already, of the same case by the same build of the programs, are not made again: a study that was interrupted goes on by the same command.
 """
 
 import csv
 import itertools
 import json
+import math
 import os
 import re
 import subprocess
@@ -13,15 +14,16 @@ import time
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from fsi_launch import case as cases, paths
-from fsi_launch.failure import DONE, EXPECTATION_MISSED, UserMistake
+from fsi_launch import case as cases, paths, version
+from fsi_launch.failure import DONE, EXPECTATION_MISSED, Failure, OUTPUT_FAILED, UserMistake
 from fsi_launch.living.supervise import leashed
 from fsi_launch.run import needed
 from fsi_launch.results.summary import aligned, value_at
 from fsi_launch.telling import AS_NAMED, tell
 
 LOOK = 0.05             # [s] between two looks at the runs that are going on
-STATISTICS = {"last": lambda values: values[-1], "min": min, "max": max}
+STATISTICS = {"last": lambda values: values[-1], "min": lambda values: min(_known(values), default=None),
+              "max": lambda values: max(_known(values), default=None)}
 OF_A_BODY = ("centre1", "centre2", "angle")     # shown where there are no errors
 
 
@@ -96,13 +98,13 @@ def _overrides(trial, options):
 
 
 def _finished(trial):
-    """True if a former study has made this run, with the same case."""
+    """True if a former study has made this run, with the same case and this build of the programs."""
     try:
         summary = json.loads((trial.directory / "summary.json").read_text(**AS_NAMED))
         same = (trial.directory / "case.yaml").read_text(**AS_NAMED) == trial.case.text
     except (OSError, ValueError):
         return False
-    if same and summary.get("status") == "completed":
+    if same and summary.get("status") == "completed" and summary.get("build") == version.built():
         trial.summary, trial.code = summary, DONE
     return trial.code is not None
 
@@ -161,6 +163,22 @@ def _make(waiting, options, done, total):
 # --- what came out
 
 
+def _finite(value):
+    """A number that JSON can say; None in the place of any other, and of words."""
+    return value if isinstance(value, (int, float)) and math.isfinite(value) else None
+
+
+def _number(text):
+    try:
+        return _finite(float(text))
+    except (TypeError, ValueError):
+        return None
+
+
+def _known(values):
+    return [value for value in values if value is not None]
+
+
 def _columns(path):
     """{name: heading} of a table's columns; the unit behind the name is not part of it."""
     with open(path, **AS_NAMED, newline="") as file:
@@ -170,7 +188,7 @@ def _columns(path):
 def _of_table(path, column, statistic):
     heading = _columns(path).get(column)
     with open(path, **AS_NAMED, newline="") as file:
-        values = [float(row[heading]) for row in csv.DictReader(file)] if heading else []
+        values = [_number(row[heading]) for row in csv.DictReader(file)] if heading else []
     return STATISTICS[statistic](values) if values else None
 
 
@@ -191,11 +209,11 @@ def _expect_shown(trial, wanted):
 
 def quantity(trial, wanted):
     """The number behind a path of summary.json like errors.rho, or behind TABLE.COLUMN[:last|min|max] of one of the run's
-    tables like forces_disk.angle:max; None where there is none."""
+    tables like forces_disk.angle:max; None where there is none. What is no finite number is left out of min and max."""
     path, _, statistic = wanted.partition(":")
     value = value_at(trial.summary, path)
     if isinstance(value, (int, float)):
-        return value
+        return _finite(value)
     table, _, column = path.partition(".")
     file = trial.table(table)
     return _of_table(file, column, statistic or "last") if file else None
@@ -213,8 +231,8 @@ def _shown(found, wanted):
 def result_of(found, case, vary, wanted):
     """The content of study.json."""
     shown = _shown(found, wanted)
-    rows = [{"values": trial.values, "folder": trial.name(), "status": trial.summary["status"], "t": trial.summary.get("t"),
-             "steps": trial.summary.get("steps"), "wall_s": trial.summary.get("wall_s"),
+    rows = [{"values": trial.values, "folder": trial.name(), "status": trial.summary["status"], "t": _finite(trial.summary.get("t")),
+             "steps": trial.summary.get("steps"), "wall_s": _finite(trial.summary.get("wall_s")),
              "quantities": {name: quantity(trial, name) for name in shown}} for trial in found]
     return {"case": case, "vary": vary, "quantities": shown, "rows": rows}
 
@@ -245,7 +263,8 @@ def _write_csv(result, path):
 
 
 def _draw(result, directory):
-    """True where there was something to draw."""
+    """True where there was something to draw. The picture of another table is gone."""
+    (directory / "study.png").unlink(missing_ok=True)
     from fsi_launch.plot.look import style
     from fsi_launch.plot.several_runs import study
     style.use()
@@ -253,6 +272,22 @@ def _draw(result, directory):
     for name, figure in drawn:
         style.save(figure, directory / f"{name}.png")
     return bool(drawn)
+
+
+def _made(out, name):
+    """The folder of the study: the one that was named, or a new one, also for one of two that begin in the same second."""
+    if out:
+        Path(out).mkdir(parents=True, exist_ok=True)
+        return Path(out)
+    stem = f"runs/study-{name}-{time.strftime('%Y%m%d-%H%M%S')}"
+    for count in range(1, 1000):
+        directory = Path(stem + (f"-{count}" if count > 1 else ""))
+        try:
+            directory.mkdir(parents=True)
+            return directory
+        except FileExistsError:
+            continue
+    raise Failure(OUTPUT_FAILED, "no free name for the study in runs/; name one with --out")
 
 
 def main(options):
@@ -264,12 +299,13 @@ def main(options):
         if (statistic := wanted.partition(":")[2]) and statistic not in STATISTICS:
             raise UserMistake(f"--show {wanted}: write {', '.join(STATISTICS)} behind the colon")
     name = cases.resolve(options.case, options.overrides, options.laws).name
-    directory = Path(options.out or f"runs/study-{name}-{time.strftime('%Y%m%d-%H%M%S')}")
-    found = trials(vary, directory)
+    found = trials(vary, "")
     for trial in found:     # a mistake in the last one must not show after hours
         trial.case = cases.resolve(options.case, _overrides(trial, options), options.laws)
     paths.build([program for trial in found for program in needed(trial.case)])
-    directory.mkdir(parents=True, exist_ok=True)
+    directory = _made(options.out, name)
+    for trial in found:
+        trial.directory = directory / trial.directory
     waiting = [trial for trial in found if not _finished(trial)]
     if done := len(found) - len(waiting):
         tell(f"{done} of {len(found)} runs are there already")

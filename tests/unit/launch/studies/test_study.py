@@ -3,6 +3,8 @@
 
 import io
 import json
+import math
+import os
 import sys
 import unittest
 from pathlib import Path
@@ -11,6 +13,7 @@ from unittest import mock
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 import launcher  # noqa: E402
+from fsi_launch import version  # noqa: E402
 from fsi_launch.studies import study  # noqa: E402
 from fsi_launch.failure import UserMistake  # noqa: E402
 
@@ -56,11 +59,48 @@ class Quantities(launcher.InScratch):
             with self.subTest(name):
                 self.assertEqual(study.quantity(trial, name), value)
 
+    def test_what_is_no_finite_number_has_an_empty_cell_and_is_left_out_of_the_largest_and_smallest(self):
+        trial = self.trial({"errors": {"rho": math.nan}, "status": "completed"},
+                           "t [time],dt,limited_by,broke\n0,nan,none,1\n1,-2,fluid,inf\n2,0.5,fluid,\n3,,\n")
+        for name, value in (("forces_disk.dt:max", 0.5), ("forces_disk.dt:min", -2), ("forces_disk.dt", None), ("forces_disk.limited_by", None),
+                            ("forces_disk.limited_by:max", None), ("forces_disk.broke:max", 1), ("errors.rho", None)):
+            with self.subTest(name):
+                self.assertEqual(study.quantity(trial, name), value)
+        result = study.result_of([trial], "c", {"a": ["1"]}, ["errors.rho", "forces_disk.limited_by"])
+        self.assertEqual(study._rows(result)[1][-2:], ["-", "-"])
+        json.dumps(result, allow_nan=False)
+
     def test_table_shows_errors_or_else_bodies(self):
         trial = self.trial({"errors": {"rho": 0.25}, "status": "completed"}, "t [time],angle [rad]\n0,1\n")
         self.assertEqual(study.result_of([trial], "c", {"a": ["1"]}, [])["quantities"], ["errors.rho"])
         trial.summary = {"status": "failed"}
         self.assertEqual(study.result_of([trial], "c", {"a": ["1"]}, [])["rows"][0]["quantities"]["forces_disk.angle"], 1)
+
+
+class Again(launcher.InScratch):
+    def finished(self, build):
+        """Whether a completed run of this build of the programs is not made again."""
+        (self.folder / "case.yaml").write_text("name: c\n")
+        (self.folder / "summary.json").write_text(json.dumps({"status": "completed"} | ({"build": build} if build else {})))
+        return study._finished(study.Trial({"a": "1"}, self.folder, SimpleNamespace(text="name: c\n")))
+
+    def test_only_runs_of_these_programs_are_there_already(self):
+        self.assertTrue(self.finished(version.built()))
+        self.assertFalse(self.finished(version.built() | {"commit": "0" * 40}))
+        self.assertFalse(self.finished(None))
+
+    def test_two_that_begin_in_the_same_second_have_a_folder_each(self):
+        before = Path.cwd()
+        self.addCleanup(os.chdir, before)
+        os.chdir(self.folder)
+        with mock.patch.object(study.time, "strftime", lambda _: "now"):
+            self.assertEqual([str(study._made(None, "c")) for _ in range(3)], ["runs/study-c-now", "runs/study-c-now-2", "runs/study-c-now-3"])
+        self.assertEqual([str(study._made("mine", "c")) for _ in range(2)], ["mine"] * 2)
+
+    def test_a_picture_of_another_table_is_gone(self):
+        (self.folder / "study.png").touch()
+        study._draw({"case": "c", "vary": {"a": ["x", "y"]}, "quantities": [], "rows": []}, self.folder)
+        self.assertFalse((self.folder / "study.png").exists())
 
 
 class FormerResults(launcher.InScratch):
