@@ -59,9 +59,12 @@ def _take_words(directories):
     from fsi_launch.plot.look import caption, units
     from fsi_launch.plot.reading import data
     from fsi_launch.plot.several_runs import several
-    paths = [data.finest_level(directory) / "case.yaml" for directory in directories]
-    texts = [path.read_text(**AS_NAMED) for path in paths if path.is_file()]
-    units.use_those_of([several.entries(text) for text in texts])
+    def texts_of(paths):
+        return [path.read_text(**AS_NAMED) for path in paths if path.is_file()]
+
+    texts = texts_of(data.finest_level(directory) / "case.yaml" for directory in directories)
+    varied = [directory / row["folder"] / "case.yaml" for directory in directories for row in (data.study(directory) or {"rows": []})["rows"]]
+    units.use_those_of([several.entries(text) for text in texts or texts_of(varied)])
     names = {several.entries(text).get("name", "") for text in texts}
     in_common = names.pop() if len(texts) == len(directories) and len(names) == 1 else ""
     alone = len(directories) == len(texts) == 1

@@ -219,6 +219,14 @@ def quantity(trial, wanted):
     return _of_table(file, column, statistic or "last") if file else None
 
 
+def unit(found, wanted):
+    """The unit of a column of a table, in the words of its heading; "" of anything else."""
+    table, _, column = wanted.partition(":")[0].partition(".")
+    file = next((file for trial in found if (file := trial.table(table))), None)
+    heading = _columns(file).get(column, "") if file else ""
+    return heading.partition(" [")[2].rstrip("]")
+
+
 def _shown(found, wanted):
     """The quantities of the table: those asked for, or all errors, or where the bodies are at the end."""
     if wanted:
@@ -234,7 +242,7 @@ def result_of(found, case, vary, wanted):
     rows = [{"values": trial.values, "folder": trial.name(), "status": trial.summary["status"], "t": _finite(trial.summary.get("t")),
              "steps": trial.summary.get("steps"), "wall_s": _finite(trial.summary.get("wall_s")),
              "quantities": {name: quantity(trial, name) for name in shown}} for trial in found]
-    return {"case": case, "vary": vary, "quantities": shown, "rows": rows}
+    return {"case": case, "vary": vary, "quantities": shown, "units": {name: unit(found, name) for name in shown}, "rows": rows}
 
 
 def _cell(value):
@@ -262,12 +270,13 @@ def _write_csv(result, path):
             writer.writerow([*row["values"].values(), row["status"], row["t"], row["steps"], row["wall_s"], *row["quantities"].values()])
 
 
-def _draw(result, directory):
+def _draw(result, directory, cases_of_runs):
     """True where there was something to draw. The picture of another table is gone."""
     (directory / "study.png").unlink(missing_ok=True)
-    from fsi_launch.plot.look import style
-    from fsi_launch.plot.several_runs import study
+    from fsi_launch.plot.look import style, units
+    from fsi_launch.plot.several_runs import several, study
     style.use()
+    units.use_those_of([several.entries(text) for text in cases_of_runs])
     drawn = list(study.pictures(result))
     for name, figure in drawn:
         style.save(figure, directory / f"{name}.png")
@@ -320,6 +329,6 @@ def main(options):
     (directory / "study.md").write_text(as_markdown(result), **AS_NAMED)
     (directory / "study.json").write_text(json.dumps(result, indent=2) + "\n", **AS_NAMED)
     _write_csv(result, directory / "study.csv")
-    drawn = _draw(result, directory)
+    drawn = _draw(result, directory, [trial.case.text for trial in found])
     tell(f"tables{' and picture' if drawn else ''} in {directory}")
     return next((trial.code for trial in found if trial.code != DONE), DONE)

@@ -229,6 +229,33 @@ class Studies(unittest.TestCase):
         self.assertLessEqual(figure.axes[0].get_xlim()[0], 0.1)
         self.assertEqual(figure.axes[1].get_ylim(), (-1, 1))
 
+    def result(self):
+        """A study of two keys that end alike."""
+        rows = [{"values": {"fluid.size": a, "solids.body.size": b, "grid.factor": "4"}, "status": "completed", "folder": f"{a}{b}",
+                 "quantities": {"errors.v1": 1.0, "forces_body.force1:max": 2.0}} for a in "12" for b in "34"]
+        return {"case": "piston", "vary": {"fluid.size": ["1", "2"], "solids.body.size": ["3", "4"], "grid.factor": ["4"]},
+                "quantities": ["errors.v1", "forces_body.force1:max"], "units": {"errors.v1": "", "forces_body.force1:max": "force/depth"}, "rows": rows}
+
+    def test_keys_that_end_alike_are_told_apart(self):
+        [(_, figure)] = study.pictures(self.result())
+        self.assertEqual([line.get_label() for line in figure.axes[0].lines],
+                         [f"solids.body.size = {value}, factor = 4" for value in "34"])
+
+    def test_panels_have_the_units_of_their_columns_in_a_case_of_si_also_when_they_are_drawn_again(self):
+        self.addCleanup(units.use, "none")
+        with tempfile.TemporaryDirectory(prefix="fsi-drawing-") as scratch:
+            directory = Path(scratch)
+            (directory / "study.json").write_text(json.dumps(self.result()), encoding="utf-8")
+            for row in self.result()["rows"]:
+                (directory / row["folder"]).mkdir()
+                (directory / row["folder"] / "case.yaml").write_text("name: piston\nunits: SI\n", encoding="utf-8")
+            plot._take_words([directory])
+            [(_, figure)] = plot._one(directory, directory, None)
+        self.assertEqual([axes.get_title(loc="left") for axes in figure.axes[:2]], ["errors.v1 [m/s]", "forces_body.force1:max [N/m]"])
+        units.use("none")
+        [(_, figure)] = study.pictures(self.result())
+        self.assertEqual(figure.axes[1].get_title(loc="left"), "forces_body.force1:max")
+
 
 class Proposals(unittest.TestCase):
     def setUp(self):

@@ -5,7 +5,8 @@ import itertools
 import numpy as np
 from matplotlib import pyplot
 
-from fsi_launch.plot.look import caption
+from fsi_launch.plot.look import caption, units
+from fsi_launch.plot.one_run import curves
 
 MARKERS = "os^vD<>ph*"
 DASHES = ("-", "--", ":", "-.")     # so that lines over each other are both seen
@@ -35,11 +36,23 @@ def _abscissa(vary):
     return next((key for key, values in vary.items() if len(values) > 1 and all(map(_is_number, values))), None)
 
 
+def _short(keys):
+    """{key: its last part, or all of it where several end alike}"""
+    last = [key.rpartition(".")[2] for key in keys]
+    return {key: one if last.count(one) == 1 else key for key, one in zip(keys, last)}
+
+
+def _title(result, quantity):
+    """The quantity with its unit: of a column that of its heading, of an error that of its field."""
+    known = result.get("units", {}).get(quantity, "")
+    return units.label(quantity, known or (curves.unit_of(quantity) if quantity.startswith("errors.") else ""))
+
+
 def _lines(result, key):
     """{label of the other values: rows in the order of `key`}"""
-    lines = {}
+    lines, short = {}, _short(list(result["vary"]))
     for row in result["rows"]:
-        others = ", ".join(f"{name.rpartition('.')[2]} = {value}" for name, value in row["values"].items() if name != key)
+        others = ", ".join(f"{short[name]} = {value}" for name, value in row["values"].items() if name != key)
         lines.setdefault(others, []).append(row)
     return {label: sorted(rows, key=lambda row: float(row["values"][key])) for label, rows in lines.items()}
 
@@ -64,7 +77,7 @@ def _panel(axes, result, key, quantity):
         axes.set_yticks([0])
     else:
         axes.set_yscale(_scale(found))
-    axes.set_title(quantity, loc="left")
+    axes.set_title(_title(result, quantity), loc="left")
     axes.set_xlabel(key.removeprefix("parameters."))
     axes.grid(color="#e4e4e4", linewidth=0.6)
 

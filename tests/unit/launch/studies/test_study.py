@@ -70,6 +70,11 @@ class Quantities(launcher.InScratch):
         self.assertEqual(study._rows(result)[1][-2:], ["-", "-"])
         json.dumps(result, allow_nan=False)
 
+    def test_columns_have_the_units_of_their_headings(self):
+        trial = self.trial({"errors": {"rho": 0.25}, "status": "completed"}, "t [time],force1 [force/depth],limited_by\n0,1,none\n")
+        wanted = ["forces_disk.force1:max", "forces_disk.limited_by", "errors.rho", "forces_none.t"]
+        self.assertEqual(study.result_of([trial], "c", {"a": ["1"]}, wanted)["units"], dict(zip(wanted, ("force/depth", "", "", ""))))
+
     def test_table_shows_errors_or_else_bodies(self):
         trial = self.trial({"errors": {"rho": 0.25}, "status": "completed"}, "t [time],angle [rad]\n0,1\n")
         self.assertEqual(study.result_of([trial], "c", {"a": ["1"]}, [])["quantities"], ["errors.rho"])
@@ -99,7 +104,7 @@ class Again(launcher.InScratch):
 
     def test_a_picture_of_another_table_is_gone(self):
         (self.folder / "study.png").touch()
-        study._draw({"case": "c", "vary": {"a": ["x", "y"]}, "quantities": [], "rows": []}, self.folder)
+        study._draw({"case": "c", "vary": {"a": ["x", "y"]}, "quantities": [], "rows": []}, self.folder, [])
         self.assertFalse((self.folder / "study.png").exists())
 
 
