@@ -15,12 +15,14 @@ USAGE = (paths.ROOT / "launch" / "usage.txt").read_text(encoding="utf-8")
 
 def _run(options):
     from fsi_launch.run import Request, run
+    if options.movie:
+        from fsi_launch import plot
+        plot.style_or_mistake()
     result = run(Request(case=options.case, overrides=options.overrides, laws=options.laws, out=options.out,
                          overwrite=options.overwrite, restart=options.restart, progress=options.progress, pause_at=options.pause_at,
                          monitor=options.monitor, protection=options.protection, frames=options.movie,
                          ranks=options.ranks, hosts=options.hosts, remote_shell=options.remote_shell))
     if options.movie and result.summary["status"] in ("completed", "stopped"):
-        from fsi_launch import plot
         plot.draw_movie(result.directory)
     return result.code
 

@@ -74,9 +74,10 @@ def _take_words(directories):
 def style_or_mistake():
     """The module of the look of pictures, where what it needs is installed."""
     try:
+        import h5py  # noqa: F401  of the fields
         from fsi_launch.plot.look import style
     except ModuleNotFoundError as error:
-        raise UserMistake(f"plot needs Debian's {error.name}: apt-get install python3-h5py python3-matplotlib") from None
+        raise UserMistake(f"pictures need {error.name}: apt-get install python3-h5py python3-matplotlib") from None
     return style
 
 

@@ -178,6 +178,8 @@ def main(options):
     """Prints the table and writes converge.{txt,md,json}."""
     case = cases.resolve(options.case, options.overrides, options.laws)
     _expect_enough(options, case)
+    if case.reference == "none" and (module := self_convergence.lacks()):
+        tell(f"the rows 'boundary' are left out, they take {module}: apt-get install python3-h5py python3-matplotlib")
     name = case.name
     directory = Path(options.out or f"runs/converge-{name}-{time.strftime('%Y%m%d-%H%M%S')}")
     if directory.exists() and (not directory.is_dir() or any(directory.iterdir())):

@@ -62,13 +62,21 @@ def _refined(curve):
     return np.column_stack([np.append(fine.real, fine.real[0]), np.append(fine.imag, fine.imag[0])])
 
 
+def lacks():
+    """The module that boundary curves take and that is not installed, or None."""
+    try:
+        from fsi_launch.plot.several_runs import outlines  # noqa: F401
+    except ModuleNotFoundError as error:
+        return error.name
+    return None
+
+
 def _outlines(directory):
     """{solid: {t: outline}}; nothing where h5py or matplotlib is missing."""
-    try:
-        from fsi_launch.plot.reading import data
-        from fsi_launch.plot.several_runs import outlines
-    except ModuleNotFoundError:
+    if lacks():
         return {}
+    from fsi_launch.plot.reading import data
+    from fsi_launch.plot.several_runs import outlines
     return {body.name: body.outlines for body in outlines.of(data.all_series(Path(directory)))}
 
 
@@ -82,8 +90,13 @@ def _distance(coarse, fine):
     return float(outlines.distance(coarse, _refined(fine)))
 
 
+def _apart(name, a, b):
+    """Distance of two values, tuples of numbers; of two angles that over which they are nearest."""
+    return abs(math.remainder(a[0] - b[0], 2 * math.pi)) if name == "angle" else math.dist(a, b)
+
+
 def compare(levels, directories, times):
-    """Rows of all solids, quantities and output times."""
+    """Rows of all solids, quantities and output times. A solid of one's own may lack columns, and has no rows of these then."""
     tables = [_tables(directory) for directory in directories]
     curves = [_outlines(directory) for directory in directories]
     rows = []
@@ -91,7 +104,10 @@ def compare(levels, directories, times):
         runs = [table.get(solid, {}) for table in tables]
         for t in (t for t in times if t > 0 and all(t in run for run in runs)):
             for name, columns in QUANTITIES:
-                found = [math.dist(*([run[t][column] for column in columns] for run in pair)) for pair in zip(runs, runs[1:])]
+                if not all(column in run[t] for run in runs for column in columns):
+                    continue
+                values = [[run[t][column] for column in columns] for run in runs]
+                found = [_apart(name, coarse, fine) for coarse, fine in zip(values, values[1:])]
                 rows.append(Row(solid, name, t, found, orders(levels, found)))
             lines = [_at(one.get(solid, {}), t) for one in curves]
             if all(line is not None for line in lines):

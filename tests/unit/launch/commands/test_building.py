@@ -72,13 +72,13 @@ class Building(InScratch):
         known = {key: value for key, value in os.environ.items() if key not in ("FSI_BIN", "FSI_MARCH")}
         return known | {"PATH": f"{self.tools}:{os.environ['PATH']}", "CALLS": str(self.calls)}
 
-    def build(self, march=None, verb="check", missing=""):
+    def build(self, march=None, verb="check", missing="", more=()):
         """(how cmake and ninja were called, what the command said)"""
         self.calls.write_text("")
         environment = self.environment() | {"MISSING": missing}
         if march is not None:
             environment["FSI_MARCH"] = march
-        answer = subprocess.run([self.folder / "launch" / "fsi", verb, "nothing"], env=environment, capture_output=True,
+        answer = subprocess.run([self.folder / "launch" / "fsi", verb, "nothing", *more], env=environment, capture_output=True,
                                 text=True, check=False)
         return self.calls.read_text().splitlines(), answer.stderr
 
@@ -146,6 +146,12 @@ class Building(InScratch):
 
     def test_what_another_verb_needs_is_not_asked_for(self):
         self.assertEqual(self.build(missing="python3-matplotlib clang-format-16")[0][-1:], ["ninja bin/fsi_case"])
+
+    def test_a_movie_needs_what_pictures_need(self):
+        self.put_checker()
+        calls, said = self.build(verb="run", missing="python3-matplotlib", more=["--movie"])
+        self.assertEqual(calls, [])
+        self.assertIn("python3-matplotlib", said.splitlines()[-1])
 
     def test_a_build_ends_with_the_command_that_is_killed(self):
         self.put_checker()

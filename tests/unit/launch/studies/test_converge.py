@@ -9,6 +9,8 @@ from unittest import mock
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 import launcher  # noqa: E402,F401  the path of the launcher's modules
+from fsi_launch import run  # noqa: E402
+from fsi_launch.command import cli, verbs  # noqa: E402
 from fsi_launch.failure import UserMistake  # noqa: E402
 from fsi_launch.studies import converge  # noqa: E402
 
@@ -65,6 +67,33 @@ class Levels(unittest.TestCase):
             self.assertRegex(told[0], "level 4: solid with as many points as on level 2: ")
             with self.assertRaisesRegex(UserMistake, "level 4: fluid, solid .* one and the same; .*`spacing: h`"):
                 converge._expect_finer([2, 4], {"fluid": 100, "solid": 50}, {"fluid": 100, "solid": 50})
+
+
+class WithoutPictures(unittest.TestCase):
+    """What takes modules that are not there says so before the runs."""
+
+    def without(self, name):
+        return mock.patch.dict(sys.modules, {name: None} | {key: None for key in sys.modules if key.startswith("fsi_launch.plot.")})
+
+    def test_rows_of_boundaries_are_told_to_be_left_out(self):
+        told = []
+        options = SimpleNamespace(case="c", overrides=[], laws=[], levels=[2, 4, 8], min_rate=None, out=str(Path(__file__)))
+        for reference, count in (("none", 1), ("piston_1d", 0)):
+            told.clear()
+            with mock.patch.object(converge.self_convergence, "lacks", lambda: "matplotlib"), mock.patch.object(converge, "tell", told.append), \
+                    mock.patch.object(converge.cases, "resolve", lambda *_: SimpleNamespace(name="c", reference=reference)), \
+                    self.assertRaises(UserMistake):
+                converge.main(options)      # that folder is a file
+            self.assertEqual(len(told), count)
+        self.assertIsNone(converge.self_convergence.lacks())
+        with self.without("h5py"):
+            self.assertTrue(converge.self_convergence.lacks())
+
+    def test_a_movie_is_refused_before_the_run(self):
+        with mock.patch.dict(sys.modules, {"h5py": None}), mock.patch.object(run, "run") as started, \
+                self.assertRaisesRegex(UserMistake, "pictures need h5py: apt-get install"):
+            cli._run(verbs.parser("run").parse_args(["run", "sod_tube", "--movie"]))
+        started.assert_not_called()
 
 
 if __name__ == "__main__":

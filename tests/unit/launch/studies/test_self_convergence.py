@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """Without a reference solution grids are compared with each other: made-up paths show their order."""
 
+import math
 import sys
 import tempfile
 import unittest
@@ -13,21 +14,21 @@ from fsi_launch.studies import self_convergence  # noqa: E402
 COLUMNS = ("t [time]", "centre1 [length]", "centre2 [length]", "velocity1 [length/time]", "velocity2 [length/time]", "angle [rad]")
 
 
-def write_run(folder, h):
-    """A body whose centre is off by 3 h^2 and whose angle by h, at three times."""
+def write_run(folder, h, angle=None, columns=len(COLUMNS)):
+    """A body whose centre is off by 3 h^2 and whose angle by h, or that has turned by `angle`, at three times."""
     folder.mkdir()
-    lines = [",".join(COLUMNS)]
+    lines = [",".join(COLUMNS[:columns])]
     for t in (0, 0.5, 1):
-        lines.append(",".join(str(value) for value in (t, t + 3 * h**2 * t, -t, 1.0, -1.0, 0.2 + h * t)))
+        lines.append(",".join(str(value) for value in (t, t + 3 * h**2 * t, -t, 1.0, -1.0, 0.2 + h * t if angle is None else angle)[:columns]))
     (folder / "forces_body.csv").write_text("\n".join(lines) + "\n", encoding="utf-8")
 
 
 class SelfConvergence(unittest.TestCase):
-    def compare(self, levels):
+    def compare(self, levels, angles=(), **given):
         with tempfile.TemporaryDirectory(prefix="fsi-self-") as scratch:
             folders = [Path(scratch) / str(j) for j in levels]
-            for folder, j in zip(folders, levels):
-                write_run(folder, 1 / (10 * j))
+            for k, (folder, j) in enumerate(zip(folders, levels)):
+                write_run(folder, 1 / (10 * j), angles[k] if angles else None, **given)
             rows = self_convergence.compare(levels, folders, [0.5, 1])
         return {(row.quantity, row.t): row for row in rows}
 
@@ -36,6 +37,14 @@ class SelfConvergence(unittest.TestCase):
         self.assertAlmostEqual(rows["centre", 1].differences[0], 3 * (1 / 40**2 - 1 / 80**2), places=14)
         self.assertAlmostEqual(rows["centre", 0.5].orders[0], 2, places=6)
         self.assertAlmostEqual(rows["angle", 1].orders[0], 1, places=6)
+
+    def test_angles_on_both_sides_of_half_a_turn_are_near(self):
+        found = self.compare([4, 8, 16], angles=(3.13, -3.1411, 3.1412))["angle", 1].differences
+        for value, expected in zip(found, (2 * math.pi - 6.2711, 2 * math.pi - 6.2823)):
+            self.assertAlmostEqual(value, expected, places=12)
+
+    def test_columns_that_a_solid_of_ones_own_does_not_write_have_no_rows(self):
+        self.assertEqual({quantity for quantity, _ in self.compare([4, 8, 16], columns=5)}, {"centre", "velocity"})
 
     def test_equal_values_have_no_order(self):
         self.assertEqual(self.compare([4, 8, 16])["velocity", 1].orders, [None])
