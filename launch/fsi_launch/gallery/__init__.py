@@ -2,10 +2,12 @@
 
 import csv
 import json
+import re
 import time
 from dataclasses import dataclass
 from pathlib import Path
 
+from fsi_launch import case as cases
 from fsi_launch.failure import DONE, EXPECTATION_MISSED, UserMistake
 from fsi_launch.gallery import problems
 from fsi_launch.results.summary import aligned
@@ -79,6 +81,28 @@ def judge(problem, run, directory):
     return all(row.passes() for row in rows)
 
 
+def _but_what_is_expected(text):
+    """The text of a resolved case without its `expect`: a run with another law has not all of it, and no number depends on it."""
+    return re.sub(r"^expect:.*\n?(?:[ \t]+.*\n?|\n)*", "", text, flags=re.MULTILINE).rstrip()
+
+
+def _expect_run_of(problem, run):
+    """In the folder `run` is a run of this problem that came to its end. Throws UserMistake."""
+    try:
+        status = json.loads((run / "summary.json").read_text(**AS_NAMED))["status"]
+        text = (run / "case.yaml").read_text(**AS_NAMED)
+    except (OSError, ValueError, LookupError, TypeError):
+        raise UserMistake(f"--compare: there is no run in '{run}', or it has no summary; leave --compare away to make it") from None
+    if status != "completed":
+        raise UserMistake(f"--compare: the run in '{run}' is not whole, its status is {status!r}; add --overwrite in place of --compare to make it again")
+    own = cases.resolve(problem.case, list(problem.set), list(problem.solid)).text
+    if _but_what_is_expected(text) != _but_what_is_expected(own):
+        from fsi_launch.plot.several_runs import several
+        keys = several.different([several.entries(_but_what_is_expected(one)) for one in (own, text)])
+        raise UserMistake(f"--compare: the run in '{run}' is none of {problem.name}{': its case differs in ' if keys else ''}{', '.join(keys[:3])}; "
+                          "add --overwrite in place of --compare to make one, or name another --out")
+
+
 def _list():
     shown = [problems.problem(name) for name in problems.names()]
     width = max(len(problem.name) for problem in shown)
@@ -102,8 +126,8 @@ def main(options):
                                overwrite=options.overwrite, progress=options.progress, judge=False))
         if result.code != DONE:
             return result.code
-    elif not (run / "summary.json").is_file():
-        raise UserMistake(f"--compare {directory}: there is no run in '{run}'; leave --compare away to make it")
+    else:
+        _expect_run_of(problem, run)
     print(f"{problem.title}. {problem.source}")
     passed = judge(problem, run, directory)
     print(f"{'passes' if passed else 'FAILS'}; table and picture in {directory}")
