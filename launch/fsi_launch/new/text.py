@@ -11,37 +11,37 @@ title: {title}
 units: SI                 # labels of pictures: all numbers here are in m, s, kg
 
 parameters:
-  gamma: {gamma:<17g}# ratio of specific heats of the gas
-  rho_0: {rho:<17g}# its density [kg/m^3]
-  p_0: {p:<19g}# its pressure [Pa]
+  gamma: {gamma:<16} # ratio of specific heats of the gas
+  rho_0: {rho:<16} # its density [kg/m^3]
+  p_0: {p:<18} # its pressure [Pa]
   a_0: sqrt(gamma * p_0 / rho_0)    # its speed of sound [m/s]: {sound:.4g}
 """
 
-SHOCK = """  mach: {mach:<18g}# of the shock
+SHOCK = """  mach: {mach:<17} # of the shock
   x_shock: {shock:<15.6g}# where the shock is at t = 0 [m]; it runs to the right
   p_1: p_0 * (1 + 2 * gamma / (gamma + 1) * (mach^2 - 1))                         # behind it, by Rankine and Hugoniot
   rho_1: rho_0 * (gamma + 1) * mach^2 / ((gamma - 1) * mach^2 + 2)
   v_1: 2 * a_0 / (gamma + 1) * (mach - 1 / mach)
 """
 
-STREAM = """  mach: {mach:<18g}# of the stream
+STREAM = """  mach: {mach:<17} # of the stream
   v_1: mach * a_0         # its velocity [m/s], to the right; the body is put into it at t = 0, at rest
 """
 
-SOLID_NUMBERS = """  rho_bar: {material.rho:<15g}# density of the body [kg/m^3]: {material.name}{note}
-  E: {material.E:<21g}# Young's modulus [Pa]
-  nu: {material.nu:<20g}# Poisson's ratio
+SOLID_NUMBERS = """  rho_bar: {rho_bar:<14} # density of the body [kg/m^3]: {material.name}{note}
+  E: {E:<20} # Young's modulus [Pa]
+  nu: {nu:<19} # Poisson's ratio
 """
 
 RESOLUTION = """
 grid: {{factor: {factor:g}}}{space}# h = 1 / (10 factor) = {h:g} m: {cells} cells along the body
 
-time: {{end: {end:g}, multirate: true}}    # [s]; multirate: a stiff solid takes substeps
+time: {{end: {end}, multirate: true}}    # [s]; multirate: a stiff solid takes substeps
 
 fluid:
   gamma: gamma
   p_e: p_0                # pressure at which the body is free of stress
-  grid: {{name: background, x: [{x_low:.6g}, {x_high:.6g}], y: [{y_low:.6g}, {y_high:.6g}]}}    # points h apart, closer where the body's outline asks for it
+  grid: {{name: background, x: [{x_low:.6g}, {x_high:.6g}], y: [{y_low}, {y_high:.6g}]}}    # points h apart, closer where the body's outline asks for it
 """
 
 SHOCK_SIDES = """  boundary:
@@ -81,6 +81,16 @@ expect:
 """
 
 
+def exact(value):
+    """The shortest text that reads back as this number: what a person gives is not rounded."""
+    return next(text for text in (f"{value:g}", repr(float(value))) if float(text) == value)
+
+
+def _place(problem, value):
+    """A coordinate of the outline: as its file has it, or of a scaled one."""
+    return exact(value) if problem.outline.path else f"{value:.9g}"
+
+
 ROUNDED, OF_AN_EDGE = 2.0, 0.25     # radius of corners, in h and in parts of the shortest edge
 FITS, OF_ACUTE = 0.9, 0.5   # parts of the largest radius for which arcs have room: where that one is larger, this one
 TOO_SMALL = 0.5     # radius that is not worth its grids, in h
@@ -118,10 +128,10 @@ def _shape(problem, path):
     """The entry of the outline; `path`: of its file from where the case is."""
     outline = problem.outline
     if not outline.points:
-        return f" {{kind: circle, radius: {outline.radius:g}}}"
+        return f" {{kind: circle, radius: {exact(outline.radius)}}}"
     if not problem.straight:
         return _spline(problem, path)
-    corners = ", ".join(f"[{x:.9g}, {y:.9g}]" for x, y in outline.points)
+    corners = ", ".join(f"[{_place(problem, x)}, {_place(problem, y)}]" for x, y in outline.points)
     radius = _radius(problem)
     meaning = "of the rounded corners [m]" if radius else "sharp corners"
     walls = "\n      walls: [bottom, bottom]    # on which its first and its last corner stand" if problem.on_wall else ""
@@ -134,14 +144,15 @@ def write(problem, file, path):
     x_low, x_high, y_low, y_high = problem.domain()
     shock = problem.flow == "shock"
     material, end = problem.material, problem.duration()
-    kind = f"shock of Mach {problem.mach:g}" if shock else f"stream of Mach {problem.mach:g}"
+    kind = f"{problem.flow} of Mach {exact(problem.mach)}"
     factor = f"{0.1 / h:g}"
     every = f"{end / OUTPUTS:.3g}"
     numbers = {
-        "title": f"A body of {material.name} in a {kind}", "file": file, "fine": 0.2 / h, "gamma": problem.gamma, "rho": problem.rho,
-        "p": problem.p, "sound": problem.sound(), "mach": problem.mach, "shock": problem.shock(), "material": material,
+        "title": f"A body of {material.name} in a {kind}", "file": file, "fine": 0.2 / h, "gamma": exact(problem.gamma), "rho": exact(problem.rho),
+        "p": exact(problem.p), "sound": problem.sound(), "mach": exact(problem.mach), "shock": problem.shock(), "material": material,
         "note": f" ({material.note})" if material.note else "", "factor": 0.1 / h, "h": h, "space": " " * max(1, 9 - len(factor)),
-        "cells": round(problem.outline.size() / h), "end": end, "x_low": x_low, "x_high": x_high, "y_low": y_low, "y_high": y_high}
+        "cells": round(problem.outline.size() / h), "end": exact(end), "x_low": x_low, "x_high": x_high,
+        "y_low": _place(problem, y_low) if problem.on_wall else f"{y_low:.6g}", "y_high": y_high, "rho_bar": exact(material.rho), "E": exact(material.E), "nu": exact(material.nu)}
     sides = SHOCK_SIDES if shock else STREAM_SIDES
     bottom = ("outflow       # or slip_wall: a duct" if shock
               else "{kind: far_field, state: {rho: rho_0, v: [v_1, 0], p: p_0}}    # or slip_wall: a wind tunnel")

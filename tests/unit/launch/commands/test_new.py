@@ -134,6 +134,23 @@ class Text(unittest.TestCase):
         self.assertEqual((body["law"], body["motion"], case["units"]), ("rigid", "fixed", "SI"))
         self.assertEqual((parameters["mach"], float(parameters["E"]), case["time"]["end"]), (1.7, 205e9, 0.002))
 
+    def test_numbers_of_ones_own_are_written_as_they_are_given(self):
+        given = {"mach": 1.2345678901, "density": 1.2250000000000001e-7, "pressure": 101325.7, "gamma": 1.4000000000000001, "end": 1.2345678e-3,
+                 "size": 0.123456789, "material": "1234.5678,2.34567891e9,0.3333333333333333"}
+        case = yaml.safe_load(text.write(problem(**given), "case.yaml", None))
+        numbers = {key: float(value) for key, value in case["parameters"].items() if key in ("mach", "rho_0", "p_0", "gamma", "rho_bar", "E", "nu")}
+        self.assertEqual(numbers, {"mach": 1.2345678901, "rho_0": 1.2250000000000001e-7, "p_0": 101325.7, "gamma": 1.4000000000000001,
+                                   "rho_bar": 1234.5678, "E": 2.34567891e9, "nu": 0.3333333333333333})
+        self.assertEqual((float(case["time"]["end"]), case["solids"]["body"]["shape"]["radius"]), (1.2345678e-3, 0.5 * 0.123456789))
+        self.assertEqual([text.exact(value) for value in (101325.0, 205e9, 0.1, 1e-3, 1 / 3)], ["101325", "2.05e+11", "0.1", "0.001", repr(1 / 3)])
+
+    def test_places_of_ones_own_are_too_and_a_body_stands_where_its_wall_is(self):
+        points = ((0.0, 0.1234567891234), (0.1, 0.1234567891234), (0.1, 0.3), (0.0, 0.3))
+        one = Problem("case", outline.Outline(Path("o.csv"), points), materials.TABLE["steel"], straight=True, on_wall=True)
+        case = yaml.safe_load(text.write(one, "case.yaml", "o.csv"))
+        self.assertEqual([tuple(corner) for corner in case["solids"]["body"]["shape"]["corners"]], list(points))
+        self.assertEqual(case["fluid"]["grid"]["y"][0], 0.1234567891234)
+
     def test_straight_edges_are_a_polygon_through_the_same_points(self):
         points = ((0.0, 0.0), (0.1, 0.0), (0.1, 0.05))
         one = Problem("case", outline.Outline(Path("o.csv"), points), materials.TABLE["steel"], straight=True)
