@@ -18,7 +18,7 @@ COMMAND = shlex.quote(os.environ.get("FSI_COMMAND") or "./launch/fsi")  # for wh
 _built = set()  # by this command
 
 
-def _targets():
+def targets():
     """Programs that the build knows; none with FSI_BIN."""
     if os.environ.get("FSI_BIN"):
         return set()
@@ -28,7 +28,7 @@ def _targets():
 def build(names):
     """Builds those of the programs that the build knows and that are missing or out of date. With FSI_BIN nothing is built. Ends the
     command where that fails; the reason is told by then."""
-    wanted = [f"bin/{name}" for name in dict.fromkeys(names) if name in _targets() - _built]
+    wanted = [f"bin/{name}" for name in dict.fromkeys(names) if name in targets() - _built]
     if not wanted:
         return
     leash = ["setpriv", "--pdeathsig", "TERM"] if shutil.which("setpriv") else []   # ends with this command, even if that is killed
@@ -43,7 +43,7 @@ def expect(programs):
     for participant, name in programs.items():
         if "/" in name:
             program(name)
-        elif not os.access(BIN / name, os.X_OK) and name not in _targets():
+        elif not os.access(BIN / name, os.X_OK) and name not in targets():
             raise UserMistake(f"'{participant}': there is no program {name} in {BIN}; write ./{name} for one in this folder, or its path")
 
 

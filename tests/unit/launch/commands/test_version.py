@@ -7,6 +7,7 @@ import subprocess
 import sys
 import unittest
 from pathlib import Path
+from unittest import mock
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from launcher import InScratch, ROOT  # noqa: E402
@@ -99,6 +100,76 @@ class Build(InScratch):
     def test_a_build_for_a_named_instruction_set_says_its_name_once(self):
         (self.bin / "build.json").write_text(json.dumps({"march": "x86-64-v3", "instruction_set": "x86-64-v3"}))
         self.assertIn(" for x86-64-v3, ", version.describe(self.bin))
+
+
+BUILD = """
+rule copy
+  command = cp $in $out
+  description = Building $out
+rule record
+  command = true
+  description = Writing down what is built
+rule configure
+  command = false
+  description = Re-running CMake
+  generator = 1
+build record: record
+build bin/fluid_solver: copy fluid.cpp || record
+build bin/coupler: copy coupler.cpp || record
+build bin/test_coupler: copy test.cpp || record
+build bin/monitor: copy monitor.cpp || record
+build build.ninja: configure CMakeLists.txt
+"""
+
+
+class OlderThanTheSources(InScratch):
+    """A build that made one program anew has written down the commit of all."""
+
+    def setUp(self):
+        super().setUp()
+        (self.folder / "build.ninja").write_text(BUILD)
+        for name in ("fluid", "coupler", "test", "monitor"):
+            (self.folder / f"{name}.cpp").write_text("one\n")
+        subprocess.run(["ninja", "-C", self.folder, "-f", "/dev/stdin", "bin/fluid_solver", "bin/coupler", "bin/test_coupler"],
+                       input=b"include build.ninja\n", capture_output=True, check=True)
+        (self.folder / "bin" / "build.json").write_text(json.dumps({"version": "1.2.3", "march": "native"}))
+        environment = mock.patch.dict(os.environ)
+        environment.start()
+        self.addCleanup(environment.stop)
+        os.environ.pop("FSI_BIN", None)
+        for name, value in (("BUILD", self.folder), ("BIN", self.folder / "bin")):
+            patch = mock.patch.object(version.paths, name, value)
+            patch.start()
+            self.addCleanup(patch.stop)
+
+    def change(self, name):
+        moment = (self.folder / "bin" / "coupler").stat().st_mtime_ns + 10**10
+        os.utime(self.folder / f"{name}.cpp", ns=(moment, moment))
+
+    def test_programs_that_the_next_command_builds_anew_are_named_and_are_what_they_were(self):
+        self.assertEqual(len(version.describe().splitlines()), 2)
+        self.change("test")     # no command takes it
+        self.change("monitor")  # was never built
+        self.assertEqual(len(version.describe().splitlines()), 2)
+        before = (self.folder / "bin" / "coupler").stat().st_mtime_ns
+        self.change("coupler")
+        self.assertEqual(version.describe().splitlines()[2:], ["older than the sources: coupler; the next command that takes them builds them"])
+        self.change("fluid")
+        self.assertIn("sources: coupler, fluid_solver; ", version.describe())
+        self.assertEqual((self.folder / "bin" / "coupler").stat().st_mtime_ns, before)
+
+    def test_a_source_that_is_gone_is_a_change(self):
+        (self.folder / "fluid.cpp").unlink()
+        self.assertEqual(version.outdated(), ["fluid_solver"])
+
+    def test_programs_of_another_folder_are_taken_as_they_are_and_without_a_build_nothing_is_said(self):
+        self.change("coupler")
+        with mock.patch.dict(os.environ, FSI_BIN=str(self.folder / "bin")):
+            self.assertEqual(version.outdated(), [])
+        with mock.patch.dict(os.environ, PATH="/nowhere"):
+            self.assertEqual(version.outdated(), [])
+        (self.folder / "build.ninja").unlink()
+        self.assertEqual(version.outdated(), [])
 
 
 if __name__ == "__main__":
