@@ -1,6 +1,7 @@
 """`fsi plot`: pictures of the results of a run."""
 
 import itertools
+import re
 from pathlib import Path
 
 from fsi_launch.failure import DONE, UserMistake
@@ -93,6 +94,13 @@ def draw_movie(directory, out=None):
     print(movie.make(series, Path(out) if out else Path(directory) / "plots"), flush=True)
 
 
+def _remove_others(out, paths):
+    """Pictures of single times that a former call left and this one, which draws all, does not: their colours are those of other limits."""
+    for path in out.glob(f"*_*{paths[0].suffix}"):
+        if re.fullmatch(r"(fields|radius|axis)_(\d{4,}|last)", path.stem) and path not in paths:
+            path.unlink()
+
+
 def main(options):
     """Draws everything the results hold and prints the paths of the pictures."""
     style = style_or_mistake()
@@ -102,7 +110,10 @@ def main(options):
     _take_words(directories)
     pictures = _one(directories[0], out, options) if len(directories) == 1 else _several(directories, out, options)
     from fsi_launch.plot.look import drawing
-    drawing.draw([(out / f"{name}.{options.format}", figure) for name, figure in pictures], lambda path: print(path, flush=True))
+    pictures = [(out / f"{name}.{options.format}", figure) for name, figure in pictures]
+    if len(directories) == 1 and pictures and not options.out and not options.at:
+        _remove_others(out, [path for path, _ in pictures])
+    drawing.draw(pictures, lambda path: print(path, flush=True))
     if options.movie:
         draw_movie(directories[0], out)
     return DONE

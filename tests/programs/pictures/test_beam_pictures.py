@@ -102,6 +102,28 @@ class Centrelines(unittest.TestCase):
         self.assertEqual({label for label, *_ in table}, {"mach = 1.1"})
         self.assertEqual(len(beams.picture(runs).axes), 2)
 
+    def test_all_runs_of_a_panel_are_drawn_and_told_apart(self):
+        case = "parameters:\n  rho_bar: 10\ngrid:\n  factor: {j}\nsolids:\n  beam:\n    law: {law}\n"
+        runs = [beams.run_of([beam(101)], case.format(j=j, law=law)) for j, law in ((8, "gent"), (8, "beam"), (16, "gent"), (32, "gent"), (64, "gent"))]
+        [axes] = beams.picture(runs).axes
+        self.assertEqual(len(axes.get_lines()), 2 * 5)
+        self.assertEqual(len({(line.get_linestyle(), str(line._dash_pattern)) for line in axes.get_lines()}), 5)
+        for told in ("gent, j = 64 full", "gent, j = 8 ", "beam, j = 8 "):
+            self.assertIn(told, axes.get_xlabel())
+
+    def test_runs_that_differ_in_anything_else_have_panels_of_their_own(self):
+        case = "parameters:\n  rho_bar: 10\ngrid:\n  factor: 8\ntime:\n  cfl: {cfl}\ninterface:\n  projection: {p}\noutput:\n  every: {cfl}\n"
+        runs = [beams.run_of([beam(101)], case.format(cfl=cfl, p=p)) for cfl, p in ((0.5, "full"), (0.9, "full"), (0.9, "simplified"))]
+        self.assertEqual([axes.get_title(loc="left") for axes in beams.picture(runs).axes[:3]],
+                         ["cfl = 0.5, full", "cfl = 0.9, full", "cfl = 0.9, simplified"])
+
+    def test_a_beam_that_stays_straight_has_no_scale_of_round_off(self):
+        one = beams.of([beam(101)])[0]
+        for line in one.lines.values():
+            line[:, 0] = 1e-20 * np.arange(len(line))
+        axes = beams.picture([beams.Run({}, 0.0, [one])]).axes[0]
+        self.assertGreater(np.ptp(axes.get_xlim()), 0.05)
+
     def test_a_beam_by_law_is_drawn_into_the_panel_of_its_continuum(self):
         case = "parameters:\n  rho_bar: 10\ngrid:\n  factor: 8\nsolids:\n  beam:\n    law: {law}\n"
         runs = [beams.run_of([beam(n)], case.format(law=law)) for n, law in ((101, "neo_hookean"), (201, "beam"))]

@@ -202,6 +202,16 @@ class Convergence(unittest.TestCase):
         one = next(text for text in figure.axes[0].texts if text.get_text() == "1")
         self.assertGreater(one.get_window_extent().y0, figure.axes[0].get_window_extent().y0 + 4)
 
+    def test_more_errors_than_markers_and_a_level_without_any_are_drawn(self):
+        style.use()
+        names = [f"e{k}" for k in range(12)]
+        table = {"case": "piston", "h": [0.1, 0.05, 0.025], "errors": {name: [4e-4, None, 1e-4] for name in names}, "fitted": dict.fromkeys(names)}
+        [(_, figure)] = convergence.pictures(table)
+        curves_of = [line for line in figure.axes[0].lines if line.get_label() in names]
+        self.assertEqual(len(curves_of), 12)
+        alone = table | {"errors": {"rho": [None, None, 1e-4]}, "fitted": {"rho": None}}
+        self.assertEqual(len(list(convergence.pictures(alone))), 1)
+
     def test_no_single_spacing_stands_above_several(self):
         with tempfile.TemporaryDirectory(prefix="fsi-drawing-") as scratch:
             entries = {"name": "piston", "grid.factor": "4"}

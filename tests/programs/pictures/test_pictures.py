@@ -4,12 +4,9 @@
 import contextlib
 import io
 import sys
-import tempfile
-import types
 import unittest
 from pathlib import Path
 
-import h5py
 import numpy as np
 from matplotlib import pyplot
 from matplotlib.collections import TriMesh
@@ -17,7 +14,6 @@ from matplotlib.image import AxesImage
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from running import ROOT  # noqa: E402
-from fsi_launch import plot  # noqa: E402
 from fsi_launch.failure import UserMistake  # noqa: E402
 from fsi_launch.plot.look import caption, shading, style  # noqa: E402
 from fsi_launch.plot.one_run import disk, fields, grids  # noqa: E402
@@ -169,61 +165,6 @@ class Numbers(unittest.TestCase):
             self.assertEqual(scales.of_run([]).floor(unit), 0.0)
 
 
-class Folders(unittest.TestCase):
-    """What is drawn of the folder of a run that has no output times, and of folders that are no run's."""
-
-    def setUp(self):
-        scratch = tempfile.TemporaryDirectory(prefix="fsi-test-")
-        self.addCleanup(scratch.cleanup)
-        self.run_ = Path(scratch.name) / "run"
-        for name in ("fields", "last_state"):
-            (self.run_ / name).mkdir(parents=True)
-        (self.run_ / "case.yaml").write_text("name: piston\n", encoding="utf-8")
-        (self.run_ / "interface.csv").write_text("step,t [time],gap [length]\n0,0,0\n1,0.1,1e-3\n2,0.2,3e-3\n", encoding="utf-8")
-
-    def write_group(self, group, t):
-        x1, x2 = np.meshgrid(np.linspace(0, 1, 5), np.linspace(0, 1, 4))
-        group.attrs["t"] = t
-        for key, values in {"x1": x1, "x2": x2, "rho": 1 + x1, "p": 2 + x1, "v1": x1, "v2": x2}.items():
-            group[f"gas/{key}"] = values
-
-    def write_state(self, path):
-        with h5py.File(path, "w") as file:
-            self.write_group(file, 0.2)
-
-    def plot(self, folder, at=()):
-        """Names of the pictures."""
-        with contextlib.redirect_stdout(io.StringIO()) as printed:
-            plot.main(types.SimpleNamespace(directories=[folder], out=None, contours=False, movie=False, at=list(at), format="png"))
-        return [Path(line).stem for line in printed.getvalue().split("\n") if line]
-
-    def test_tables_are_drawn_before_the_first_output_time(self):
-        self.assertEqual(self.plot(self.run_), ["interface"])
-
-    def test_the_last_state_of_a_run_that_broke_is_drawn(self):
-        self.write_state(self.run_ / "last_state" / "fluid.h5")
-        self.assertEqual(self.plot(self.run_), ["fields_last", "interface"])
-
-    def test_pictures_have_the_numbers_of_their_outputs_whichever_are_drawn(self):
-        with h5py.File(self.run_ / "fluid.h5", "w") as file:
-            file.attrs["outputs"] = 3
-            for k in range(3):
-                self.write_group(file.create_group(f"{k:06}"), 0.1 * k)
-        for times, numbers in (((), (0, 1, 2)), ((0.1,), (1,)), ((0.2, 0.0), (0, 2))):
-            drawn = [name for name in self.plot(self.run_, times) if name.startswith("fields")]
-            self.assertEqual(drawn, [f"fields_{number:04}" for number in numbers])
-
-    def test_a_part_of_a_run_is_refused_and_the_folder_of_the_run_named(self):
-        with self.assertRaisesRegex(UserMistake, f"part of a run.*'{self.run_.resolve()}'"):
-            self.plot(self.run_ / "fields")
-
-    def test_a_single_output_is_not_taken_for_a_series(self):
-        (self.run_ / "case.yaml").unlink()
-        self.write_state(self.run_ / "fields" / "solid_block_000000.h5")
-        with self.assertRaisesRegex(UserMistake, "not the series"):
-            self.plot(self.run_ / "fields")
-
-
 class Times(unittest.TestCase):
     def setUp(self):
         self.series = [data.Series(name, [data.Output(t, []) for t in (0.0, 0.5, 1.0 + 1e-13)]) for name in ("fluid", "block")]
@@ -327,6 +268,11 @@ class SideBySide(unittest.TestCase):
         self.assertEqual(several.labels([cases[0]] * 2, ["a", "b"]), ["a", "b"])
         unsaid = cases[0].replace("  projection: full\n", "")
         self.assertEqual(several.labels([unsaid, cases[0]], ["a", "b"]), ["simplified", "full"])
+
+    def test_folders_of_one_name_are_called_by_those_above_them_too(self):
+        self.assertEqual(several.names([Path("x/run"), Path("y/run")]), ["x/run", "y/run"])
+        self.assertEqual(several.names([Path("x/a"), Path("y/b")]), ["a", "b"])
+        self.assertEqual(several.names([Path("x/a/run"), Path("y/a/run")]), ["x/a/run", "y/a/run"])
 
     def test_a_law_is_said_of_its_own_solid_where_there_are_several(self):
         case = "solids:\n  block:\n    law: saint_venant_kirchhoff\n  egg:\n    law: {}\n"

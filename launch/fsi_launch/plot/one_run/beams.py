@@ -1,5 +1,7 @@
 """Centrelines of beams (the paper's figures 22 and 23): solids that stand on a wall with both ends of their outline."""
 
+import itertools
+import re
 from dataclasses import dataclass
 
 import numpy as np
@@ -7,14 +9,15 @@ from matplotlib import pyplot
 from matplotlib.tri import LinearTriInterpolator
 
 from fsi_launch.plot.look import style, units
-from fsi_launch.plot.reading import mesh
+from fsi_launch.plot.reading import mesh, scales
 from fsi_launch.plot.several_runs import several
 
 HEADING = ("beam", "coarse", "fine", "t", "largest distance")
 SLENDER = 3         # a beam is so many times longer than it is thick
 STATIONS = 201      # along a centreline
 NARROW = 0.1        # room of all lines, width over height, below which the two directions have scales of their own
-FINEST, COARSER = "-", ("--", ":", "-.")
+LINES = {"full": "-", "dashed": "--", "dotted": ":", "dash-dot": "-.", "long dashes": (0, (9, 3)), "wide dots": (0, (1, 4))}
+UNTOLD = ("grid.factor", "name", "title", "units", "expect.", "output.", "reference.")   # entries in which runs of one panel may differ
 
 
 @dataclass
@@ -28,9 +31,9 @@ class Beam:
 
 @dataclass
 class Run:
-    """A run and what tells it from others: its parameters, and apart the grid factor and the laws of its beams."""
+    """A run and what tells it from others: the entries of its case, and apart the grid factor and the laws of its beams."""
 
-    parameters: dict
+    entries: dict
     factor: float
     beams: list
     laws: str = ""
@@ -109,10 +112,10 @@ def of(series):
 def run_of(series, case):
     """A run for comparison; `case`: the text of its case file."""
     entries = several.entries(case)
-    parameters = {key.removeprefix("parameters."): value for key, value in entries.items() if key.startswith("parameters.")}
     factor = float(entries.get("grid.factor", 0))
     found = of(series)
-    return Run(parameters, factor, found, ", ".join(entries.get(f"solids.{beam.name}.law", "").replace("_", " ") for beam in found))
+    unsaid = {key: value for key, value in several.UNSAID.items() if key not in entries}
+    return Run(entries | unsaid, factor, found, ", ".join(entries.get(f"solids.{beam.name}.law", "").replace("_", " ") for beam in found))
 
 
 # --- comparison
@@ -129,12 +132,19 @@ def distances(a, b):
             for t in several.common_times([a.lines, b.lines])}
 
 
+def _telling(one, other):
+    """The entries in which two runs differ besides their grid, what they write and their laws; a solid with another law has other entries."""
+    keys = [key for key in several.different([one.entries, other.entries]) if not key.startswith(UNTOLD)]
+    laws = {key.removesuffix("law") for key in keys if re.fullmatch(r"solids\.[^.]+\.law", key)}
+    return [key for key in keys if not key.startswith(tuple(laws))]
+
+
 def _groups(runs):
     """Lists of runs that differ in their grid or their laws only, the finest first."""
     groups = []
     for run in runs:
         for group in groups:
-            if group[0].parameters == run.parameters:
+            if not _telling(group[0], run):
                 group.append(run)
                 break
         else:
@@ -143,9 +153,9 @@ def _groups(runs):
 
 
 def _label(run, runs):
-    """The parameters in which the runs differ."""
-    names = [name for name in run.parameters if len({other.parameters.get(name) for other in runs}) > 1]
-    return ", ".join(f"{name} = {run.parameters[name]}" for name in names)
+    """The entries in which the runs differ."""
+    keys = dict.fromkeys(key for other in runs for key in _telling(run, other) if key in run.entries)
+    return ", ".join(several.short(key, run.entries[key], [beam.name for beam in run.beams]) for key in keys)
 
 
 def table(runs):
@@ -169,7 +179,7 @@ def table(runs):
 def _draw(axes, beam, line, colours):
     """`colours`: {time: colour}."""
     for t, positions in sorted(beam.lines.items()):
-        axes.plot(*positions.T, line, color=colours[t], linewidth=1.1, label=f"{t:.4g}")
+        axes.plot(*positions.T, linestyle=line, color=colours[t], linewidth=1.1, label=f"{t:.4g}")
 
 
 def _colours(times):
@@ -180,22 +190,29 @@ def _colours(times):
 def _panel(axes, group, title):
     """The runs of a group: the finest, or the first, in full lines, others broken."""
     times = sorted({t for run in group for beam in run.beams for t in beam.lines})
-    for run, line in zip(group, (FINEST, *COARSER)):
+    for run, line in zip(group, itertools.cycle(LINES.values())):
         for beam in run.beams:
             _draw(axes, beam, line, _colours(times))
     handles = list({handle.get_label(): handle for handle in reversed(axes.get_lines())}.items())
     handles = [handle for _, handle in sorted(handles, key=lambda one: float(one[0]))]
     axes.legend(handles=handles, title=units.label("t", "time"), loc="center left", bbox_to_anchor=(1.0, 0.5), handlelength=1.2)
     axes.set_title(title, loc="left")
-    same_grid = len({run.factor for run in group}) == 1 and all(run.laws for run in group)
-    lines = [f"{run.laws if same_grid else f'j = {run.factor:g}'} {name}" for run, name in zip(group, ("full", "dashed", "dotted", "dash-dot"))]
+    same_grid, same_laws = len({run.factor for run in group}) == 1, len({run.laws for run in group}) == 1
+    told = [", ".join([*([] if same_laws else [run.laws]), *([] if same_grid and not same_laws else [f"j = {run.factor:g}"])]) for run in group]
+    lines = [f"{one} {name}" for one, name in zip(told, itertools.cycle(LINES))]
     axes.set_xlabel(units.label("x", "length") + (f"      ({', '.join(lines)})" if len(group) > 1 else ""))
 
 
 def _scale(panels):
     """The same scale both ways, unless beams bend so little that nothing could be seen."""
     lines = [line for axes in panels for line in axes.get_lines()]
-    x, y = (np.ptp(np.concatenate([getattr(line, f"get_{name}data")() for line in lines])) for name in "xy")
+    places = {name: np.concatenate([getattr(line, f"get_{name}data")() for line in lines]) for name in "xy"}
+    x, y = (np.ptp(places[name]) for name in "xy")
+    for name, size in (("x", x), ("y", y)):
+        if size <= scales.NEGLIGIBLE * max(x, y):   # straight: round-off is not worth a scale
+            middle, half = np.mean(places[name]), 0.5 * NARROW * max(x, y)
+            for axes in panels:
+                getattr(axes, f"set_{name}lim")(middle - half, middle + half)
     if min(x, y) > NARROW * max(x, y):
         for axes in panels:
             axes.set_aspect("equal")

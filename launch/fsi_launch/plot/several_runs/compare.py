@@ -4,7 +4,7 @@ from fsi_launch.failure import UserMistake
 from fsi_launch.plot.one_run import beams
 from fsi_launch.plot.reading import data
 from fsi_launch.plot.several_runs import lines, outlines, several, side_by_side
-from fsi_launch.telling import AS_NAMED, readable
+from fsi_launch.telling import AS_NAMED
 
 
 def _case_of(directory):
@@ -28,7 +28,7 @@ def pictures(directories, out, times=()):
     """(name, figure) for each kind of thing at least one of the runs holds, at `times` alone where some are given."""
     out.mkdir(parents=True, exist_ok=True)
     series, cases = [data.at_times(data.all_series(one), times) for one in directories], [_case_of(one) for one in directories]
-    told = several.labels(cases, [readable(one.name) for one in directories])
+    told = several.labels(cases, several.names(directories))
     same = len({several.entries(case).get("name") for case in cases}) == 1
     parts = [*_beams(series, cases, out), *outlines.pictures(series, told, out), *lines.pictures(series, told),
              *(side_by_side.pictures(series, told) if same else ())]

@@ -52,10 +52,10 @@ def _differences(table):
 
 def _finish(axes, h, columns):
     """Slope, ticks and legend of errors over the spacing."""
-    if len(h) > 1:
-        least = np.nanmin(columns, axis=0)
-        order = np.argsort(h)
-        _triangle(axes, h, lambda x: np.exp(np.interp(np.log(x), np.log(h[order]), np.log(least[order]))))
+    least = np.min([np.where(np.isfinite(column), column, np.inf) for column in columns], axis=0)
+    order = np.array([k for k in np.argsort(h) if np.isfinite(least[k])], dtype=int)     # on a level there may be no error at all
+    if len(order) > 1:
+        _triangle(axes, h[order], lambda x: np.exp(np.interp(np.log(x), np.log(h[order]), np.log(least[order]))))
     axes.set_xticks(h)
     axes.xaxis.set_major_formatter(FuncFormatter(lambda value, _: _spacing(value)))
     axes.xaxis.set_minor_formatter(NullFormatter())
@@ -80,7 +80,7 @@ def pictures(table):
     if not errors:
         return
     figure, axes = pyplot.subplots(figsize=(5.8, 4.6))
-    for (name, column), marker in zip(errors.items(), MARKERS):
+    for (name, column), marker in zip(errors.items(), itertools.cycle(MARKERS)):
         rate = table["fitted"][name]
         label = NAMES.get(name, name) + ("" if rate is None else f": rate {rate:.2f}")
         axes.loglog(h, column, marker=marker, markersize=4.5, label=label)

@@ -1,11 +1,13 @@
 """Several runs beside each other: what tells them apart, and which output times they share."""
 
 import csv
+import os
+from pathlib import Path
 
 import numpy as np
 
 from fsi_launch.plot.reading import data
-from fsi_launch.telling import AS_NAMED
+from fsi_launch.telling import AS_NAMED, readable
 
 MOST_TIMES = 3
 TELLING = ("law", "factor", "projection", "multirate")
@@ -26,7 +28,7 @@ def entries(case):
     return result
 
 
-def _short(key, value, solids):
+def short(key, value, solids):
     """One entry in few words, with its solid's name where a run has several. `solids`: the names of all."""
     *_, owner, last = ("", *key.split("."))
     if key == "grid.factor":
@@ -45,8 +47,18 @@ def labels(cases, names):
     found = [UNSAID | entries(case) for case in cases]
     keys = [key for key in different(found) if key.startswith("parameters.") or key.rsplit(".", 1)[-1] in TELLING]
     solids = {key.split(".")[1] for one in found for key in one if key.startswith("solids.")}
-    result = [", ".join(_short(key, one[key], solids) for key in keys if key in one) for one in found]
+    result = [", ".join(short(key, one[key], solids) for key in keys if key in one) for one in found]
     return result if len(set(result)) == len(result) else list(names)
+
+
+def names(directories):
+    """Names of folders, with those above them as far as it takes to tell them apart."""
+    places = [Path(os.path.abspath(one)).parts for one in directories]
+    for depth in range(1, max(map(len, places)) + 1):
+        found = ["/".join(parts[-depth:]) for parts in places]
+        if len(set(found)) == len(found):
+            break
+    return [readable(one) for one in found]
 
 
 def at(values, t):
