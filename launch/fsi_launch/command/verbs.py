@@ -170,7 +170,7 @@ def _add_converge(verbs):
     _add_case(verb)
     verb.add_argument("--levels", type=_levels, metavar="J,J,..", default=[2, 4, 8],
                       help="grid factors j of h = 1/(10 j) (default: 2,4,8)")
-    verb.add_argument("--rates", type=_words, metavar="NAME,..", default=[],
+    verb.add_argument("--rates", type=_words, action="extend", metavar="NAME,..", default=[],
                       help="only these errors, e.g. rho,v1 (default: all)")
     verb.add_argument("--min-rate", type=float, metavar="R", help="exit 1 if a fitted rate is below R")
     verb.add_argument("--out", type=_named, metavar="DIR", help="folder of the runs and tables (default: runs/converge-CASE-TIME)")
@@ -183,7 +183,7 @@ def _add_study(verbs):
     _add_case(verb)
     verb.add_argument("--vary", metavar="KEY=V,V,..", action="append", required=True, help="an entry of the case and its values, "
                       "e.g. --vary parameters.rho_bar=0.01,0.1,1 (repeatable: all combinations)")
-    verb.add_argument("--show", type=_words, metavar="NAME,..", default=[], help="what the table shows: entries of summary.json like "
+    verb.add_argument("--show", type=_words, action="extend", metavar="NAME,..", default=[], help="what the table shows: entries of summary.json like "
                       "interface.max_gap, or TABLE.COLUMN[:last|min|max] like forces_disk.angle:max (default: the errors, or where "
                       "the bodies are at the end)")
     verb.add_argument("--jobs", type=_jobs, metavar="N", default=1, help="runs at the same time (default: 1)")

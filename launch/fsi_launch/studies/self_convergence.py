@@ -13,6 +13,7 @@ from pathlib import Path
 from fsi_launch.telling import AS_NAMED
 
 QUANTITIES = (("centre", ("centre1", "centre2")), ("velocity", ("velocity1", "velocity2")), ("angle", ("angle",)))
+ROUND_OFF = 1e-13   # of the largest value: smaller differences have no order
 FINER = 8           # times the points, for the curve a boundary is compared with
 
 
@@ -27,13 +28,14 @@ class Row:
     orders: list
 
 
-def orders(levels, differences):
-    """Observed orders; None where differences are missing or the levels are not in one ratio."""
+def orders(levels, differences, size):
+    """Observed orders; None where a difference is round-off of values of this size, or the levels are not in one ratio."""
     result = []
     for k in range(len(differences) - 1):
         ratio, next_ratio = levels[k + 1] / levels[k], levels[k + 2] / levels[k + 1]
         a, b = differences[k], differences[k + 1]
-        result.append(math.log(a / b) / math.log(ratio) if a and b and math.isclose(ratio, next_ratio) else None)
+        told = min(a, b) > ROUND_OFF * size and math.isclose(ratio, next_ratio)
+        result.append(math.log(a / b) / math.log(ratio) if told else None)
     return result
 
 
@@ -108,11 +110,12 @@ def compare(levels, directories, times):
                     continue
                 values = [[run[t][column] for column in columns] for run in runs]
                 found = [_apart(name, coarse, fine) for coarse, fine in zip(values, values[1:])]
-                rows.append(Row(solid, name, t, found, orders(levels, found)))
+                size = max(abs(line[column]) for run in runs for line in run.values() for column in columns)
+                rows.append(Row(solid, name, t, found, orders(levels, found, size)))
             lines = [_at(one.get(solid, {}), t) for one in curves]
             if all(line is not None for line in lines):
                 found = [_distance(coarse, fine) for coarse, fine in zip(lines, lines[1:])]
-                rows.append(Row(solid, "boundary", t, found, orders(levels, found)))
+                rows.append(Row(solid, "boundary", t, found, orders(levels, found, max(abs(line).max() for line in lines))))
     return rows
 
 

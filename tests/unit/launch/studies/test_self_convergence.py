@@ -49,6 +49,10 @@ class SelfConvergence(unittest.TestCase):
     def test_equal_values_have_no_order(self):
         self.assertEqual(self.compare([4, 8, 16])["velocity", 1].orders, [None])
 
+    def test_round_off_has_no_order_and_small_values_have_one(self):
+        self.assertEqual(self_convergence.orders([4, 8, 16], [4e-15, 1e-15], 1), [None])
+        self.assertAlmostEqual(self_convergence.orders([4, 8, 16], [4e-15, 1e-15], 1e-6)[0], 2)
+
     def test_levels_that_are_not_in_one_ratio_have_no_order(self):
         self.assertEqual(self.compare([2, 4, 16])["centre", 1].orders, [None])
 

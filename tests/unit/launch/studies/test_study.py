@@ -14,6 +14,7 @@ from unittest import mock
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 import launcher  # noqa: E402
 from fsi_launch import version  # noqa: E402
+from fsi_launch.command import verbs  # noqa: E402
 from fsi_launch.studies import study  # noqa: E402
 from fsi_launch.failure import UserMistake  # noqa: E402
 
@@ -29,6 +30,12 @@ class Values(unittest.TestCase):
         for text in ("rho", "rho=", "=1", "rho=1,,2"):
             with self.subTest(text), self.assertRaisesRegex(UserMistake, "KEY=VALUE"):
                 study.values_of(text)
+
+
+class Command(unittest.TestCase):
+    def test_what_is_shown_may_be_said_in_several_options(self):
+        words = ["study", "beam", "--vary", "a=1", "--show", "steps,t", "--show", "wall_s"]
+        self.assertEqual(verbs.parser().parse_args(words).show, ["steps", "t", "wall_s"])
 
 
 class Trials(unittest.TestCase):
