@@ -234,6 +234,7 @@ struct Case {
   std::string restart_digest;       ///< of the part that a restart must not change
   std::string resolved;             ///< the case with parameters and overrides filled in, as YAML
   std::vector<std::string> chosen;  ///< keys that the file left open, with the values chosen for them
+  std::vector<std::string> unused;  ///< parameters that nothing in the file needs
   std::map<std::string, double> parameters;
   double grid_factor = 1;  ///< j of h = 1 / (10 j) [-]
   TimeSpec time;

@@ -46,6 +46,8 @@ void check(const Options& options) {
   }
   fmt::print("{}\n", fsi::summary_line(problem));
   for (const std::string& line : problem.chosen) fmt::print("  chosen: {}\n", line);
+  for (const std::string& name : problem.unused)
+    fmt::print("  unused: parameters.{}, which no other value of the case needs\n", name);
   if (const std::string text = fsi::cost_text(cost); !text.empty()) fmt::print("{}\n", text);
 }
 

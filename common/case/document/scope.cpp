@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <system_error>
 #include <vector>
@@ -113,6 +114,13 @@ class Parameters {
   }
 };
 
+/// Names in the formulas of a node and of all within it.
+void collect_names(const Node& node, std::set<std::string>& names) {
+  if (node.is_scalar()) names.merge(names_in(node.text));
+  for (const Node& item : node.items) collect_names(item, names);
+  for (const config::Entry& entry : node.entries) collect_names(entry.value, names);
+}
+
 /// The number that a text is, without any formula: most values of a case are.
 std::optional<double> plain_number(const std::string& text) {
   double value = 0;
@@ -145,6 +153,25 @@ double Scope::number(const Node& node, const std::string& key) const {
   } catch (const std::invalid_argument& error) {
     fail(node.place, key, error.what());
   }
+}
+
+std::vector<std::string> unused_parameters(const Node& root) {
+  const Node* parameters = root.find("parameters");
+  if (parameters == nullptr || !parameters->is_map()) return {};
+  std::set<std::string> used;
+  for (const config::Entry& entry : root.entries) {
+    if (&entry.value != parameters) collect_names(entry.value, used);
+  }
+  for (const config::Entry& entry : parameters->entries) {
+    std::set<std::string> needed = names_in(entry.value.text);
+    needed.erase(entry.key);
+    used.merge(needed);
+  }
+  std::vector<std::string> unused;
+  for (const config::Entry& entry : parameters->entries) {
+    if (!used.contains(entry.key)) unused.push_back(entry.key);
+  }
+  return unused;
 }
 
 Scope evaluate_scope(Node& root) {

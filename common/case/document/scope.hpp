@@ -3,6 +3,7 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 #include "common/core/input/config.hpp"
 
@@ -21,5 +22,9 @@ struct Scope {
 /// the parameters in the tree by their values.
 /// @throws UserMistake
 Scope evaluate_scope(config::Node& root);
+
+/// Parameters that no other value of the case names, in their order. To be asked of what was written, before it is
+/// evaluated.
+std::vector<std::string> unused_parameters(const config::Node& root);
 
 }  // namespace fsi

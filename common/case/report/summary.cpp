@@ -160,6 +160,7 @@ std::string summary_as_json(const Case& problem) {
       {"memory", memory},
       {"cost", cost_json(problem)},
       {"chosen", problem.chosen},
+      {"unused", problem.unused},
       {"parameters", problem.parameters},
       {"grid_factor", problem.grid_factor},
       {"time", time_json(problem.time)},

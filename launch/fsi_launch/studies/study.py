@@ -299,6 +299,14 @@ def _made(out, name):
     raise Failure(OUTPUT_FAILED, "no free name for the study in runs/; name one with --out")
 
 
+def _expect_used(vary, found):
+    """Throws UserMistake where a parameter is varied that no trial needs: their runs would all be alike."""
+    for key in vary:
+        section, _, name = key.partition(".")
+        if section == "parameters" and all(name in trial.case.unused for trial in found):
+            raise UserMistake(f"--vary {key}: no other value of the case needs this parameter, and all runs would be alike; write it where it is meant")
+
+
 def main(options):
     """Runs the study, prints its table and writes study.{txt,md,csv,json,png}."""
     vary = dict(map(values_of, options.vary))
@@ -311,6 +319,7 @@ def main(options):
     found = trials(vary, "")
     for trial in found:     # a mistake in the last one must not show after hours
         trial.case = cases.resolve(options.case, _overrides(trial, options), options.laws)
+    _expect_used(vary, found)
     paths.build([program for trial in found for program in needed(trial.case)])
     directory = _made(options.out, name)
     for trial in found:

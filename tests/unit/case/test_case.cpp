@@ -197,6 +197,14 @@ TEST(CaseLookup, NamesTheNearestCaseWhenThereIsNone) {
   EXPECT_THROW(find_case("there/is/nothing.yaml", {FSI_ROOT "/configs"}), UserMistake);
 }
 
+TEST(Summary, NamesParametersThatNothingNeeds) {
+  const Case problem = load_case("sod_tube", {"parameters.mine=2", "parameters.other=3 * mine",
+                                              "parameters.lonely=lonely_2", "parameters.lonely_2=1"});
+  EXPECT_EQ(problem.unused, (std::vector<std::string>{"other", "lonely"}));
+  EXPECT_EQ(nlohmann::json::parse(summary_as_json(problem))["unused"], nlohmann::json({"other", "lonely"}));
+  EXPECT_TRUE(load_case("shock_ellipse").unused.empty());
+}
+
 TEST(Summary, TellsTheLauncherWhichProgramsRun) {
   const auto coupled =
       nlohmann::json::parse(summary_as_json(load_case("elastic_piston", {}, {"solid=neo_hookean"})));

@@ -89,6 +89,15 @@ class Quantities(launcher.InScratch):
         self.assertEqual(study.result_of([trial], "c", {"a": ["1"]}, [])["rows"][0]["quantities"]["forces_disk.angle"], 1)
 
 
+class Unused(unittest.TestCase):
+    def test_a_parameter_that_no_trial_needs_is_a_mistake(self):
+        found = [SimpleNamespace(case=SimpleNamespace(unused=names)) for names in (("a",), ("a", "b"))]
+        for vary in ({"parameters.b": ["1", "2"]}, {"grid.a": ["1"]}):
+            study._expect_used(vary, found)
+        with self.assertRaisesRegex(UserMistake, "--vary parameters.a: .* all runs would be alike"):
+            study._expect_used({"parameters.b": ["1"], "parameters.a": ["1", "2"]}, found)
+
+
 class Again(launcher.InScratch):
     def finished(self, build):
         """Whether a completed run of this build of the programs is not made again."""
