@@ -139,12 +139,16 @@ def _run_levels(options, directory):
     return summaries
 
 
+def _nothing_to_compare(case):
+    return UserMistake(f"{case.name} has no reference solution and no solid that moves: there is nothing to compare")
+
+
 def _compare_levels(options, case, directory):
     """The bodies on each grid against those on the next finer one."""
     times = sorted({*case.times, case.end})  # the end is written whatever the times of output
     rows = self_convergence.compare(options.levels, [directory / f"level_{j}" for j in options.levels], times)
     if not rows:
-        raise UserMistake(f"{case.name} has no reference solution and no solid that moves: there is nothing to compare")
+        raise _nothing_to_compare(case)
     text = self_convergence.as_text(options.levels, rows)
     print(text, end="")
     for suffix, content in (("txt", text), ("md", self_convergence.as_markdown(options.levels, rows)),
@@ -164,7 +168,9 @@ def _judge(rates, least):
 
 
 def _expect_enough(options, case):
-    """Levels to compare; with a reference solution one grid has errors too. Throws UserMistake."""
+    """Something to compare, on levels enough; with a reference solution one grid has errors too. Throws UserMistake."""
+    if case.reference == "none" and all(program == "fluid_solver" for program in case.programs.values()):
+        raise _nothing_to_compare(case)
     least = 2 if case.reference == "none" or options.min_rate is not None else 1
     if len(options.levels) < least:
         words = ("two grids or more for a rate of convergence" if case.reference != "none" else

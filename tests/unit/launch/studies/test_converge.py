@@ -46,8 +46,17 @@ class Rates(unittest.TestCase):
 class Levels(unittest.TestCase):
     def refused(self, levels, reference, min_rate=None):
         with self.assertRaises(UserMistake) as caught:
-            converge._expect_enough(SimpleNamespace(levels=levels, min_rate=min_rate), SimpleNamespace(reference=reference))
+            converge._expect_enough(SimpleNamespace(levels=levels, min_rate=min_rate), self.case(reference))
         return str(caught.exception)
+
+    def case(self, reference, **programs):
+        return SimpleNamespace(name="mine", reference=reference, programs=programs or {"fluid": "fluid_solver", "a": "solid_solver_rigid"})
+
+    def test_gas_alone_has_nothing_to_compare_but_with_a_reference(self):
+        gas = self.case("none", fluid="fluid_solver")
+        with self.assertRaisesRegex(UserMistake, "mine has no reference solution .* nothing to compare"):
+            converge._expect_enough(SimpleNamespace(levels=[2, 4, 8], min_rate=None), gas)
+        converge._expect_enough(SimpleNamespace(levels=[2, 4, 8], min_rate=None), self.case("riemann", fluid="fluid_solver"))
 
     def test_one_grid_is_too_few_and_it_is_said_how_many_it_takes(self):
         self.assertRegex(self.refused([4], "none"), "--levels 4: .*two grids.* to compare.* three for orders")
@@ -56,7 +65,7 @@ class Levels(unittest.TestCase):
 
     def test_two_are_enough_for_a_rate_with_a_reference_and_to_compare_without_and_one_for_errors(self):
         for levels, reference, rate in (([2, 4], "none", None), ([2, 4], "piston_1d", 1.9), ([4], "piston_1d", None)):
-            converge._expect_enough(SimpleNamespace(levels=levels, min_rate=rate), SimpleNamespace(reference=reference))
+            converge._expect_enough(SimpleNamespace(levels=levels, min_rate=rate), self.case(reference))
 
     def test_grids_that_do_not_follow_the_level_are_refused_or_told(self):
         told = []
@@ -81,7 +90,7 @@ class WithoutPictures(unittest.TestCase):
         for reference, count in (("none", 1), ("piston_1d", 0)):
             told.clear()
             with mock.patch.object(converge.self_convergence, "lacks", lambda: "matplotlib"), mock.patch.object(converge, "tell", told.append), \
-                    mock.patch.object(converge.cases, "resolve", lambda *_: SimpleNamespace(name="c", reference=reference)), \
+                    mock.patch.object(converge.cases, "resolve", lambda *_: SimpleNamespace(name="c", reference=reference, programs={"a": "solid_solver_rigid"})), \
                     self.assertRaises(UserMistake):
                 converge.main(options)      # that folder is a file
             self.assertEqual(len(told), count)
