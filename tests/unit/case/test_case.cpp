@@ -198,8 +198,9 @@ TEST(CaseLookup, NamesTheNearestCaseWhenThereIsNone) {
 }
 
 TEST(Summary, NamesParametersThatNothingNeeds) {
-  const Case problem = load_case("sod_tube", {"parameters.mine=2", "parameters.other=3 * mine",
-                                              "parameters.lonely=lonely_2", "parameters.lonely_2=1"});
+  const Case problem =
+      load_case("sod_tube", {"parameters={gamma: 1.4, x_0: 0.01 * mine, mine: 50, other: 3 * mine, "
+                             "lonely: lonely_2, lonely_2: 1}"});
   EXPECT_EQ(problem.unused, (std::vector<std::string>{"other", "lonely"}));
   EXPECT_EQ(nlohmann::json::parse(summary_as_json(problem))["unused"], nlohmann::json({"other", "lonely"}));
   EXPECT_TRUE(load_case("shock_ellipse").unused.empty());
