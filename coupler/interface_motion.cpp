@@ -78,15 +78,6 @@ void unit_normals(const Curve& curve, std::span<const double> x, std::span<doubl
   }
 }
 
-void point_lengths(std::span<const double> x, std::span<double> ds) {
-  std::ranges::fill(ds, 0.0);
-  for (std::size_t k = 1; k < x.size() / 2; ++k) {
-    const double half = 0.5 * (vector_at(x, k) - vector_at(x, k - 1)).norm();
-    ds[k - 1] += half;
-    ds[k] += half;
-  }
-}
-
 void arclength(std::span<const double> x, std::span<double> s) {
   s[0] = 0;
   for (std::size_t k = 1; k < x.size() / 2; ++k)

@@ -44,10 +44,6 @@ struct Curve {
 /// one-sided difference would turn a ripple of the curve into a normal that pushes the end off the wall.
 void unit_normals(const Curve& curve, std::span<const double> x, std::span<double> n);
 
-/// Length of interface that belongs to each point: half of the adjoining segments (the trapezoidal rule). The
-/// two copies of the point that closes a curve have half of its length each.
-void point_lengths(std::span<const double> x, std::span<double> ds);
-
 /// Length from point 0 along the curve.
 void arclength(std::span<const double> x, std::span<double> s);
 

@@ -12,6 +12,7 @@
 #include "common/core/failure.hpp"
 #include "common/core/types.hpp"
 #include "common/interface/modal.hpp"
+#include "common/interface/point_lengths.hpp"
 #include "common/wire/sparse.hpp"
 #include "coupler/exchange/checked_values.hpp"
 
@@ -153,7 +154,7 @@ void InterfaceExchange::prepare(const Moment& moment) {
   curve_.last.slides = says && solid.fixed.back() == wire::Freedom::slides;
   if (transfer_) transfer_->let_ends_slide(curve_.first.slides, curve_.last.slides);
   unit_normals(curve_, x_gas_, n_);
-  point_lengths(x_gas_, ds_);
+  point_lengths(x_gas_, n_, ds_);
   for (std::size_t k = 0; k < curve_.n; ++k) {
     const GasPoint<2> point{.v = vector_at(gas.v, k), .p = gas.p[k], .p_e = gas.p_e, .z_f = gas.z_f[k]};
     gas_[k] = {.state = normal_side<2>(point, vector_at(n_, k)), .curve = {.z = gas.z_f[k]}};

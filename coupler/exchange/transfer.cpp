@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "common/core/component_major.hpp"
+#include "common/interface/point_lengths.hpp"
 #include "common/wire/sparse.hpp"
 
 namespace fsi::coupler {
@@ -99,7 +100,7 @@ std::vector<double> InterfaceTransfer::solid_traction(std::span<const double> x,
   const std::size_t m = to_fine_.points();
   std::vector<double> w_n = at_coarse(fine.w_n), back(m), n_back(2 * m), ds(m);
   const std::vector<double> n = at_coarse(fine.n);
-  point_lengths(x, ds);
+  point_lengths(x, fine.n, ds);
   to_fine_.cubic(w_n, back);
   to_fine_.cubic(n, n_back);
   Vec2 missing = Vec2::Zero();

@@ -2,7 +2,9 @@
 
 #include <array>
 #include <cstddef>
+#include <vector>
 
+#include "common/interface/point_lengths.hpp"
 #include "fluid_solver/boundary/side_points.hpp"
 
 namespace fsi::fluid {
@@ -16,16 +18,18 @@ void add_interface(const GasSolver& solver, const InterfaceLoad& load, Rates& ra
   const SidePoints points(solver.state(load.grid).layout, load.side);
   const ConstFieldView x = solver.grid(load.grid).x();
   const std::size_t n = load.v_n.size();
-  for (int k = 0; k < points.n(); ++k) {
-    const int before = k > 0 ? k - 1 : 0, after = k + 1 < points.n() ? k + 1 : k;
-    const Vec2 here = position(x, points, k, 0);
-    const double ds = 0.5 * ((position(x, points, after, 0) - here).norm() +
-                             (here - position(x, points, before, 0)).norm());
-    const auto at = static_cast<std::size_t>(k);
-    const double push = (solver.options().p_e - load.w_n[at]) * ds;
-    rates[1] += push * load.n[at];
-    rates[2] += push * load.n[n + at];
-    rates[3] += push * load.v_n[at];
+  std::vector<double> places(2 * n), ds(n);
+  for (std::size_t k = 0; k < n; ++k) {
+    const Vec2 place = position(x, points, static_cast<int>(k), 0);
+    places[k] = place.x();
+    places[n + k] = place.y();
+  }
+  point_lengths(places, load.n, ds);
+  for (std::size_t k = 0; k < n; ++k) {
+    const double push = (solver.options().p_e - load.w_n[k]) * ds[k];
+    rates[1] += push * load.n[k];
+    rates[2] += push * load.n[n + k];
+    rates[3] += push * load.v_n[k];
   }
 }
 

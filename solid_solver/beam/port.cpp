@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "common/core/failure.hpp"
+#include "common/interface/point_lengths.hpp"
 #include "common/io/write_each.hpp"
 #include "common/wire/sparse.hpp"
 
@@ -33,18 +34,6 @@ double thickness_at(const BeamModel& model, double s) {
   const auto [before, after, part] = model.middles_around(s);
   const double first = thickness(model.section(before));
   return first * std::pow(thickness(model.section(after)) / first, part);
-}
-
-/// Length of the outline that belongs to each point.
-std::vector<double> point_lengths(const std::vector<double>& x) {
-  const std::size_t n = x.size() / 2;
-  std::vector<double> ds(n);
-  for (std::size_t k = 1; k < n; ++k) {
-    const double half = 0.5 * std::hypot(x[k] - x[k - 1], x[n + k] - x[n + k - 1]);
-    ds[k - 1] += half;
-    ds[k] += half;
-  }
-  return ds;
 }
 
 }  // namespace
@@ -106,7 +95,8 @@ void BeamParticipant::apply_bcs(double /*t*/, ProjectedStates projected) {
   for (std::size_t k = 0; k < projected.size(); ++k) {
     const wire::ProjectedInterface& answer = *projected[k];
     const SkinState state = skins_[k].state(motion_);
-    const std::vector<double> ds = point_lengths(state.x);
+    std::vector<double> ds(skins_[k].points());
+    point_lengths(state.x, answer.n, ds);
     for (std::size_t i = 0; i < skins_[k].points(); ++i)
       gas.push_back({.z = answer.z_f[i], .v_n = answer.v_n[i], .w_n = answer.w_n[i]});
     lengths.insert(lengths.end(), ds.begin(), ds.end());

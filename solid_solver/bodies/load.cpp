@@ -1,6 +1,9 @@
 #include "solid_solver/bodies/load.hpp"
 
 #include <cstddef>
+#include <vector>
+
+#include "common/interface/point_lengths.hpp"
 
 namespace fsi::bodies {
 
@@ -11,12 +14,11 @@ GasLoad operator+(const GasLoad& a, const GasLoad& b) {
 GasLoad load_of_gas(std::span<const double> x, std::span<const double> n, std::span<const double> w_n,
                     std::span<const double> v_n) {
   const std::size_t points = x.size() / 2;
-  const auto point = [&](std::size_t k) { return Vec2(x[k], x[points + k]); };
+  std::vector<double> ds(points);
+  point_lengths(x, n, ds);
   GasLoad load;
   for (std::size_t k = 0; k < points; ++k) {
-    const double before = k > 0 ? (point(k) - point(k - 1)).norm() : 0;
-    const double after = k + 1 < points ? (point(k + 1) - point(k)).norm() : 0;
-    const double pull = 0.5 * (before + after) * w_n[k];
+    const double pull = ds[k] * w_n[k];
     const Vec2 force = pull * Vec2(n[k], n[points + k]);
     load.force += force;
     load.moment += x[k] * force.y() - x[points + k] * force.x();

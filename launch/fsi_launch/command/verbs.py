@@ -74,7 +74,7 @@ def _add_new(verbs):
                             "terminal it asks for what the options leave open.")
     verb.add_argument("name", metavar="NAME", help="of the case; NAME.yaml is written, in this folder or where NAME says")
     verb.add_argument("--outline", metavar="FILE", help="points of the body's outline in their order, x, y on each line (default: a circle)")
-    verb.add_argument("--straight", action="store_true", help="straight edges between the points, corners a little rounded, in place of a "
+    verb.add_argument("--straight", action="store_true", help="straight edges between the points, corners rounded, in place of a "
                       "smooth curve")
     verb.add_argument("--on-wall", action="store_true", help="the body stands with its lowest edge on the lower wall of the gas, clamped; "
                       "an elastic one of four corners keeps them sharp")

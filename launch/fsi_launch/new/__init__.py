@@ -64,6 +64,22 @@ def _write(path, content):
     print(f"wrote {path}")
 
 
+WORTH_TELLING = 0.03    # part of a body's extent
+
+
+def _rounded(problem, path):
+    """What the rounding of straight corners takes of the body, or ""."""
+    if not problem.straight or not problem.outline.points:
+        return ""
+    radius = text.radius_of_corners(problem)
+    lost, corner = outline.rounded_away(problem.outline, radius, problem.on_wall)
+    extent = max(max(along) - min(along) for along in zip(*problem.outline.points))
+    if lost <= WORTH_TELLING * extent:
+        return ""
+    return (f"corners are rounded with a radius of {radius:.3g} m: {lost:.2g} m of the body, {100 * lost / extent:.2g} % of its extent, are missing at "
+            f"({corner[0]:.4g}, {corner[1]:.4g}); with a smaller `radius` in {path} less is, and an elastic body takes finer grids")
+
+
 def main(options):
     """Writes NAME.yaml, and its outline where that had to be scaled; checks what it wrote."""
     path, points = _paths(options)
@@ -82,6 +98,8 @@ def main(options):
     angle = None if problem.straight or not problem.outline.points else outline.corners(problem.outline)[0]
     if angle is not None and not text.keeps_corners(problem):
         print(f"the points of {options.outline} turn by more than {angle} degrees: if these are corners, add --straight for edges between the points")
+    if words := _rounded(problem, path):
+        print(words)
     print(cases.check(str(path), [], []))
     print(f"next: {paths.COMMAND} check {path} --plot, {paths.COMMAND} run {path}")
     return DONE

@@ -148,6 +148,12 @@ def shortest_edge(outline):
     return min(math.hypot(*edge) for edge in _edges(outline))
 
 
+def rounded_away(outline, radius, foot=False):
+    """(how far arcs of this radius stay behind the corner where they do most, that corner); `foot`: the first and the last one stay."""
+    lost = [(radius * (1 / math.cos(0.5 * turn) - 1), point) for turn, point in zip(turns(outline), outline.points) if turn < math.pi]
+    return max(lost[1:-1] if foot else lost)
+
+
 def largest_radius(outline):
     """Of arcs at the corners that just fit: an arc takes radius * tan(turn / 2) of the edges on both of its sides."""
     taken = [math.tan(0.5 * turn) for turn in turns(outline)]

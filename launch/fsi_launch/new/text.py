@@ -96,7 +96,7 @@ FITS, OF_ACUTE = 0.9, 0.5   # parts of the largest radius for which arcs have ro
 TOO_SMALL = 0.5     # radius that is not worth its grids, in h
 
 
-def _radius(problem):
+def radius_of_corners(problem):
     """Of the rounded corners; 0: sharp, which takes a point of the grid at each of them."""
     rigid, h, largest, shortest = problem.law == "rigid", problem.spacing(), largest_radius(problem.outline), shortest_edge(problem.outline)
     if problem.on_wall and not rigid and is_block(problem.outline):
@@ -132,7 +132,7 @@ def _shape(problem, path):
     if not problem.straight:
         return _spline(problem, path)
     corners = ", ".join(f"[{_place(problem, x)}, {_place(problem, y)}]" for x, y in outline.points)
-    radius = _radius(problem)
+    radius = radius_of_corners(problem)
     meaning = "of the rounded corners [m]" if radius else "sharp corners"
     walls = "\n      walls: [bottom, bottom]    # on which its first and its last corner stand" if problem.on_wall else ""
     return f"\n      kind: polygon\n      corners: [{corners}]\n      radius: {radius:.3g}       # {meaning}{walls}"

@@ -116,7 +116,8 @@ class Drawing(unittest.TestCase):
                 drawing.draw([(self.folder / "nowhere" / f"{k}.png", picture(k)) for k in (1, 2)], lambda path: None, jobs)
             self.assertEqual(caught.exception.errno, errno.ENOENT)
             with self.subTest(jobs), self.assertRaisesRegex(RuntimeError, "nothing to draw here"):
-                drawing.draw([(self.folder / "a.png", broken), (self.folder / "b.png", picture(1))], lambda path: None, jobs)
+                drawing.draw([(self.folder / "a.png", broken), (self.folder / f"{jobs}.png", picture(1))], lambda path: None, jobs)
+            self.assertTrue((self.folder / f"{jobs}.png").is_file(), "the others are drawn")
 
 
 class Frames(unittest.TestCase):
@@ -178,6 +179,20 @@ class Units(unittest.TestCase):
 
 
 class Streamlines(unittest.TestCase):
+    def test_a_grid_that_reaches_over_itself_is_searched_in_parts(self):
+        import numpy as np
+        from matplotlib.tri import Triangulation
+        from fsi_launch.plot.one_run import streamlines
+        angle, radius = np.meshgrid(np.linspace(0, 2.2 * np.pi, 45), np.linspace(1, 1.5, 4))     # its ends lie one over the other
+        index = np.arange(angle.size).reshape(angle.shape)
+        a, b, c, d = (part.ravel() for part in (index[:-1, :-1], index[:-1, 1:], index[1:, 1:], index[1:, :-1]))
+        cells = Triangulation((radius * np.cos(angle)).ravel(), (radius * np.sin(angle)).ravel(),
+                              np.concatenate([np.column_stack([a, b, c]), np.column_stack([a, c, d])]))
+        parts = streamlines._searched(cells, angle.shape[1])
+        self.assertGreater(len(parts), 1)
+        self.assertEqual(sum(len(part.triangles) for part, _ in parts), len(cells.triangles))
+        self.assertTrue(any(find(1.25, 0.05) >= 0 for _, find in parts))
+
     def test_all_panels_have_one_bar_and_solids_one_of_their_own_where_their_scale_is(self):
         style.use()
         solids = ScalarMappable(Normalize(0, 1))

@@ -26,12 +26,6 @@ def _draw(k):
     return None
 
 
-def _raise(wrong):
-    if isinstance(wrong, tuple):
-        raise OSError(*wrong)
-    raise RuntimeError(f"a picture could not be drawn:\n{wrong}")
-
-
 class _Counter:
     """`drawing 7 of 18` on a terminal, between the lines of the output."""
 
@@ -63,19 +57,25 @@ def _drawn(count, jobs):
 
 
 def draw(pictures, say, jobs=None):
-    """Draws all of `pictures`, [(path, figure or a function that makes it)], and says the path of each. `jobs`: processes, one for each
-    processor unless told."""
+    """Draws all of `pictures`, [(path, figure or a function that makes it)], and says the path of each. What goes wrong with one of them
+    is raised when the others are there; a file that cannot be written ends it. `jobs`: processes, one for each processor unless told."""
     global _tasks   # noqa: PLW0603
     _tasks = list(pictures)
     jobs = min(jobs or len(os.sched_getaffinity(0)), MOST_PROCESSES, len(_tasks))
     counter = _Counter(len(_tasks))
     counter.show()
+    broken = []
     try:
         for (path, _), wrong in zip(_tasks, _drawn(len(_tasks), jobs)):
             counter.clear()
-            if wrong is not None:
-                _raise(wrong)
-            say(path)
+            if isinstance(wrong, str):
+                broken.append(f"{path}:\n{wrong}")
+            elif wrong is not None:
+                raise OSError(*wrong)
+            else:
+                say(path)
             counter.show()
     finally:
         _tasks = []
+    if broken:
+        raise RuntimeError("could not be drawn: " + "\n".join(broken))

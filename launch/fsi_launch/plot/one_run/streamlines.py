@@ -8,7 +8,7 @@ from matplotlib import pyplot, streamplot
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 from matplotlib.path import Path
-from matplotlib.tri import LinearTriInterpolator
+from matplotlib.tri import LinearTriInterpolator, Triangulation
 
 from fsi_launch.plot.look import shading, style, units
 from fsi_launch.plot.one_run import fields
@@ -42,6 +42,20 @@ def _sample_lattice(grid, values, points):
     return np.where(inside, (1 - s) * low + s * high, np.nan)
 
 
+def _searched(cells, columns):
+    """[(triangles, what finds the one of a point)]: one, or, of a grid that reaches over itself, as around a gap, those of parts of its columns
+    that do not; matplotlib has none for triangles that cover each other."""
+    try:
+        return [(cells, cells.get_trifinder())]
+    except RuntimeError:
+        of_column = cells.triangles[:, 0] % columns
+        low, high = of_column.min(), of_column.max()
+        if low == high:
+            return []
+        halves = (of_column <= (low + high) // 2, of_column > (low + high) // 2)
+        return [one for half in halves for one in _searched(Triangulation(cells.x, cells.y, cells.triangles[half]), columns)]
+
+
 def _sample(grid, keys, points):
     """Fields of one grid on the lattice, NaN outside."""
     if grid.is_cartesian():
@@ -52,10 +66,12 @@ def _sample(grid, keys, points):
     near = np.ones(points[0].shape, dtype=bool)     # to find the triangle of a point takes long: only of those in the grid's box
     for x, of_grid in zip(points, (grid.x1, grid.x2)):
         near &= (x >= of_grid.min()) & (x <= of_grid.max())
-    here, finder = [x[near] for x in points], cells.get_trifinder()
-    for key, values in zip(keys, found):
-        known = np.where(grid.used(), grid.fields[key], 0).ravel()
-        values[near] = LinearTriInterpolator(cells, known, trifinder=finder)(*here).filled(np.nan)
+    here = [x[near] for x in points]
+    for part, finder in _searched(cells, grid.x1.shape[1]):
+        for key, values in zip(keys, found):
+            known = np.where(grid.used(), grid.fields[key], 0).ravel()
+            there = LinearTriInterpolator(part, known, trifinder=finder)(*here).filled(np.nan)
+            values[near] = np.where(np.isnan(there), values[near], there)
     return found
 
 

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <tuple>
 
+#include "common/interface/point_lengths.hpp"
 #include "coupler/coupler.hpp"
 #include "tests/unit/coupler/messages.hpp"
 
@@ -98,7 +99,7 @@ CouplerOptions transfer_options() {
 Vec2 force_of(const std::vector<double>& x, const std::vector<double>& n, const std::vector<double>& w_n) {
   const std::size_t points = w_n.size();
   std::vector<double> ds(points);
-  point_lengths(x, ds);
+  point_lengths(x, n, ds);
   Vec2 force = Vec2::Zero();
   for (std::size_t k = 0; k < points; ++k) force += ds[k] * w_n[k] * Vec2(n[k], n[points + k]);
   return force;

@@ -4,6 +4,7 @@ called."""
 
 import itertools
 import os
+import select
 import shutil
 import signal
 import subprocess
@@ -53,7 +54,7 @@ CASE = """#!/bin/bash
 echo '{"name": "piston", "resolved": "", "participants": [{"name": "fluid", "executable": "fluid_solver"},
   {"name": "solid", "executable": "/bin/true"}, {"name": "coupler", "executable": "coupler"}],
   "reference": {"kind": "piston_1d"}, "expect": [], "time": {"end": 1}, "output_times": [], "projection": "full",
-  "restart_digest": "", "cost": {"programs": []}}'
+  "unused": [], "restart_digest": "", "cost": {"programs": []}}'
 """
 
 
@@ -153,6 +154,21 @@ class Building(InScratch):
         self.assertEqual(calls, [])
         self.assertIn("python3-matplotlib", said.splitlines()[-1])
 
+    def told(self, begun, process):
+        """The number that a build writes into a FIFO, unless the command ends before."""
+        reading, over = os.open(begun, os.O_RDONLY | os.O_NONBLOCK), os.pidfd_open(process.pid)
+        try:
+            text = b""
+            while not text.endswith(b"\n"):
+                ready, _, _ = select.select([reading, over], [], [])
+                if over in ready:
+                    self.fail(f"the command ended with {process.wait()} before it built anything")
+                text += os.read(reading, 100)
+            return int(text)
+        finally:
+            os.close(reading)
+            os.close(over)
+
     def test_a_build_ends_with_the_command_that_is_killed(self):
         self.put_checker()
         begun = self.folder / "begun"
@@ -161,7 +177,7 @@ class Building(InScratch):
             environment = self.environment() | {"BUILDING": str(begun), "ENDLESS": f"bin/{target}"}
             with self.subTest(number.name, target=target), \
                     subprocess.Popen([self.folder / "launch" / "fsi", "run", "nothing"], env=environment, stderr=subprocess.DEVNULL) as process:
-                ninja = os.pidfd_open(int(begun.read_text(encoding="ascii")))
+                ninja = os.pidfd_open(self.told(begun, process))
                 process.send_signal(number)
             ended(ninja)
 

@@ -180,6 +180,13 @@ class Corners(unittest.TestCase):
                     one, shape = self.shape(points, straight=True, law=law)
                     self.assertLess(shape["radius"], outline.largest_radius(one.outline))
 
+    def test_what_rounding_takes_of_an_acute_corner_is_known(self):
+        wedge = outline.Outline(points=[(0, 0), (1, -0.5), (1, 0.5)])
+        lost, corner = outline.rounded_away(wedge, 0.1)
+        self.assertEqual(corner, (0, 0))
+        self.assertAlmostEqual(lost, 0.1 * (math.hypot(1, 0.5) / 0.5 - 1))
+        self.assertNotEqual(outline.rounded_away(wedge, 0.1, foot=True)[1], (0, 0))
+
     def test_corners_of_a_rigid_body_stay_sharp_where_no_arc_of_some_size_fits(self):
         self.assertEqual(self.shape(self.WEDGE, straight=True, law="rigid")[1]["radius"], 0)
         self.assertGreater(self.shape(self.WEDGE, straight=True)[1]["radius"], 0)
