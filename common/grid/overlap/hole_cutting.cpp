@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <ranges>
 
 #include "common/core/failure.hpp"
 
@@ -85,7 +86,7 @@ void CurveCut::cut(const CartesianGrid& grid, const CuttingCurve& curve, const s
   drop_touches(touch * grid.dx());
   find_pinches(grid);
   find_hidden(grid, curve);
-  find_starts(curve, grid.n2, name, t);
+  find_starts(grid, curve, name, t);
 }
 
 /// Points on the curve, but for round-off, belong to the domain in every direction, so that a straight curve along a
@@ -251,17 +252,20 @@ bool CurveCut::is_pinched_near(int i, int j) const {
 }
 
 /// Rows with crossings know what is before the first one; along the left boundary the side changes by flips only.
-void CurveCut::find_starts(const CuttingCurve& curve, int rows, const std::string& name, double t) {
+void CurveCut::find_starts(const CartesianGrid& grid, const CuttingCurve& curve, const std::string& name,
+                           double t) {
   constexpr unsigned char unknown = 2;
+  const int rows = grid.n2;
   starts_behind_.assign(static_cast<std::size_t>(rows), unknown);
   const auto start = [this](int j) -> unsigned char& { return starts_behind_[static_cast<std::size_t>(j)]; };
   for (int j = 0; j < rows; ++j) {
     if (!crossings(j).empty()) start(j) = crossings(j).front().into_hole ? 0 : 1;
   }
-  for (const Flip& flip : flips_) {
-    if (flip.row < rows && start(flip.row) == unknown) start(flip.row) = flip.into_hole ? 1 : 0;
+  // The first flip above a row and the last one below it say how it starts.
+  for (const Flip& flip : flips_)
     if (flip.row > 0 && start(flip.row - 1) == unknown) start(flip.row - 1) = flip.into_hole ? 0 : 1;
-  }
+  for (const Flip& flip : flips_ | std::views::reverse)
+    if (flip.row < rows && start(flip.row) == unknown) start(flip.row) = flip.into_hole ? 1 : 0;
   // Between flips nothing changes: spread upwards, then downwards. Rows beside a flip are known already.
   for (int j = 1; j < rows; ++j) {
     if (start(j) == unknown && start(j - 1) != unknown) start(j) = depth(0, j - 1) > 0 ? 1 : 0;
@@ -269,12 +273,24 @@ void CurveCut::find_starts(const CuttingCurve& curve, int rows, const std::strin
   for (int j = rows - 2; j >= 0; --j) {
     if (start(j) == unknown && start(j + 1) != unknown) start(j) = depth(0, j + 1) > 0 ? 1 : 0;
   }
-  if (start(0) != unknown) return;
-  if (curve.ends == Curve::open && !curve.on_wall) {
-    throw Diverged("its curve meets no line of the background", {.t = t, .grid = name});
+  if (start(0) == unknown)
+    std::ranges::fill(starts_behind_,
+                      static_cast<unsigned char>(are_rows_behind(grid, curve, name, t) ? 1 : 0));
+}
+
+/// Are all rows behind a curve that meets none of them? The lowest crossing of a column tells, or which way it runs.
+bool CurveCut::are_rows_behind(const CartesianGrid& grid, const CuttingCurve& curve, const std::string& name,
+                               double t) const {
+  for (std::size_t k = 0; k < of_columns_.size(); ++k) {
+    const ColumnCrossing& low = of_columns_[k];
+    const bool touches = k + 1 < of_columns_.size() && of_columns_[k + 1].column == low.column &&
+                         of_columns_[k + 1].y - low.y < touch * grid.dy();
+    if (!touches) return !low.into_hole;
+    ++k;
   }
-  const bool domain_inside = (area_of(curve) > 0) == curve.domain_left;
-  std::ranges::fill(starts_behind_, static_cast<unsigned char>(domain_inside ? 1 : 0));
+  if (curve.ends == Curve::open && !curve.on_wall)
+    throw Diverged("its curve meets no line of the background", {.t = t, .grid = name});
+  return (area_of(curve) > 0) == curve.domain_left;
 }
 
 void CurveCut::append_holes(int row, int n1, std::vector<Interval>& parts) const {

@@ -100,7 +100,9 @@ class CurveCut {
   void cross_columns(const CartesianGrid& grid);
   void find_hidden(const CartesianGrid& grid, const CuttingCurve& curve);
   bool is_pinched_near(int i, int j) const;
-  void find_starts(const CuttingCurve& curve, int rows, const std::string& name, double t);
+  void find_starts(const CartesianGrid& grid, const CuttingCurve& curve, const std::string& name, double t);
+  bool are_rows_behind(const CartesianGrid& grid, const CuttingCurve& curve, const std::string& name,
+                       double t) const;
 };
 
 }  // namespace fsi::grid

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""A plate thinner than a cell across a shock: whether a column of the background stands in it makes no difference to its force."""
+"""Plates and beams thinner than a cell: neither whether a column of the background stands in them nor the wall they stand on makes a difference to their forces."""
 
 import csv
 import sys
@@ -35,8 +35,65 @@ solids:
             corners: [[0, 0], [0, 0.6], [thickness, 0.6], [thickness, 0]]}
 """
 
+# A puff comes to a beam of half a cell that stands between two lines of the background, whose end lies on one; h = 0.1.
+BEAM = """
+parameters: {gamma: 1.4}
+definitions: {puff: "0.8 * exp(-((x - (PUFF_X))^2 + (y - (PUFF_Y))^2) / 0.04)"}
+grid: {factor: 1}
+time: {end: 0.5}
+fluid:
+  gamma: gamma
+  p_e: 1 / gamma
+  grid: {x: [-1, 1], y: [-1, 1]}
+  boundary: {left: slip_wall, right: slip_wall, bottom: slip_wall, top: slip_wall}
+  initial: {rho: 1 + puff, v: [0, 0], p: (1 + puff)^1.4 / 1.4}
+solids:
+  beam:
+    law: beam
+    rho: 5
+    lambda: 30
+    mu: 30
+    shape: {kind: polygon, radius: 0, walls: [WALL, WALL], corners: CORNERS}
+    beam: {line: LINE, thickness: 0.05, ends: [clamped, free]}
+    boundary: {SIDES}
+"""
+WALLS = ("bottom", "right", "top", "left")   # one follows from the other by a quarter turn
+
 
 class ThinBodies(EndToEnd):
+    def forces(self, turns):
+        """Of the beam on one of the walls, turned back, at each step: (force1, force2, moment)."""
+        def turned(x, y):
+            for _ in range(turns):
+                x, y = -y, x
+            return [x, y]
+
+        puff = turned(-0.4, -0.5)
+        text = BEAM.replace("PUFF_X", str(puff[0])).replace("PUFF_Y", str(puff[1]))
+        sides = ", ".join(f"{wall}: {'clamped' if wall == WALLS[turns] else 'free'}" for wall in WALLS)
+        text = text.replace("WALL", WALLS[turns]).replace("SIDES", sides)
+        text = text.replace("CORNERS", str([turned(*corner) for corner in ((0.105, -1), (0.105, -0.4), (0.155, -0.4), (0.155, -1))]))
+        text = text.replace("LINE", str([turned(0.13, -1), turned(0.13, -0.4)]))
+        case = self.folder / f"beam-{turns}.yaml"
+        case.write_text(text, encoding="utf-8")
+        run = self.complete(str(case), out=f"beam-run-{turns}")
+        with open(run.directory / "forces_beam.csv", newline="", encoding="utf-8") as file:
+            rows = [[float(value) for value in row[1:4]] for row in list(csv.reader(file))[1:]]
+        for row in rows:
+            for _ in range(turns):
+                row[:2] = row[1], -row[0]
+        return rows
+
+    def test_a_beam_moves_alike_on_every_wall(self):
+        on_the_floor = self.forces(0)
+        most = max(abs(value) for row in on_the_floor for value in row)
+        self.assertGreater(most, 0.01)
+        for turns in (1, 2, 3):
+            rows = self.forces(turns)
+            self.assertEqual(len(rows), len(on_the_floor))
+            for row, other in zip(rows, on_the_floor):
+                for value, expected in zip(row, other):
+                    self.assertAlmostEqual(value, expected, delta=1e-11)
     def force(self, thickness, shift):
         """Along x, at the end, on a background whose columns are shifted against the plate."""
         case = self.folder / "plate.yaml"

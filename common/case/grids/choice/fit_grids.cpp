@@ -158,9 +158,9 @@ bool reaches_beyond(const GridSpec& box, const std::vector<BodyFittedSpec>& ring
 }
 
 /// How deep a ring may be: for bends and bays of its own curve, and between it and others; and how far apart
-/// its lines at most, for its bends and its ends on walls.
+/// its lines at most, for its bends and its ends on walls. And how thick the body is.
 struct Room {
-  double own = 0, between = 0, spacing = 0;
+  double own = 0, between = 0, spacing = 0, body = 0;
 };
 
 /// From a closed curve to the rim of a rectangle.
@@ -192,7 +192,8 @@ std::vector<Room> rooms_of(const GridSpec& background, const std::vector<BodyFit
     Room room{.own = std::min(0.5 * grid::narrowest(curve.x, ends_of(curve), to_gas).distance,
                               grid::sharpest_bend(curve.x, ends_of(curve), to_gas, curve.corners).radius),
               .between = std::numeric_limits<double>::infinity(),
-              .spacing = sound_spacing(ring)};
+              .spacing = sound_spacing(ring),
+              .body = grid::narrowest(curve.x, ends_of(curve), -to_gas).distance};
     for (const BodyFittedSpec& other : rings) {
       if (&other != &ring && !stands_on(ring, other) && !stands_on(other, ring))
         room.between = std::min(room.between, 0.5 * grid::gap_between(curve.x, other.curve.x).distance);
@@ -284,12 +285,13 @@ double depth_of_donors(double h) {
   return two_by_two * h;
 }
 
-/// Of the last donors along the walls that an open curve stands on, from the curve.
-double depth_at_feet(const BodyFittedSpec& ring, ConstFieldView x) {
+/// Of the last donors, from the curve: along the walls that an open one stands on, or wherever they are nearest to it.
+double depth_of_last_donors(const BodyFittedSpec& ring, ConstFieldView x, bool wherever) {
   double depth = std::numeric_limits<double>::infinity();
   const int line = last_donor_line(ring), j = ring.side == Side::top ? x.layout.n2 - 1 - line : line;
-  for (const int i : {0, x.layout.n1 - 1}) {
-    if (ring.curve.closed()) break;
+  const int last = x.layout.n1 - 1;
+  for (int i = 0; i <= last; i += wherever ? 1 : last) {
+    if (!wherever && ring.curve.closed()) break;
     depth = std::min(depth, grid::distance_to(ring.curve.x, Vec2(x(0, i, j), x(1, i, j))));
   }
   return depth;
@@ -319,15 +321,16 @@ struct RingSearch {
     return connects(grid, rings) && (!lasting || lasts(h));
   }
 
-  /// At a foot that leans, lines along the wall are less deep than they are long; cells that are slanted or narrow at
-  /// t = 0 fold when their curve deforms.
+  /// At a foot that leans, lines along the wall are less deep than they are long; above the end of a thin body, whose
+  /// holes are points beside it, they lie closer. Cells that are slanted or narrow at t = 0 fold when their curve deforms.
   bool lasts(double h) const {
     constexpr double sound = 0.25;  // grid::cell_quality
     const std::vector<grid::MovingGrid> grids = grids_at_start(rings);
     return std::ranges::all_of(open, [&](std::size_t k) {
       if (motions[k] == RingMotion::still) return true;
       const ConstFieldView x = grids[k].x();
-      return depth_at_feet(rings[k], x) >= depth_of_donors(h) &&
+      const bool is_thin = rooms[k].body < h;
+      return depth_of_last_donors(rings[k], x, is_thin) >= depth_of_donors(h) + (is_thin ? 0.5 * h : 0) &&
              (motions[k] == RingMotion::carried || grid::cell_quality(x) >= sound);
     });
   }

@@ -8,6 +8,7 @@
 
 #include "common/grid/geometry/outline.hpp"
 #include "common/grid/overlap/composite_grid.hpp"
+#include "common/grid/overlap/hole_cutting.hpp"
 #include "common/grid/shapes/circle.hpp"
 #include "common/grid/shapes/rounded_polygon.hpp"
 #include "tests/unit/grid/marched.hpp"
@@ -106,6 +107,38 @@ TEST(ThinBodies, ABodyThatLiesWithinACellTakesThePointBesideIt) {
     const CompositeGrid grids = connected(ring_around(circle({place, 0.4 * h}, 0.2 * h)));
     EXPECT_EQ(grids.kind(0, place < 0.5 * h ? 20 : 21, 20), PointKind::unused) << place;
     EXPECT_EQ(grids.kind(0, 20, 22), PointKind::interpolated);
+  }
+}
+
+/// Points behind a plate of half a cell that stands on a side of the square, between two lines of the grid, and where it
+/// passes between points.
+struct BehindPlate {
+  int holes = 0;
+  std::size_t pinches = 0;
+
+  /// @param turns quarter turns from the lower side
+  explicit BehindPlate(int turns) {
+    const CartesianGrid square{.n1 = 41, .n2 = 41, .x_a = -1, .x_b = 1, .y_a = -1, .y_b = 1};
+    std::vector<double> x, y;
+    for (Vec2 corner : {Vec2(2.2 * h, -1), Vec2(2.2 * h, -0.42), Vec2(2.7 * h, -0.42), Vec2(2.7 * h, -1)}) {
+      for (int k = 0; k < turns; ++k) corner = Vec2(-corner[1], corner[0]);
+      x.push_back(corner[0]);
+      y.push_back(corner[1]);
+    }
+    CurveCut cut;
+    cut.cut(square, {.x = x.data(), .y = y.data(), .points = 4, .ends = Curve::open}, "plate", 0);
+    std::vector<Interval> parts;
+    for (int j = 0; j < square.n2; ++j) cut.append_holes(j, square.n1, parts);
+    for (const Interval& part : parts) holes += part.end - part.begin;
+    pinches = cut.pinches().size();
+  }
+};
+
+TEST(ThinBodies, APlateOnAWallPassesBetweenPointsAlikeOnEverySide) {
+  for (const int turns : {0, 1, 2, 3}) {
+    const BehindPlate plate(turns);
+    EXPECT_EQ(plate.holes, 0) << turns;
+    EXPECT_EQ(plate.pinches, 12) << turns;  // lines from the wall to the end, 11.6 cells
   }
 }
 
