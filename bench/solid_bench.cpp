@@ -60,6 +60,9 @@ void advance(benchmark::State& state, grid::MovingGrid grid, const SolidOptions&
 void cartesian_svk(benchmark::State& state) {
   advance<SaintVenantKirchhoff>(state, cartesian_grid(), {.limiter = Limiter::minmod});
 }
+void cartesian_svk_mc(benchmark::State& state) {
+  advance<SaintVenantKirchhoff>(state, cartesian_grid(), {.limiter = Limiter::mc});
+}
 void cartesian_svk_centred(benchmark::State& state) {
   advance<SaintVenantKirchhoff>(state, cartesian_grid(), {});
 }
@@ -76,6 +79,7 @@ void cartesian_neo_hookean(benchmark::State& state) {
 }
 
 BENCHMARK(cartesian_svk)->Unit(benchmark::kMillisecond);
+BENCHMARK(cartesian_svk_mc)->Unit(benchmark::kMillisecond);
 BENCHMARK(cartesian_svk_centred)->Unit(benchmark::kMillisecond);
 BENCHMARK(curvilinear_svk)->Unit(benchmark::kMillisecond);
 BENCHMARK(curvilinear_svk_dissipation)->Unit(benchmark::kMillisecond);

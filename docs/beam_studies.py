@@ -142,6 +142,24 @@ def _swings(tools):
     return f"last run: `{typed}`\n\n" + _table(["", "omega_1", "omega_2", "energy drift until t = 20"], rows)
 
 
+def _limiters(tools):
+    """What each limiter of a solid costs where nothing jumps: frequencies of a clamped beam, and what a free block of 10 x 10 cells gains in a turn."""
+    rows, typed = [], []
+    for limiter in ("none", "mc", "minmod"):
+        swung, _, first = _run(tools, f"limiters-beam-{limiter}", "clamped_beam",
+                               ["grid.factor=8", "time.end=20", f"solids.beam.scheme.limiter={limiter}"])
+        omega = _frequencies(*_probe(swung, "tip.u1"))
+        _, found, second = _run(tools, f"limiters-block-{limiter}", "spinning_block",
+                                ["grid.factor=1", "parameters.omega=2", "parameters.stiffness=8", "expect={}",
+                                 f"solids.block.scheme.limiter={limiter}"])
+        gained = found["conservation"]["block"]
+        rows.append([f"`{limiter}`", *(f"{w:.5f}" for w in omega),
+                     *(f"{100 * gained[key] / gained[f'{key}_initial']:.2f} %" for key in ("angular_momentum", "energy"))])
+        typed = [first, second]
+    heading = ["limiter", "omega_1 of the beam", "omega_2", "angular momentum that the block gains in a turn", "energy"]
+    return "last row: " + " and ".join(f"`{one}`" for one in typed) + "\n\n" + _table(heading, rows)
+
+
 def _elastica(alpha):
     """Deflection (across, along) of the end of the elastica under the load alpha E' I / L^2, over L, by shooting."""
     def shoot(curvature, steps=2000):
@@ -206,4 +224,5 @@ def studies(tools):
                lambda b=beam: _centrelines(tools, b, "fine-beam", REFINED))
     yield "Beam: variants, h = 1/80", lambda: _variants(tools)
     yield "Clamped beam alone: frequencies of its first two bending modes", lambda: _swings(tools)
+    yield "Limiters of a solid where nothing jumps", lambda: _limiters(tools)
     yield "Clamped beam alone: deflection under an end load, h = 1/80", lambda: _loads(tools)

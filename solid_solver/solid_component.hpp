@@ -278,6 +278,8 @@ SweepResult SolidComponent<L>::sweep_with(double dt, Look look) {
       .rows = rows_.all ? grid::RowRange{0, layout().n2} : rows_.own};
   if (options_.limiter == Limiter::minmod)
     return run_sweep<Row, Gradient>(GodunovSweep<L, Row, Limiter::minmod>(data, metrics_, law_), dt);
+  if (options_.limiter == Limiter::mc)
+    return run_sweep<Row, Gradient>(GodunovSweep<L, Row, Limiter::mc>(data, metrics_, law_), dt);
   return run_sweep<Row, Gradient>(GodunovSweep<L, Row, Limiter::none>(data, metrics_, law_), dt);
 }
 

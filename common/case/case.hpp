@@ -135,7 +135,7 @@ struct Beta {
 };
 
 struct SolidScheme {
-  SolidLimiter limiter = SolidLimiter::minmod;
+  SolidLimiter limiter = SolidLimiter::mc;
   Beta tangential_stress;     ///< beta^P of (39)
   Beta displacement;          ///< beta^u of (40)
   Beta relaxation;            ///< beta^r of (41)

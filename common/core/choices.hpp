@@ -17,7 +17,7 @@ enum class GasLimiter { none, minmod, mc, van_leer };
 /// The quantity whose bends are followed by a refined background.
 enum class RefinedQuantity { rho, p };
 /// Limiter of the slopes in a solid.
-enum class SolidLimiter { none, minmod };
+enum class SolidLimiter { none, minmod, mc };
 
 /// How the states of the two sides of an interface are combined.
 enum class Projection {
@@ -95,6 +95,7 @@ template <>
 inline constexpr std::array names_of<SolidLimiter>{
     Named<SolidLimiter>{SolidLimiter::none, "none"},
     Named<SolidLimiter>{SolidLimiter::minmod, "minmod"},
+    Named<SolidLimiter>{SolidLimiter::mc, "mc"},
 };
 template <>
 inline constexpr std::array names_of<Projection>{

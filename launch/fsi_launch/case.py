@@ -1,12 +1,11 @@
 """A case as `fsi_case` reads and checks it: the only reader of case files is in C++."""
 
 import json
-import subprocess
 from dataclasses import dataclass, field
 
 from fsi_launch import paths
 from fsi_launch.failure import Failure, INTERNAL_ERROR, UserMistake
-from fsi_launch.telling import AS_NAMED
+from fsi_launch.telling import answer_of
 
 REFERENCE_PROGRAMS = {  # reference kinds computed by a program of their own
     "piston_1d": "reference_piston",
@@ -39,7 +38,7 @@ class Case:
 def _ask(verb, case, overrides, laws, *options):
     command = [paths.program("fsi_case"), verb, case, *options]
     command += [f"--set={override}" for override in overrides] + [f"--solid={law}" for law in laws]
-    answer = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, **AS_NAMED, check=False)
+    answer = answer_of(command, f"fsi: looking at the grids of {case}; where they do not fit, others are tried")
     if answer.returncode == 2:
         raise UserMistake(answer.stderr.strip() or "the case is wrong")
     if answer.returncode != 0:

@@ -1,6 +1,5 @@
 """`fsi check`: is a case right, what will it cost, and what do its grids look like?"""
 
-import subprocess
 import tempfile
 from pathlib import Path
 
@@ -8,7 +7,7 @@ from fsi_launch import case as cases
 from fsi_launch import paths
 from fsi_launch.failure import DONE, Failure, INTERNAL_ERROR, UserMistake
 from fsi_launch.living import ranks
-from fsi_launch.telling import AS_NAMED
+from fsi_launch.telling import answer_of
 
 FORMATS = (".png", ".pdf", ".svg")
 
@@ -26,7 +25,7 @@ def _picture_path(name, case):
 def _write_grids(options, folder):
     command = [paths.program("fsi_grids"), options.case, folder, *(f"--set={one}" for one in options.overrides),
                *(f"--solid={one}" for one in options.laws)]
-    answer = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, **AS_NAMED, check=False)
+    answer = answer_of(command, f"fsi: making the grids of {options.case}")
     if answer.returncode != 0:
         raise Failure(INTERNAL_ERROR, answer.stderr.strip() or f"fsi_grids failed ({answer.returncode})")
 

@@ -3,6 +3,7 @@
 import contextlib
 import io
 import os
+import subprocess
 import sys
 
 # How programs and files say the names of a user's files: UTF-8, whatever the locale, and the bytes of a name that is none.
@@ -36,3 +37,22 @@ def silence(out):
         nowhere = os.open(os.devnull, os.O_WRONLY)
         os.dup2(nowhere, out.fileno())
         os.close(nowhere)
+
+
+def answer_of(command, meanwhile, first=3.0):
+    """What a program that works quietly answers: subprocess.CompletedProcess. `meanwhile` is told where it takes longer than `first`
+    seconds, and whenever that time has doubled."""
+    with subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, **AS_NAMED) as program:
+        try:
+            told, pause = 0, first
+            while True:
+                try:
+                    out, err = program.communicate(timeout=pause)
+                    return subprocess.CompletedProcess(command, program.returncode, out, err)
+                except subprocess.TimeoutExpired:
+                    told += pause
+                    pause = told
+                    tell(f"{meanwhile} ({told:.0f} s so far)")
+        except BaseException:
+            program.kill()
+            raise

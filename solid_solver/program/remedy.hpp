@@ -60,6 +60,7 @@ inline std::string remedy_for(const std::string& solid, const SolidScheme& schem
   if (nearly_incompressible && !is_zero(scheme.relaxation))
     return fmt::format("{}.relaxation: {{scaled: 0}}, for lambda is {:.3g} mu", path, stiffness);
   if (!nearly_incompressible && scheme.relaxation.scaled < 0.5) return path + ".relaxation: {scaled: 0.5}";
+  if (scheme.limiter != SolidLimiter::minmod) return path + ".limiter: minmod";
   return "a smaller time.cfl";
 }
 

@@ -93,7 +93,7 @@ constexpr Section beta_section{.title = "A coefficient beta = rate dt + scaled",
 constexpr array solid_scheme_keys{
     Key{.name = "limiter",
         .type = Type::word,
-        .meaning = "limiter of the slopes; none for smooth motion",
+        .meaning = "limiter of the slopes; none for smooth motion, minmod where stresses jump and mc breaks",
         .fallback = name_of(SolidScheme{}.limiter),
         .words = words_of<SolidLimiter>},
     Key{.name = "tangential_stress",

@@ -14,15 +14,21 @@
 
 namespace fsi::solid {
 
-/// Half of the undivided slope at the middle one of three values.
+/// The middle one of three values.
+[[gnu::always_inline]] inline double median(double a, double b, double c) {
+  return std::max(std::min(a, b), std::min(std::max(a, b), c));
+}
+
+/// Half of the undivided slope at the middle one of three values: centred, `mc` up to twice the smaller difference,
+/// `minmod` the smaller difference.
 template <Limiter limiter>
 [[gnu::always_inline]] inline double half_slope(double lower, double middle, double upper) {
   if constexpr (limiter == Limiter::none) {
     return 0.25 * (upper - lower);
   } else {
-    // The median of both differences and zero: the smaller one where they agree in sign, else zero.
     const double a = middle - lower, b = upper - middle;
-    return 0.5 * std::max(std::min(a, b), std::min(std::max(a, b), 0.0));
+    const double smaller = median(a, b, 0.0);  // the smaller difference where they agree in sign, else zero
+    return limiter == Limiter::minmod ? 0.5 * smaller : median(0.25 * (upper - lower), smaller, 0.0);
   }
 }
 

@@ -11,7 +11,10 @@ namespace fsi::solid {
 namespace {
 
 SolidScheme relaxed(const fsi::Beta& relaxation) {
-  return {.tangential_stress = {.scaled = 0.5}, .displacement = {.scaled = 0.5}, .relaxation = relaxation};
+  return {.limiter = SolidLimiter::minmod,
+          .tangential_stress = {.scaled = 0.5},
+          .displacement = {.scaled = 0.5},
+          .relaxation = relaxation};
 }
 
 std::string remedy_of(const fsi::Beta& relaxation, double stiffness) {
@@ -29,6 +32,13 @@ TEST(Remedy, TakesRelaxationOutOfANearlyIncompressibleSolidAndNeverPutsItIn) {
 TEST(Remedy, PutsRelaxationIntoACompressibleSolid) {
   EXPECT_EQ(remedy_of({.scaled = 0.2}, 1), "solids.bar.scheme.relaxation: {scaled: 0.5}");
   EXPECT_NE(remedy_of({}, 1).find("without `relaxation`"), std::string::npos);
+  EXPECT_EQ(remedy_of({.scaled = 0.5}, 1), "a smaller time.cfl");
+}
+
+TEST(Remedy, NamesTheStrongestLimiterBeforeASmallerStep) {
+  SolidScheme scheme = relaxed({.scaled = 0.5});
+  scheme.limiter = SolidLimiter::mc;
+  EXPECT_EQ(remedy_for("bar", scheme, 1, false), "solids.bar.scheme.limiter: minmod");
   EXPECT_EQ(remedy_of({.scaled = 0.5}, 1), "a smaller time.cfl");
 }
 

@@ -166,11 +166,11 @@ std::vector<std::string> shapes_of_solids(const Node& root, bool inside) {
   return keys;
 }
 
-/// Rigid bodies with sharp corners that are held, in the place of elastic ones.
-std::vector<OtherChoice> rigid_solids(const Node& root) {
+/// Rigid bodies with sharp corners that are held, in the place of elastic ones with these shapes.
+std::vector<OtherChoice> rigid_solids(const Node& root, const std::vector<std::string>& shapes) {
   OtherChoice choice;
   std::vector<std::string> names;
-  for (const std::string& key : shapes_of_solids(root, true)) {
+  for (const std::string& key : shapes) {
     const std::string owner = key.substr(0, key.rfind('.'));
     names.push_back(owner);
     choice.written.emplace_back(owner + ".law", "rigid");
@@ -193,6 +193,7 @@ std::vector<OtherChoice> choices_for_solid(const Node& root, const std::string& 
   std::ranges::copy(rounded_polygons(root, {owner + ".shape"}, h), std::back_inserter(choices));
   choices.push_back({.words = fmt::format("write `law: rigid` and `motion: fixed` for {}", owner),
                      .written = {{owner + ".law", "rigid"}, {owner + ".motion", "fixed"}}});
+  std::ranges::copy(rigid_solids(root, {owner + ".shape"}), std::back_inserter(choices));
   return choices;
 }
 
@@ -232,7 +233,7 @@ std::vector<OtherChoice> choices_for_gas(const Node& root, const std::string& ow
   std::ranges::copy(sharp_shapes(root, shapes), std::back_inserter(choices));
   if (changed(root, given))
     for (const OtherChoice& one : finer) choices.push_back(both(given, one));
-  std::ranges::copy(rigid_solids(root), std::back_inserter(choices));
+  std::ranges::copy(rigid_solids(root, shapes_of_solids(root, true)), std::back_inserter(choices));
   return choices;
 }
 

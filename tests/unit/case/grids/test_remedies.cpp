@@ -11,8 +11,10 @@ namespace {
 
 using tests::mistake_in;
 
-/// A rigid body that is held, in a gas at rest.
-std::string rigid_case(const std::string& shape, const std::string& spacing = "") {
+constexpr const char* held = "law: rigid, rho: 1, motion: fixed";
+
+/// A body in a gas at rest.
+std::string case_with(const std::string& law, const std::string& shape, const std::string& spacing = "") {
   return "time: {end: 1}\ngrid: {factor: 2}\n"
          "fluid:\n"
          "  grid: {x: [-2, 2], y: [-2, 2]" +
@@ -21,21 +23,37 @@ std::string rigid_case(const std::string& shape, const std::string& spacing = ""
          "  boundary: {left: outflow, right: outflow, bottom: slip_wall, top: outflow}\n"
          "  initial: {rho: 1, v: [0, 0], p: 1}\n"
          "solids:\n"
-         "  a: {law: rigid, rho: 1, motion: fixed, shape: " +
-         shape + "}\n";
+         "  a: {" +
+         law + ", shape: " + shape + "}\n";
+}
+
+std::string rigid_case(const std::string& shape, const std::string& spacing = "") {
+  return case_with(held, shape, spacing);
+}
+
+/// A spline through the points of a foil whose tail is sharp.
+std::string foil(const std::string& corners) {
+  return "{kind: spline, " + corners +
+         "through: [[1, 0], [0.5, 0.03], [0.2, 0.08], [0, 0.05], [-0.06, 0], [0, -0.05], [0.2, -0.06], [0.5, "
+         "-0.03]]}";
 }
 
 TEST(RemediesForOutlines, ASplineWithASharpTailIsToldACornerThere) {
-  const auto foil = [](const std::string& corners) {
-    return rigid_case("{kind: spline, " + corners +
-                      "through: [[1, 0], [0.5, 0.03], [0.2, 0.08], [0, 0.05], [-0.06, 0], [0, -0.05], [0.2, "
-                      "-0.06], [0.5, -0.03]]}");
-  };
-  const std::string message = mistake_in(foil(""));
+  const std::string message = mistake_in(rigid_case(foil("")));
   EXPECT_NE(message.find("write `corner_angle: 60` in solids.a.shape, for sharp corners (tried: valid)"),
             std::string::npos)
       << message;
-  EXPECT_EQ(mistake_in(foil("corner_angle: 60, ")), "");
+  EXPECT_EQ(mistake_in(rigid_case(foil("corner_angle: 60, "))), "");
+}
+
+TEST(RemediesForOutlines, AnElasticOneIsToldARigidOneWithACornerThere) {
+  const std::string elastic = "law: neo_hookean, rho: 1, lambda: 1, mu: 1";
+  const std::string message = mistake_in(case_with(elastic, foil("")));
+  EXPECT_NE(
+      message.find("write `law: rigid` and `motion: fixed` for solids.a, with `corner_angle: 60` in its "
+                   "shape (tried: valid)"),
+      std::string::npos)
+      << message;
 }
 
 TEST(RemediesForOutlines, GridsThatAreLeftOutAndAFinerOneAreTriedTogether) {

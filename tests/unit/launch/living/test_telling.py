@@ -1,0 +1,48 @@
+#!/usr/bin/python3
+"""What is told while a program answers, and that it does not outlive the one who asks."""
+
+import os
+import sys
+import tempfile
+import unittest
+from pathlib import Path
+from unittest import mock
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+import launcher  # noqa: E402,F401  the path of the launcher's modules
+from fsi_launch import telling  # noqa: E402
+
+
+class Answers(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.gate = Path(folder.name) / "gate"
+        os.mkfifo(self.gate)
+
+    def test_of_a_program_that_is_quick_come_alone(self):
+        with mock.patch.object(telling, "tell") as told:
+            answer = telling.answer_of(["sh", "-c", "echo yes; echo but >&2; exit 2"], "waiting", 1e6)
+        self.assertEqual((answer.stdout, answer.stderr, answer.returncode, told.call_count), ("yes\n", "but\n", 2, 0))
+
+    def test_of_a_slow_one_are_announced(self):
+        """It waits until three lines were told, after 0.5, 1 and 2 s."""
+        lines = []
+
+        def hear(line):
+            lines.append(line)
+            if len(lines) == 3:
+                with open(self.gate, "w", encoding="utf-8"):
+                    pass
+
+        with mock.patch.object(telling, "tell", hear):
+            answer = telling.answer_of(["sh", "-c", f"cat < {self.gate}; echo yes"], "waiting", 0.5)
+        self.assertEqual((lines[:3], answer.stdout), ([f"waiting ({seconds} s so far)" for seconds in (0, 1, 2)], "yes\n"))
+
+    def test_are_not_waited_for_by_one_who_is_interrupted(self):
+        with mock.patch.object(telling, "tell", side_effect=KeyboardInterrupt), self.assertRaises(KeyboardInterrupt):
+            telling.answer_of(["sh", "-c", f"exec cat < {self.gate}"], "waiting", 0.01)
+
+
+if __name__ == "__main__":
+    unittest.main()
