@@ -312,11 +312,15 @@ def _run(case, directory, checkpoint, request, say):
         parts = summary.read_parts(directory, case.programs, _copies(reports))
     found = verdict.judge(outcome, case, directory, parts)
     code, status, reason = found.code, found.status, found.reason
+    advice = advice_after(code, case.projection)
+    failure = found.failure and dict(found.failure)
+    if advice:
+        reason, failure = without_remedy(reason), failure and failure | {"what": without_remedy(failure["what"])}
     begun_from = {"t": checkpoint.t, "steps": checkpoint.step} if checkpoint else None
     result = summary.merge(parts, case, status, reason, time.monotonic() - start, summary.last_known(directory, told, begun_from),
                            {ending.name for ending in outcome.endings if ending.code == 0 and not ending.early})
-    if found.failure:
-        result["failure"] = found.failure
+    if failure:
+        result["failure"] = failure
     if checkpoint:
         result["restart"] = {"step": checkpoint.step, "t": checkpoint.t}
     if _refused(code, directory, result, checkpoint):
@@ -334,9 +338,14 @@ def _run(case, directory, checkpoint, request, say):
         raise Failure(OUTPUT_FAILED, f"cannot write {directory / 'summary.json'}: {error.strerror}; the run itself {status} at "
                                      f"t = {result['t']:g}{f': {reason}' if reason else ''}") from None
     _report(result, directory, missed, request.quiet, case.digest if code != USER_MISTAKE else None)
-    if advice := advice_after(code, case.projection):
+    if advice and code == found.code:
         tell(f"fsi: {advice}")
     return Result(EXPECTATION_MISSED if code == DONE and missed else code, directory, result)
+
+
+def without_remedy(reason):
+    """What broke, without what its program would do about its own scheme."""
+    return reason.split("; try ")[0]
 
 
 def advice_after(code, projection):

@@ -281,12 +281,11 @@ void CurveCut::find_starts(const CartesianGrid& grid, const CuttingCurve& curve,
 /// Are all rows behind a curve that meets none of them? The lowest crossing of a column tells, or which way it runs.
 bool CurveCut::are_rows_behind(const CartesianGrid& grid, const CuttingCurve& curve, const std::string& name,
                                double t) const {
-  for (std::size_t k = 0; k < of_columns_.size(); ++k) {
+  for (std::size_t k = 0; k < of_columns_.size(); k += 2) {
     const ColumnCrossing& low = of_columns_[k];
     const bool touches = k + 1 < of_columns_.size() && of_columns_[k + 1].column == low.column &&
                          of_columns_[k + 1].y - low.y < touch * grid.dy();
     if (!touches) return !low.into_hole;
-    ++k;
   }
   if (curve.ends == Curve::open && !curve.on_wall)
     throw Diverged("its curve meets no line of the background", {.t = t, .grid = name});

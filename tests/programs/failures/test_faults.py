@@ -24,6 +24,8 @@ class BrokenNumbers(EndToEnd):
         run = self.launch(*BREAKS)
         self.assertEqual(run.wait(), 3, run.stderr)
         self.assertRegex(run.stderr, r"step \d+, t = .*grid|step \d+, t = .*point")
+        self.assertNotRegex(run.stderr, "; try ")   # of a limiter: it is the projection
+        self.assertRegex(run.stderr, "interface.projection=simplified")
         failure = run.summary()["failure"]
         self.assertEqual(failure["step"], run.summary()["steps"] + 1)
         self.assertGreater(failure["t"], run.summary()["t"])
