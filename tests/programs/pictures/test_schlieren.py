@@ -33,6 +33,17 @@ class Schlieren(unittest.TestCase):
         still.fields["v1"] += 1
         self.assertEqual(len(draw().axes), 2)
 
+    def test_the_speed_of_a_rigid_body_that_turns_is_that_between_its_centre_and_its_outline_too(self):
+        """Half-way it is less than half of both together: the centre moves, and the body turns about another point."""
+        angle = np.linspace(0, 2 * np.pi, 13)
+        x1, x2 = (np.stack([np.full(13, middle), middle + reach(angle)]) for middle, reach in ((0.4, np.cos), (0.7, np.sin)))
+        body = read({"x1": x1, "x2": x2, "v1": 0.3 - 2 * (x2 - 0.7), "v2": 0.5 + 2 * (x1 - 0.4)})
+        [shown] = data.Output(1.0, [body]).filled
+        self.assertGreater(len(shown.x1), 10)
+        np.testing.assert_allclose(shown.speed(), np.hypot(0.3 - 2 * (shown.x2 - 0.7), 0.5 + 2 * (shown.x1 - 0.4)), atol=1e-14)
+        [inside] = data.Output(1.0, [ring()]).filled
+        self.assertEqual(inside.x1.shape, ring().x1.shape)
+
     def test_walls_are_not_as_white_as_gas_that_rests(self):
         gas = self.gas(lambda x, y: 1 + 0.3 * (x > 0.5))
         gas.grids[0].kind[:8, :15] = 0      # behind a step

@@ -156,13 +156,13 @@ def _colour(axes, outputs, quantity, colours, limits, look):
     colours = style.SIGNED_MAP if constant is None and low == -high else colours
     levels, drawn = np.linspace(low, high, CONTOURS + 2)[1:-1], None
     for output in outputs:
-        for k, grid in enumerate(output.grids):
+        for k, grid in enumerate(output.filled):
             values = np.where(grid.used(), quantity.values(grid), 0)
             if constant is not None:
                 values[:] = constant
             drawn = shading.shade(axes, grid, values, colours, (low, high)) or drawn
             if look.contours and constant is None:
-                _contours(axes, output.grids, k, values.ravel(), levels)
+                _contours(axes, output.filled, k, values.ravel(), levels)
     return drawn
 
 

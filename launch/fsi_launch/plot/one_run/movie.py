@@ -20,7 +20,7 @@ def _speed_frame(axes, gas, solids, largest, box):
     """Speed of everything in one colour scale within `box`, those of all frames; returns what its bar needs."""
     drawn = None
     for output in [gas] * bool(gas) + solids:
-        for grid in output.grids:
+        for grid in output.filled:
             drawn = shading.shade(axes, grid, np.where(grid.used(), grid.speed(), 0), style.GAS_MAP, (0, largest)) or drawn
     for solid in solids:
         fields.outline(axes, solid.grids)

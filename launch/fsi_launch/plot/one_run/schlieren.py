@@ -80,7 +80,7 @@ def _colour(axes, solids, speed):
     for one in solids:
         if not speed:
             fields.fill(axes, one.grids)
-        for grid in one.grids if speed else ():
+        for grid in one.filled if speed else ():
             drawn = shading.shade(axes, grid, np.where(grid.used(), grid.speed(), 0), SPEED_MAP, (0, speed)) or drawn
         lines = [line for grid in one.grids for line in mesh.outer_lines(grid)]
         axes.add_collection(LineCollection(lines, colors="black", linewidths=0.6))

@@ -135,7 +135,7 @@ def _solid_speed(axes, solids, most, colours):
     for solid in solids:
         if not most:
             fields.fill(axes, solid.grids)
-        for grid in solid.grids if most else ():
+        for grid in solid.filled if most else ():
             drawn = shading.shade(axes, grid, np.where(grid.used(), grid.speed(), 0), colours, (0, most)) or drawn
         fields.outline(axes, solid.grids)
     return drawn

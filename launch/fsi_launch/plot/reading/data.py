@@ -15,6 +15,7 @@ from fsi_launch.telling import AS_NAMED
 
 NOT_FIELDS = ("x", "x1", "x2", "kind", "vtkGhostType")  # "x" holds x1 and x2 side by side, for ParaView
 UNUSED, DISCRETISED, INTERPOLATED = 0, 1, 2
+FILLED = 17         # lines of a body that has two, in pictures
 SAME_TIME = 1e-9    # part of the time by which an output may differ from the one asked for
 
 
@@ -40,6 +41,17 @@ class Grid:
         if name == "T" and "rho" in self.fields:
             return self.fields["p"] / self.fields["rho"]
         return self.fields[name]
+
+    def filled(self):
+        """The same with lines between its two, if it has no more: what is linear there, the velocity of a rigid body, has a size that is not."""
+        if len(self.x1) != 2:
+            return self
+        share = np.linspace(0, 1, FILLED)[:, None]
+
+        def between(values):
+            return values[:1] + share * (values[1:] - values[:1])
+        return replace(self, x1=between(self.x1), x2=between(self.x2), kind=np.repeat(self.kind[1:], FILLED, axis=0),
+                       fields={key: between(values) for key, values in self.fields.items()})
 
     def speed(self):
         return np.hypot(self.fields["v1"], self.fields["v2"])
@@ -69,6 +81,11 @@ class Output:
     @functools.cached_property
     def grids(self):
         return self._grids() if callable(self._grids) else self._grids
+
+    @functools.cached_property
+    def filled(self):
+        """The grids as colours show them."""
+        return [grid.filled() for grid in self.grids]
 
     def background(self):
         """Of several levels the finest one."""
