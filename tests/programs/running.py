@@ -1,5 +1,6 @@
 """Runs `./launch/fsi` with the real programs in a scratch folder, and looks at what it starts and leaves behind."""
 
+import contextlib
 import json
 import os
 import signal
@@ -129,9 +130,11 @@ class EndToEnd(unittest.TestCase):
         scratch = tempfile.TemporaryDirectory(prefix="fsi-test-")
         self.addCleanup(scratch.cleanup)
         self.folder = Path(scratch.name)
+        self.launched = []
 
     def launch(self, *arguments, out="run", script=None):
         run = Launched(self.folder, *arguments, out=out, script=script, before=self.before)
+        self.launched.append(run)
         self.addCleanup(self._end, run)
         return run
 
@@ -142,13 +145,16 @@ class EndToEnd(unittest.TestCase):
         return run
 
     def _end(self, run):
-        if run.process.poll() is None:
-            run.process.kill()
+        for one in self.launched:   # first all launchers: one that sees its programs die ends the run, and writes
+            if one.process.poll() is None:
+                one.process.kill()
+                one.process.wait()
         for pid in run.programs().values():
-            os.kill(pid, signal.SIGKILL)
+            with contextlib.suppress(ProcessLookupError):
+                os.kill(pid, signal.SIGKILL)
+        until(lambda: not run.programs())   # which may still write into a folder that is being taken away
         for pipe in (run.process.stdout, run.process.stderr):
             pipe.close()
-        run.process.wait()
 
     def assert_as_undisturbed(self, run):
         """Stops a run of LONG, which whoever looked at it or spoke to it has changed in no digit of how both sides differ, at no step."""
