@@ -33,6 +33,11 @@ SOLID_NUMBERS = """  rho_bar: {rho_bar:<14} # density of the body [kg/m^3]: {mat
   nu: {nu:<19} # Poisson's ratio
 """
 
+BEHIND = """
+definitions:
+  behind: min(1, max(0, 0.5 + (x_shock - x) / h))    # part of the cell around a point that the shock has passed
+"""
+
 RESOLUTION = """
 grid: {{factor: {factor:g}}}{space}# h = 1 / (10 factor) = {h:g} m: {cells} cells along the body
 
@@ -50,9 +55,9 @@ SHOCK_SIDES = """  boundary:
     bottom: {bottom}
     top: outflow
   initial:
-    rho: "x < x_shock ? rho_1 : rho_0"
-    v: ["x < x_shock ? v_1 : 0", 0]
-    p: "x < x_shock ? p_1 : p_0"
+    rho: rho_0 + (rho_1 - rho_0) * behind
+    v: [v_1 * behind, 0]
+    p: p_0 + (p_1 - p_0) * behind
 """
 
 STREAM_SIDES = """  boundary:               # the stream outside, through which waves leave
@@ -162,5 +167,5 @@ def write(problem, file, path):
         law=problem.law, others=", ".join(law for law in LAWS if law not in (problem.law, clamped and "rigid")), space=" " * max(1, 15 - len(problem.law)), shape=_shape(problem, path), every=end / OUTPUTS,
         every_space=" " * max(1, 15 - len(every)), motion="    motion: fixed         # free: the gas moves it\n" if problem.fixed else "",
         x_probe=0.5 * sum(problem.outline.box()[:2]), y_probe=0.5 * (problem.outline.box()[3] + y_high))
-    return (HEAD.format(**numbers) + (SHOCK if shock else STREAM).format(**numbers) + SOLID_NUMBERS.format(**numbers)
+    return (HEAD.format(**numbers) + (SHOCK if shock else STREAM).format(**numbers) + SOLID_NUMBERS.format(**numbers) + BEHIND * shock
             + RESOLUTION.format(**numbers) + sides.format(bottom="slip_wall" if problem.on_wall else bottom) + body)
