@@ -12,6 +12,7 @@
 #include "common/case/read/restart.hpp"
 #include "common/case/report/cost.hpp"
 #include "common/case/report/memory.hpp"
+#include "common/case/report/remarks.hpp"
 #include "common/case/report/summary.hpp"
 #include "common/case/schema/json_schema.hpp"
 #include "common/core/command_line.hpp"
@@ -48,6 +49,7 @@ void check(const Options& options) {
   for (const std::string& line : problem.chosen) fmt::print("  chosen: {}\n", line);
   for (const std::string& name : problem.unused)
     fmt::print("  unused: parameters.{}, which no other value of the case needs\n", name);
+  for (const std::string& line : fsi::remarks_on(problem)) fmt::print("  note: {}\n", line);
   if (const std::string text = fsi::cost_text(cost); !text.empty()) fmt::print("{}\n", text);
 }
 

@@ -26,6 +26,7 @@ class Case:
     end: float = 0.0    # time.end
     times: tuple = ()   # of output
     projection: str = ""    # of the interface
+    remarks: tuple = ()     # lines about what is valid and seldom meant
     unused: tuple = ()      # parameters that nothing in the case needs
     digest: str = None      # of what a restart must not change
     cost: dict = field(default_factory=dict)    # {participant: {points, seconds_a_step}}, about
@@ -59,5 +60,5 @@ def resolve(case, overrides, laws, former=None):
                 programs={entry["name"]: entry["executable"] for entry in answer["participants"]},
                 reference=answer["reference"]["kind"], expect=answer["expect"],
                 end=answer["time"]["end"], times=tuple(answer["output_times"]),
-                projection=answer["projection"], unused=tuple(answer["unused"]), digest=answer["restart_digest"],
+                projection=answer["projection"], unused=tuple(answer["unused"]), remarks=tuple(answer["remarks"]), digest=answer["restart_digest"],
                 cost={entry["program"]: entry for entry in answer["cost"]["programs"]})

@@ -298,6 +298,8 @@ def _run(case, directory, checkpoint, request, say):
     # Two that begin together may read the same time; then they would hear each other where the bus is not protected.
     identity = f"{case.name}-{time.strftime('%H%M%S')}-{time.time_ns() % 10**9:09d}-{os.getpid()}"
     say(f"{case.name}: {', '.join(case.programs.values())}")
+    for remark in case.remarks:
+        say(f"note: {remark}")
 
     start = time.monotonic()
     with _in_memory(case.programs) as reports:

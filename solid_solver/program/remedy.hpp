@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "common/case/case.hpp"
+#include "common/case/report/remarks.hpp"
 #include "common/core/archive.hpp"
 
 namespace fsi::solid {
@@ -39,8 +40,15 @@ class Squeeze {
 /// @param stiffness lambda / mu. Of nearly incompressible solids, Poisson's ratios beyond 0.45, (41) is taken out and never
 ///                  put in: what it does to the traction of loaded sides is in proportion to lambda (docs/theory_solid.md)
 /// @param softens   the law carries no waves beyond some strain, and another one does
+/// @param pressed   pressure_over_stiffness
 inline std::string remedy_for(const std::string& solid, const SolidScheme& scheme, double stiffness,
-                              bool softens, double squeezed = 1) {
+                              bool softens, double squeezed = 1, double pressed = 0) {
+  if (pressed > crushing)
+    return fmt::format(
+        "a stiffer solids.{} or a weaker load: the pressure of the gas differs from p_e by up to {:.3g} "
+        "times "
+        "its lambda + 2 mu",
+        solid, pressed);
   if (squeezed < 1)
     return fmt::format(
         "a stiffer solids.{} or a weaker load: pressure had squeezed it to {:.2g} of its volume "

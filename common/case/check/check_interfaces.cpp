@@ -168,7 +168,7 @@ void check_grid_sides(const Case& problem, const SolidSpec& solid, const Node& r
     if (std::find_if(sides.begin(), before, has_same) != before)
       fail(node_at(place, {name_of(side)}).place, path,
            problem.fluids.size() < 2
-               ? "two sides are interfaces; a solid meets the gas along one"
+               ? "two sides are interfaces; a solid meets the gas along one, or all around its `shape`"
                : fmt::format("two sides are interfaces to {}; a solid meets each gas along one",
                              in_ticks(spec.fluid)));
   }

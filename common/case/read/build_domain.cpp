@@ -140,7 +140,13 @@ BoundarySpec build_boundary(const Reader& reader, const Owner& owner, const Node
 
 GridSpec build_grid(const Reader& reader, const Owner& owner) {
   if (owner.node.find("grid") == nullptr)
-    fail(owner.node.place, owner.path, "`grid` is missing; write {x: [.., ..], y: [.., ..], spacing: h}");
+    fail(
+        owner.node.place, owner.path,
+        fmt::format("`grid` is missing; write {}{{x: [.., ..], y: [.., ..], spacing: h}}",
+                    owner.path.starts_with("solids.")
+                        ? "a `shape`, along which it meets the gas all around and grids are chosen, or, with "
+                          "one `interface` among its sides, "
+                        : ""));
   const Node& node = *owner.node.find("grid");
   const std::string path = owner.path + ".grid";
   GridSpec grid;

@@ -10,6 +10,7 @@
 
 #include "common/case/report/cost.hpp"
 #include "common/case/report/memory.hpp"
+#include "common/case/report/remarks.hpp"
 #include "common/case/schema/laws.hpp"
 #include "common/core/failure.hpp"
 #include "common/core/input/config.hpp"
@@ -161,6 +162,7 @@ std::string summary_as_json(const Case& problem) {
       {"cost", cost_json(problem)},
       {"chosen", problem.chosen},
       {"unused", problem.unused},
+      {"remarks", remarks_on(problem)},
       {"parameters", problem.parameters},
       {"grid_factor", problem.grid_factor},
       {"time", time_json(problem.time)},

@@ -200,6 +200,8 @@ void refuse_bad_bytes(const std::string& text, const std::string& file) {
 /// What people mostly have done where the parser says this.
 std::string_view usual_cause(const std::string& said) {
   if (said == YAML::ErrorMsg::MAP_VALUE) return "; put a formula with a colon in quotes";
+  if (said == YAML::ErrorMsg::END_OF_MAP_FLOW || said == YAML::ErrorMsg::END_OF_SEQ_FLOW)
+    return "; put a formula with a colon in quotes, or close the bracket";
   if (said == YAML::ErrorMsg::END_OF_MAP) return "; indent the line as its neighbours";
   return "";
 }

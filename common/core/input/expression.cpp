@@ -8,10 +8,14 @@
 #include <bitset>
 #include <cctype>
 #include <cmath>
+#include <cstdlib>
+#include <map>
 #include <numbers>
 #include <optional>
 #include <stdexcept>
+#include <string>
 #include <string_view>
+#include <utility>
 
 #include "common/core/input/suggest.hpp"
 
@@ -52,20 +56,33 @@ std::size_t end_of_number(const std::string& text, std::size_t i) {
   return i;
 }
 
-/// True where a number ends just before `i`, spaces aside, as in `5 ms`: what follows is meant as its unit.
-bool is_behind_number(const std::string& text, int i) {
+/// The number that ends just before `i`, spaces aside, as in `5 ms`: what follows is meant as its unit.
+std::optional<double> number_before(const std::string& text, int i) {
   const auto end = static_cast<std::size_t>(std::max(i, 0));
   for (std::size_t k = 0; k < std::min(end, text.size());) {
     if (starts_name(text[k])) {
       while (k < text.size() && continues_name(text[k])) ++k;
     } else if (is_digit(text[k]) || text[k] == '.') {
-      k = end_of_number(text, k);
-      if (text.find_first_not_of(' ', k) == end) return true;
+      const std::size_t begin = std::exchange(k, end_of_number(text, k));
+      if (text.find_first_not_of(' ', k) == end) return std::strtod(text.c_str() + begin, nullptr);
     } else {
       ++k;
     }
   }
-  return false;
+  return std::nullopt;
+}
+
+/// What to write in place of a number with a unit that stands in a formula up to `rest`.
+std::string without_unit(double number, const std::string& unit, const std::string& rest) {
+  static const std::map<std::string, double> si = {
+      {"m", 1},     {"km", 1e3},  {"cm", 1e-2}, {"mm", 1e-3},    {"um", 1e-6},     {"s", 1},     {"ms", 1e-3},
+      {"us", 1e-6}, {"kg", 1},    {"g", 1e-3},  {"K", 1},        {"Pa", 1},        {"hPa", 1e2}, {"kPa", 1e3},
+      {"MPa", 1e6}, {"GPa", 1e9}, {"bar", 1e5}, {"atm", 101325}, {"psi", 6894.757}};
+  const auto known = si.find(unit);
+  const std::size_t next = rest.find_first_not_of(' ');
+  const bool compound = next != std::string::npos && std::string("/*^").find(rest[next]) != std::string::npos;
+  if (known == si.end() || compound) return "write the number in the units of the others";
+  return fmt::format("in m, kg and s it is {:.10g}", number * known->second);
 }
 
 /// muParser would let a formula assign to a variable, and a list of formulas pass as its last one.
@@ -288,9 +305,12 @@ struct Expression::Implementation {
       const std::string name =
           token.substr(0, static_cast<std::size_t>(
                               std::find_if_not(token.begin(), token.end(), continues_name) - token.begin()));
-      if (is_behind_number(formula, error.GetPos()))
-        return fmt::format("unknown name `{}` at position {} of {}; numbers have no units here, write 1e-3",
-                           name, error.GetPos() + 1, in_ticks(formula));
+      if (const std::optional<double> number = number_before(formula, error.GetPos()))
+        return fmt::format(
+            "unknown name `{}` at position {} of {}; numbers have no units here: {}", name,
+            error.GetPos() + 1, in_ticks(formula),
+            without_unit(*number, name,
+                         formula.substr(static_cast<std::size_t>(error.GetPos()) + name.size())));
       std::vector<std::string> known = reserved_names();
       for (const auto& entry : constants) known.push_back(entry.first);
       for (const auto& entry : definitions) known.push_back(entry.first);

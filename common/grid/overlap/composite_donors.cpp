@@ -277,11 +277,15 @@ std::string CompositeGrid::nearest_curves(const Vec2& x, double t) const {
              "give that side a grid along it in fluid.body_fitted (docs/troubleshooting.md), let the run end "
              "before, or the body not come so near";
     }
-    const bool rim_is_near = to_rim < order[0].first;
+    if (t > 0 && to_rim < order[0].first)
+      return fmt::format(
+          "; {} comes to the rim of \"{}\": let the run end before, or the rectangle reach farther (with a "
+          "larger grid.factor it may come nearer)",
+          name_of_body(bodies_[a]), background_.name);
     return fmt::format(
-        "; the curve of grid \"{}\" is {:.3g} ({:.2g} cells) from there, the rim of \"{}\" {:.3g}{}{}",
+        "; the curve of grid \"{}\" is {:.3g} ({:.2g} cells) from there, the rim of \"{}\" {:.3g}{}",
         bodies_[a].name, order[0].first, order[0].first / cell, background_.name, std::max(to_rim, 0.0),
-        while_moving(t), t > 0 && rim_is_near ? ", or the rectangle reach farther" : "");
+        while_moving(t));
   }
   const std::size_t b = order[1].second;
   const Gap gap = gap_between(curves[a], curves[b]);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "common/case/report/remarks.hpp"
 #include "tests/unit/case/cases.hpp"
 
 namespace fsi {
@@ -167,6 +168,29 @@ TEST(Beams, AreKeptByAWallOnlyWhereAGasEndsAtIt) {
 
 TEST(Beams, BetweenTwoGasesAreKeptByTheWallsOfBoth) {
   EXPECT_EQ(mistake_in(text_of_file(FSI_ROOT "/configs/piston_between_gases.yaml"), {}, {"piston=beam"}), "");
+}
+
+TEST(RemarksOnACase, OfARingInWhichNoGasIsComputed) {
+  const std::string ring = R"(time: {end: 1}
+grid: {factor: 10}
+fluid:
+  p_e: 1
+  grid: {x: [-1, 1], y: [-1, 1], spacing: h}
+  boundary: {left: outflow, right: outflow, bottom: outflow, top: outflow}
+  initial: {rho: 1, v: [0, 0], p: "r < 0.4 ? 3 : 1"}
+solids:
+  balloon:
+    law: beam
+    rho: 930
+    E: 20
+    nu: 0.4
+    shape: {kind: circle, radius: 0.41}
+    beam: {closed: true, thickness: 0.02, line: [[0.4, 0], [0.283, 0.283], [0, 0.4], [-0.283, 0.283], [-0.4, 0], [-0.283, -0.283], [0, -0.4], [0.283, -0.283]]}
+)";
+  const std::vector<std::string> remarks = remarks_on(tests::load_text(ring));
+  ASSERT_EQ(remarks.size(), 1U);
+  EXPECT_NE(remarks.front().find("solids.balloon: no gas is computed inside this ring"), std::string::npos)
+      << remarks.front();
 }
 
 }  // namespace

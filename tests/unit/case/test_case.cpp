@@ -5,6 +5,7 @@
 #include <string>
 
 #include "common/case/case.hpp"
+#include "common/case/report/remarks.hpp"
 #include "common/case/report/summary.hpp"
 #include "common/core/failure.hpp"
 #include "tests/unit/case/cases.hpp"
@@ -204,6 +205,21 @@ TEST(Summary, NamesParametersThatNothingNeeds) {
   EXPECT_EQ(problem.unused, (std::vector<std::string>{"other", "lonely"}));
   EXPECT_EQ(nlohmann::json::parse(summary_as_json(problem))["unused"], nlohmann::json({"other", "lonely"}));
   EXPECT_TRUE(load_case("shock_ellipse").unused.empty());
+}
+
+TEST(RemarksOnACase, OfASolidThatTheGasSqueezesToNothing) {
+  const auto remarks = [](const std::string& stiffness) {
+    return remarks_on(
+        load_case(FSI_ROOT "/configs/shock_ellipse.yaml", {"parameters.stiffness=" + stiffness}));
+  };
+  EXPECT_TRUE(remarks("4").empty());
+  // p - p_e = 0.805 behind the shock of Mach 1.3; lambda + 2 mu = 3 stiffness
+  EXPECT_TRUE(remarks("0.03").empty());
+  ASSERT_EQ(remarks("0.004").size(), 1U);
+  EXPECT_NE(remarks("0.004").front().find(
+                "solids.ellipse: the pressure of the gas differs from p_e by up to 67.1 times"),
+            std::string::npos)
+      << remarks("0.004").front();
 }
 
 TEST(Summary, TellsTheLauncherWhichProgramsRun) {

@@ -70,5 +70,13 @@ TEST(Remedy, ASolidThatItsLoadSqueezesIsNotToldToRelax) {
   EXPECT_EQ(remedy_for("bar", relaxed({.scaled = 0.2}), 1, false, 1), remedy_of({.scaled = 0.2}, 1));
 }
 
+TEST(Remedy, NamesTheLoadOfASolidThatIsMuchTooSoftBeforeAllElse) {
+  const SolidScheme scheme = relaxed({.scaled = 0.2});
+  EXPECT_EQ(remedy_for("bar", scheme, 1, false, 0.05, 75).find("a stiffer solids.bar or a weaker load"), 0U);
+  EXPECT_NE(remedy_for("bar", scheme, 1, false, 1, 75).find("up to 75 times its lambda + 2 mu"),
+            std::string::npos);
+  EXPECT_EQ(remedy_for("bar", scheme, 1, false, 1, 0.5), remedy_of({.scaled = 0.2}, 1));
+}
+
 }  // namespace
 }  // namespace fsi::solid

@@ -252,6 +252,9 @@ const Mistake formulas[] = {
      "case.yaml:22:47: solids.solid.grid.shake_seed: the grid of a solid lies still; leave it out"},
     {"FormulaWithAColon", "wave: sin(x)", "wave: x < 0 ? 1 : 2",
      "case.yaml:4:19: not YAML: illegal map value; put a formula with a colon in quotes"},
+    {"FormulaWithAColonInBraces", "x: [-1, 0], y: [0, 1],", "x: [x < 0 ? 1 : 2, 0], y: [0, 1],",
+     "case.yaml:22:22: not YAML: end of sequence flow not found; put a formula with a colon in quotes, or "
+     "close the bracket"},
     {"DefinitionsInACircle", "wave: sin(x)", "wave: 2 * wave",
      "case.yaml:4:9: definitions.wave: definitions go round in a circle: wave -> wave"},
     {"ParametersInACircle", "gamma: 1.4", "gamma: 1 + b\n  b: 2 * gamma",
@@ -276,7 +279,9 @@ const Mistake partners[] = {
      "case.yaml:24:7: solids.solid.boundary: no side is an interface, yet the case has a gas; write "
      "`interface` on the side that meets it"},
     {"TwoInterfacesOfASolid", "left: clamped", "left: interface",
-     "case.yaml:25:14: solids.solid.boundary: two sides are interfaces; a solid meets the gas along one"},
+     "case.yaml:25:14: solids.solid.boundary: two sides are interfaces; a solid meets the gas along one, or "
+     "all "
+     "around its `shape`"},
     {"SidesThatDoNotMeet", "x: [-1, 0]", "x: [-1, 0.01]",
      "case.yaml:11:11: fluid.boundary.left: its point at (0, 0) does not meet the right side of solid "
      "`solid`, "

@@ -89,10 +89,17 @@ TEST(Expression, NamesWhatItDoesNotKnow) {
 }
 
 TEST(Expression, TakesAWordBehindANumberForAUnit) {
-  EXPECT_EQ(mistake_of("1ms", {}),
-            "unknown name `ms` at position 2 of `1ms`; numbers have no units here, write 1e-3");
-  EXPECT_EQ(mistake_of("2 * 1.5e-3 mm", {{"m2", 1}}),
-            "unknown name `mm` at position 12 of `2 * 1.5e-3 mm`; numbers have no units here, write 1e-3");
+  EXPECT_EQ(
+      mistake_of("1ms", {}),
+      "unknown name `ms` at position 2 of `1ms`; numbers have no units here: in m, kg and s it is 0.001");
+  EXPECT_NE(mistake_of("2 MPa", {}).find("it is 2000000"), std::string::npos);
+  EXPECT_NE(mistake_of("x < 0 ? 5 bar : 1e5", {}).find("it is 500000"), std::string::npos);
+  EXPECT_NE(mistake_of("1.1 g/cm^3", {}).find("write the number in the units of the others"),
+            std::string::npos);
+  EXPECT_EQ(
+      mistake_of("2 * 1.5e-3 mm", {{"m2", 1}}),
+      "unknown name `mm` at position 12 of `2 * 1.5e-3 mm`; numbers have no units here: in m, kg and s it is "
+      "1.5e-06");
   EXPECT_EQ(mistake_of("m2 + rr", {{"m2", 1}}),
             "unknown name `rr` at position 6 of `m2 + rr`; did you mean `r`?");
 }

@@ -54,7 +54,7 @@ CASE = """#!/bin/bash
 echo '{"name": "piston", "resolved": "", "participants": [{"name": "fluid", "executable": "fluid_solver"},
   {"name": "solid", "executable": "/bin/true"}, {"name": "coupler", "executable": "coupler"}],
   "reference": {"kind": "piston_1d"}, "expect": [], "time": {"end": 1}, "output_times": [], "projection": "full",
-  "unused": [], "restart_digest": "", "cost": {"programs": []}}'
+  "unused": [], "remarks": [], "restart_digest": "", "cost": {"programs": []}}'
 """
 
 

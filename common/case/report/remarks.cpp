@@ -1,0 +1,56 @@
+#include "common/case/report/remarks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/case/check/given/sample.hpp"
+#include "common/case/schema/laws.hpp"
+
+namespace fsi {
+
+namespace {
+
+double largest_load(const FluidSpec& fluid) {
+  double load = 0;
+  const auto look = [&](const GasExpressions& state, const std::vector<Vec2>& points) {
+    for (const Vec2& x : points) load = std::max(load, std::abs(state.p(x[0], x[1], 0) - fluid.p_e));
+  };
+  if (fluid.initial) look(*fluid.initial, sample_points(fluid));
+  for (const Side side : all_sides) {
+    const BoundarySpec& spec = fluid.boundary[static_cast<std::size_t>(side)];
+    if (spec.state) look(*spec.state, sample_points(fluid.grid, side));
+  }
+  return load;
+}
+
+}  // namespace
+
+double pressure_over_stiffness(const Case& problem, const SolidSpec& solid) {
+  if (!is_continuum(solid.law)) return 0;
+  double load = 0;
+  for (const FluidSpec& fluid : problem.fluids) load = std::max(load, largest_load(fluid));
+  return load / (solid.lambda + 2 * solid.mu);
+}
+
+std::vector<std::string> remarks_on(const Case& problem) {
+  std::vector<std::string> remarks;
+  for (const SolidSpec& solid : problem.solids) {
+    if (const double pressed = pressure_over_stiffness(problem, solid); pressed > crushing)
+      remarks.push_back(
+          fmt::format("solids.{}: the pressure of the gas differs from p_e by up to {:.3g} times its lambda "
+                      "+ 2 mu = {:.3g}, which leaves nothing of it; "
+                      "are both in the same units?",
+                      solid.name, pressed, solid.lambda + 2 * solid.mu));
+    if (solid.beam && solid.beam->closed)
+      remarks.push_back(
+          fmt::format("solids.{}: no gas is computed inside this ring, whatever `initial` says there "
+                      "(docs/troubleshooting.md has how two "
+                      "gases meet)",
+                      solid.name));
+  }
+  return remarks;
+}
+
+}  // namespace fsi
