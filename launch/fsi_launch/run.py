@@ -241,11 +241,8 @@ def _begin(request, say, until):
         own = str(directory / "case.yaml")
         case = _resolved(request, say, request.case or own, own)
         checkpoint = restart.choose(directory, say, case.digest)
-        if request.pause_at is not None and request.pause_at < checkpoint.step:
-            raise UserMistake(f"--pause-at {request.pause_at}: the run goes on from step {checkpoint.step}; write that or a later one")
-        if case.end < checkpoint.t:
-            raise UserMistake(f"time.end = {case.end:g} lies before the checkpoint's t = {checkpoint.t:.6g}; "
-                              "a restart can only go on")
+        restart.expect_ahead(checkpoint, case.end, request.pause_at)
+        say(f"goes on from the checkpoint of step {checkpoint.step}, t = {checkpoint.t:.6g}")
         if case.end <= checkpoint.t * (1 + 1e-12):
             say("that is time.end: the run is complete; --set time.end=.. goes on to a later one")
         former.lay_aside(directory)

@@ -120,5 +120,12 @@ def choose(directory, say, digest):
     """The Set that a restart of the run in `directory`, of the case with this digest, goes on from."""
     if (found := latest(directory, say, digest)) is None:
         raise Failure(OUTPUT_FAILED, f"none of the checkpoints of {directory} can be used; begin anew")
-    say(f"goes on from the checkpoint of step {found.step}, t = {found.t:.6g}")
     return found
+
+
+def expect_ahead(found, end, pause_at):
+    """The end of the run and the step of a pause, where there is one, are not before the Set. Throws UserMistake."""
+    if pause_at is not None and pause_at < found.step:
+        raise UserMistake(f"--pause-at {pause_at}: the run goes on from step {found.step}; write that or a later one")
+    if end < found.t:
+        raise UserMistake(f"time.end = {end:g} lies before the checkpoint's t = {found.t:.6g}; a restart can only go on")

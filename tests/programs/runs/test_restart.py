@@ -292,6 +292,15 @@ class Refused(Interrupted):
     def test_by_a_program(self):
         self.assert_refused(*self.completed())
 
+    def test_what_would_end_or_pause_before_the_checkpoint_is_not_said_to_go_on(self):
+        run, record = self.completed()
+        for words, said in ((("--set", "time.end=0.01"), "lies before the checkpoint"), (("--pause-at", "1"), "write that or a later one")):
+            again = self.restart(run, *words)
+            self.assertEqual(again.wait(), 2, again.stderr)
+            self.assertIn(said, again.stderr)
+            self.assertNotIn("goes on from the checkpoint", again.stderr)
+        self.assertEqual(self.record(run), record)
+
     def test_after_the_launcher_of_another_one_was_killed(self):
         run, record = self.completed()
         killed = self.restart(run, "--set", "time.end=0.9", "--pause-at", str(run.checkpoints()[-1]))
