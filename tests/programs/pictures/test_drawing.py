@@ -138,6 +138,19 @@ class Frames(unittest.TestCase):
         self.assertTrue(across[0] <= 1 and across[1] >= 3)
         self.assertEqual((colours, words), ((0, 2), ["x", "y", "speed"]))
 
+    def test_bars_of_a_movie_have_units_in_a_case_of_si(self):
+        style.use()
+        units.use("SI")
+        self.addCleanup(units.use, "none")
+        x1, x2 = np.meshgrid(np.linspace(0, 1, 41), np.linspace(0, 1, 21))
+        still, front = ({"x1": x1, "x2": x2, "v1": x1, "v2": 0 * x1, "rho": 1 + jump * (x1 > 0.5), "p": 1 + 0 * x1} for jump in (0, 0.3))
+        body = {"x1": x1 + 1, "x2": x2, "v1": 1 + 0 * x1, "v2": 0 * x1}
+        for gas, label in ((still, "speed [m/s]"), (front, "$|\\bar v|$ [m/s]")):
+            series = [data.Series(name, [data.Output(1.0, [data._read_grid(name, arrays)])]) for name, arrays in (("fluid", gas), ("body", body))]
+            [figure] = movie._frames(series)
+            self.assertEqual(figure.axes[-1].get_title(loc="left").split("\n")[-1], label)
+            pyplot.close(figure)
+
 
 class Units(unittest.TestCase):
     def tearDown(self):

@@ -41,13 +41,14 @@ def _frames(series):
         size = schlieren.scales([gas.outputs[k] for k in sample], [one.outputs[:count] for one in solids])
     box = fields.box_around([grid for one in series for output in one.outputs[:count] for grid in output.grids])
     largest = max(grid.speed()[grid.used()].max() for one in series for output in one.outputs for grid in output.grids) or 1
+    label = units.label("$|\\bar v|$" if shocks else "speed", "length/time")
     for k in range(count):
         figure, axes = pyplot.subplots(figsize=(HEIGHT * 1.25, HEIGHT))
         if shocks:
-            drawn, label = schlieren.draw(axes, gas.outputs[k], [one.outputs[k] for one in solids], size), "$|\\bar v|$"
+            drawn = schlieren.draw(axes, gas.outputs[k], [one.outputs[k] for one in solids], size)
         else:
-            drawn, label = _speed_frame(axes, gas.outputs[k] if gas else None, [one.outputs[k] for one in solids], largest, box), "speed"
-            axes.set_title(f"{units.label('speed', 'length/time')}, {units.moment(series[0].outputs[k].t)}", loc="left")
+            drawn = _speed_frame(axes, gas.outputs[k] if gas else None, [one.outputs[k] for one in solids], largest, box)
+            axes.set_title(f"{label}, {units.moment(series[0].outputs[k].t)}", loc="left")
         style.name_axes(np.array([[axes]]))
         if drawn is not None:
             style.bar(figure, axes, drawn, label)
