@@ -193,6 +193,21 @@ def _number(value, form="{:.3g}"):
     return "-" if value is None else form.format(value)
 
 
+LEAST_PERCENT = 1e-6    # that is written in digits
+
+
+def percent(part):
+    """A part of something in per cent as people write it, in two digits: 100 %, 7300 %, 0.00052 %."""
+    value = 100 * abs(part)
+    if not math.isfinite(value):
+        return f"{value} %"
+    if 0 < value < LEAST_PERCENT:
+        return "less than 1e-6 %"
+    digits = 1 - math.floor(math.log10(value)) if value else 0    # after the point
+    text = f"{round(value, digits):.{max(digits, 0)}f}"
+    return f"{text.rstrip('0').rstrip('.') if digits > 0 else text} %"
+
+
 def _rate(value):
     return "-" if not value else f"{value / 1e6:.2f} M/s"
 
@@ -231,7 +246,7 @@ def noise_in_words(summary):
     if not noise.get("noisy"):
         return ""
     point, place = (", ".join(f"{value:.4g}" for value in noise[key]) for key in ("point", "place"))
-    return (f"noise of the grid's scale: {noise['field']} of {noise['participant']} ripples by {100 * noise['value']:.2g} % of "
+    return (f"noise of the grid's scale: {noise['field']} of {noise['participant']} ripples by {percent(noise['value'])} of "
             f"its range, grid \"{noise['grid']}\", point ({point}) at ({place}), t = {noise['t']:.4g}")
 
 
@@ -239,7 +254,7 @@ def _interface_lines(interface):
     """The jumps beside what they are to be compared with."""
     def jump(name, scale, of):
         value, size = interface.get(f"max_{name}_jump"), interface.get(scale)
-        part = f" ({100 * value / size:.2g} % of {of} {size:.3g})" if value is not None and size else ""
+        part = f" ({percent(value / size)} of {of} {size:.3g})" if value is not None and size else ""
         return f"{name} {_number(value, '{:.2e}')}{part}"
     lines = []
     if "max_velocity_jump" in interface:

@@ -143,6 +143,13 @@ class Summary(InScratch):
         words = summary.describe(self.merged(), self.folder)
         self.assertIn("before the projection: velocity 6.73e+01 (10 % of the gas's speed, 673), traction 7.30e+06 (73 % of", words)
 
+    def test_percentages_are_as_people_write_them(self):
+        for part, said in ((1.0, "100 %"), (0.996, "100 %"), (73.0, "7300 %"), (12345, "1200000 %"), (0.1, "10 %"), (0.095, "9.5 %"), (0.0996, "10 %"),
+                           (0.02, "2 %"), (5.2e-6, "0.00052 %"), (1e-8, "0.000001 %"), (1.8e-16, "less than 1e-6 %"), (0.0, "0 %")):
+            self.assertEqual(summary.percent(part), said)
+        self.part("coupler", interface={"max_velocity_jump": 2.0, "max_traction_jump": 1.8e-16, "velocity_scale": 2.0, "traction_scale": 1.0})
+        self.assertRegex(summary.describe(self.merged(), self.folder), r"\(100 % of the gas's speed.*\(less than 1e-6 % of the gas's pressure")
+
     def test_program_that_left_nothing_is_lost(self):
         self.part("coupler", steps=3, t=0.1)
         merged = self.merged("failed")
