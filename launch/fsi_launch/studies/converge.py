@@ -156,7 +156,7 @@ def _compare_levels(options, case, directory):
         (directory / f"converge.{suffix}").write_text(content, **AS_NAMED)
     tell(f"tables in {directory}")
     return _judge({f"{row.quantity} of {row.solid} at t = {row.t:g}": row.orders[-1] if row.orders else None for row in rows
-                   if any(_has_rate(difference) for difference in row.differences)}, options.min_rate)
+                   if any(difference > row.round_off for difference in row.differences)}, options.min_rate)
 
 
 def _judge(rates, least):

@@ -13,7 +13,8 @@ from pathlib import Path
 from fsi_launch.telling import AS_NAMED
 
 QUANTITIES = (("centre", ("centre1", "centre2")), ("velocity", ("velocity1", "velocity2")), ("angle", ("angle",)))
-ROUND_OFF = 1e-13   # of the largest value: smaller differences have no order
+ROUND_OFF = 1e-13   # of the size of such values: smaller differences have no order
+RADIAN = 1.0        # size of angles, however little the bodies turn
 FINER = 8           # times the points, for the curve a boundary is compared with
 
 
@@ -26,6 +27,7 @@ class Row:
     t: float
     differences: list
     orders: list
+    round_off: float = 0.0      # differences below it are that
 
 
 def orders(levels, differences, size):
@@ -82,6 +84,28 @@ def _outlines(directory):
     return {body.name: body.outlines for body in outlines.of(data.all_series(Path(directory)))}
 
 
+def _speed_of_gas(directory):
+    """The largest at the bodies, with that of sound; 0 where there is none."""
+    try:
+        summary = json.loads((Path(directory) / "summary.json").read_text(encoding="utf-8"))
+        return float(summary["interface"]["velocity_scale"])
+    except (OSError, ValueError, LookupError, TypeError):
+        return 0.0
+
+
+def _sizes(tables, curves, directories):
+    """{quantity: size of its values}, of all solids together: one whose values are round-off of these is at rest. Places are compared
+    with the largest coordinate of centres and boundaries, velocities with the largest one of the bodies or of the gas at them."""
+    def largest(columns):
+        return max((abs(line[column]) for table in tables for solid in table.values() for line in solid.values() for column in columns
+                    if column in line), default=0.0)
+    found = {name: largest(columns) for name, columns in QUANTITIES}
+    reach = max((float(abs(line).max()) for run in curves for body in run.values() for line in body.values()), default=0.0)
+    found["centre"] = found["boundary"] = max(found["centre"], reach)
+    found["velocity"] = max(found["velocity"], *map(_speed_of_gas, directories))
+    return found | {"angle": max(found["angle"], RADIAN)}
+
+
 def _at(lines, t):
     """The one of {time: line} at t, or None."""
     return next((line for time, line in lines.items() if math.isclose(time, t, rel_tol=1e-9)), None)
@@ -101,7 +125,10 @@ def compare(levels, directories, times):
     """Rows of all solids, quantities and output times. A solid of one's own may lack columns, and has no rows of these then."""
     tables = [_tables(directory) for directory in directories]
     curves = [_outlines(directory) for directory in directories]
-    rows = []
+    sizes, rows = _sizes(tables, curves, directories), []
+
+    def add(solid, name, t, found):
+        rows.append(Row(solid, name, t, found, orders(levels, found, sizes[name]), ROUND_OFF * sizes[name]))
     for solid in tables[0]:
         runs = [table.get(solid, {}) for table in tables]
         for t in (t for t in times if t > 0 and all(t in run for run in runs)):
@@ -109,13 +136,10 @@ def compare(levels, directories, times):
                 if not all(column in run[t] for run in runs for column in columns):
                     continue
                 values = [[run[t][column] for column in columns] for run in runs]
-                found = [_apart(name, coarse, fine) for coarse, fine in zip(values, values[1:])]
-                size = max(abs(line[column]) for run in runs for line in run.values() for column in columns)
-                rows.append(Row(solid, name, t, found, orders(levels, found, size)))
+                add(solid, name, t, [_apart(name, coarse, fine) for coarse, fine in zip(values, values[1:])])
             lines = [_at(one.get(solid, {}), t) for one in curves]
             if all(line is not None for line in lines):
-                found = [_distance(coarse, fine) for coarse, fine in zip(lines, lines[1:])]
-                rows.append(Row(solid, "boundary", t, found, orders(levels, found, max(abs(line).max() for line in lines))))
+                add(solid, "boundary", t, [_distance(coarse, fine) for coarse, fine in zip(lines, lines[1:])])
     return rows
 
 

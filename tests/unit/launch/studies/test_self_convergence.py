@@ -53,6 +53,31 @@ class SelfConvergence(unittest.TestCase):
         self.assertEqual(self_convergence.orders([4, 8, 16], [4e-15, 1e-15], 1), [None])
         self.assertAlmostEqual(self_convergence.orders([4, 8, 16], [4e-15, 1e-15], 1e-6)[0], 2)
 
+    def rows_of(self, values, gas=None):
+        """{quantity: Row} at the end of a body with these (centre1, velocity1, angle) on three grids; `gas`: its largest speed."""
+        with tempfile.TemporaryDirectory(prefix="fsi-self-") as scratch:
+            folders = [Path(scratch) / str(j) for j in (4, 8, 16)]
+            for folder, (centre, velocity, angle) in zip(folders, values):
+                folder.mkdir()
+                lines = [",".join(COLUMNS), *(",".join(map(str, (t, centre, 0, velocity, 0, angle))) for t in (0, 1))]
+                (folder / "forces_body.csv").write_text("\n".join(lines) + "\n", encoding="utf-8")
+                if gas:
+                    (folder / "summary.json").write_text(f'{{"interface": {{"velocity_scale": {gas}}}}}', encoding="utf-8")
+            return {row.quantity: row for row in self_convergence.compare([4, 8, 16], folders, [1])}
+
+    def test_a_quantity_that_is_round_off_of_others_like_it_has_no_order(self):
+        rows = self.rows_of([(1.16, 2e-13, 4e-20), (1.04, 4e-14, 1e-20), (1.01, 1e-14, 2e-21)], gas=340.0)
+        self.assertAlmostEqual(rows["centre"].orders[0], 2)
+        self.assertEqual((rows["velocity"].orders, rows["angle"].orders), ([None], [None]))
+        self.assertEqual(rows["velocity"].round_off, 340e-13)
+        self.assertAlmostEqual(self.rows_of([(1, 1.6e-9, 1.6e-7), (1, 4e-10, 4e-8), (1, 1e-10, 1e-8)], gas=340.0)["velocity"].orders[0], 2)
+
+    def test_places_are_compared_with_the_reach_of_the_bodies(self):
+        import numpy as np
+        tables = [{"body": {1.0: {"centre1": 1e-19, "centre2": 0.0, "angle": 3.0}}}]
+        sizes = self_convergence._sizes(tables, [{"body": {1.0: np.array([[0.5, 0.0], [0.0, -2.0]])}}], ["nowhere"])
+        self.assertEqual(sizes, {"centre": 2.0, "boundary": 2.0, "velocity": 0.0, "angle": 3.0})
+
     def test_levels_that_are_not_in_one_ratio_have_no_order(self):
         self.assertEqual(self.compare([2, 4, 16])["centre", 1].orders, [None])
 
