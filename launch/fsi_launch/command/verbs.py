@@ -74,8 +74,8 @@ def _add_new(verbs):
                             "terminal it asks for what the options leave open.")
     verb.add_argument("name", metavar="NAME", help="of the case; NAME.yaml is written, in this folder or where NAME says")
     verb.add_argument("--outline", metavar="FILE", help="points of the body's outline in their order, x, y on each line (default: a circle)")
-    verb.add_argument("--straight", action="store_true", help="straight edges between the points, corners rounded, in place of a "
-                      "smooth curve")
+    verb.add_argument("--straight", action="store_true", help="straight edges between the points in place of a smooth curve; corners "
+                      "are rounded, those of a rigid body sharp where grids take that")
     verb.add_argument("--on-wall", action="store_true", help="the body stands with its lowest edge on the lower wall of the gas, clamped; "
                       "an elastic one of four corners keeps them sharp")
     verb.add_argument("--size", metavar="L", type=_plain_number, help="length of the body [m], to which an outline is scaled (default: the file's "

@@ -4,6 +4,7 @@ import math
 import os
 import re
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 from fsi_launch import case as cases
@@ -12,6 +13,7 @@ from fsi_launch.failure import DONE, UserMistake
 from fsi_launch.new import materials, outline, text
 from fsi_launch.new.problem import Problem
 from fsi_launch.new.questions import ask_for_missing
+from fsi_launch.results.summary import percent
 
 SIZE = 0.1      # of a circle [m]
 EXAMPLES = {"size": "0.08", "mach": "1.3", "density": "1.225", "pressure": "101325", "gamma": "1.4", "end": "1e-3"}  # of options that are numbers
@@ -64,6 +66,19 @@ def _write(path, content):
     print(f"wrote {path}")
 
 
+def _settled(problem, path):
+    """The Problem with rounded corners where sharp ones of a rigid body turn out to be not valid; takes `path` for the trial."""
+    if not text.may_be_sharp(problem):
+        return problem
+    path.write_text(text.write(problem, str(path), None), encoding="utf-8")
+    try:
+        cases.check(str(path), [], [])
+        return problem
+    except UserMistake:
+        print("corners are rounded: with sharp ones (`radius: 0`) the case is not valid")
+        return replace(problem, sharp=False)
+
+
 WORTH_TELLING = 0.03    # part of a body's extent
 
 
@@ -76,7 +91,7 @@ def _rounded(problem, path):
     extent = max(max(along) - min(along) for along in zip(*problem.outline.points))
     if lost <= WORTH_TELLING * extent:
         return ""
-    return (f"corners are rounded with a radius of {radius:.3g} m: {lost:.2g} m of the body, {100 * lost / extent:.2g} % of its extent, are missing at "
+    return (f"corners are rounded with a radius of {radius:.3g} m: {lost:.2g} m of the body, {percent(lost / extent)} of its extent, are missing at "
             f"({corner[0]:.4g}, {corner[1]:.4g}); with a smaller `radius` in {path} less is, and an elastic body takes finer grids")
 
 
@@ -93,6 +108,7 @@ def main(options):
     if own_points:
         lines = "".join(f"{x:.9g}, {y:.9g}\n" for x, y in problem.outline.points)
         _write(points, f"# points x, y [m] of the outline in {Path(options.outline).name}, its longer side {options.size:g} m\n{lines}")
+    problem = _settled(problem, path)
     file = points.name if own_points else problem.outline.path and os.path.relpath(problem.outline.path, path.parent)
     _write(path, text.write(problem, str(path), file))
     angle = None if problem.straight or not problem.outline.points else outline.corners(problem.outline)[0]

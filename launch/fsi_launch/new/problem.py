@@ -21,7 +21,8 @@ class Problem:
     name: str
     outline: Outline
     material: Material
-    straight: bool = False      # edges between the points of the outline
+    straight: bool = False      # edges between the points of the outline,
+    sharp: bool = True          # and sharp corners between those of a rigid body that are long enough
     flow: str = "shock"         # or stream
     mach: float = 1.3
     rho: float = 1.225          # dry air at 15 degrees Celsius and one atmosphere (the ISO 2533 standard atmosphere at sea level)

@@ -1,5 +1,7 @@
 """The text of a new case: commented, with nothing in it that the programs choose well by themselves."""
 
+from dataclasses import replace
+
 from fsi_launch.new.outline import corners, is_block, largest_radius, shortest_edge
 from fsi_launch.new.problem import OUTPUTS
 from fsi_launch.new.questions import LAWS
@@ -71,7 +73,7 @@ STREAM_SIDES = """  boundary:               # the stream outside, through which 
 BODY = """
 solids:
   body:                   # its grids, and those of the gas around it, are chosen; check says how
-    law: {law}{space}# or {others}: --solid body=LAW
+    law: {law}{space}# {laws}
     rho: rho_bar
     E: E
     nu: nu
@@ -101,14 +103,29 @@ FITS, OF_ACUTE = 0.9, 0.5   # parts of the largest radius for which arcs have ro
 TOO_SMALL = 0.5     # radius that is not worth its grids, in h
 
 
+def may_be_sharp(problem):
+    """Straight edges of a rigid body with a point of the grid at each corner: if its grids are valid nothing is rounded away."""
+    return problem.straight and problem.law == "rigid" and problem.sharp and shortest_edge(problem.outline) >= problem.spacing()
+
+
 def radius_of_corners(problem):
     """Of the rounded corners; 0: sharp, which takes a point of the grid at each of them."""
     rigid, h, largest, shortest = problem.law == "rigid", problem.spacing(), largest_radius(problem.outline), shortest_edge(problem.outline)
-    if problem.on_wall and not rigid and is_block(problem.outline):
+    if may_be_sharp(problem) or problem.on_wall and not rigid and is_block(problem.outline):
         return 0
     usual = min(ROUNDED * h, OF_AN_EDGE * shortest)
     radius = usual if usual <= FITS * largest else OF_ACUTE * largest
     return 0 if rigid and radius < TOO_SMALL * h and shortest >= h else radius
+
+
+def _laws(problem):
+    """What is said beside the law: the others. An elastic body takes rounded corners, but for a block on a wall."""
+    others = [law for law in LAWS if law != problem.law and not (problem.on_wall and law == "rigid")]
+    said = f"or {', '.join(others)}: --solid body=LAW"
+    if not problem.straight or problem.law != "rigid" or radius_of_corners(problem):
+        return said
+    rounded = radius_of_corners(replace(problem, law=others[0]))
+    return said if not rounded else f"{said} --set solids.body.shape.radius={rounded:.3g}"
 
 
 def keeps_corners(problem):
@@ -164,7 +181,7 @@ def write(problem, file, path):
     clamped = problem.on_wall and problem.law != "rigid"
     body = BODY.format(
         stands="\n    boundary: {left: free, right: free, bottom: clamped, top: free}    # its foot is held; the gas acts on the free sides" if clamped else "",
-        law=problem.law, others=", ".join(law for law in LAWS if law not in (problem.law, clamped and "rigid")), space=" " * max(1, 15 - len(problem.law)), shape=_shape(problem, path), every=end / OUTPUTS,
+        law=problem.law, laws=_laws(problem), space=" " * max(1, 15 - len(problem.law)), shape=_shape(problem, path), every=end / OUTPUTS,
         every_space=" " * max(1, 15 - len(every)), motion="    motion: fixed         # free: the gas moves it\n" if problem.fixed else "",
         x_probe=0.5 * sum(problem.outline.box()[:2]), y_probe=0.5 * (problem.outline.box()[3] + y_high))
     return (HEAD.format(**numbers) + (SHOCK if shock else STREAM).format(**numbers) + SOLID_NUMBERS.format(**numbers) + BEHIND * shock

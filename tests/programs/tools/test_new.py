@@ -12,6 +12,7 @@ from pathlib import Path
 
 import h5py
 import numpy as np
+import yaml
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from running import BIN, FSI, ROOT, WATCHDOG, EndToEnd  # noqa: E402
@@ -42,6 +43,9 @@ class New(InFolder):
         end = self.facts("own.yaml")["time"]["end"]
         self.complete("own.yaml", "--set", f"time.end={0.02 * end}", "--no-progress")
 
+    def shape(self, name):
+        return yaml.safe_load((self.folder / f"{name}.yaml").read_text(encoding="utf-8"))["solids"]["body"]["shape"]
+
     def test_circle_of_aluminium_in_a_shock(self):
         self.begin()
         text = (self.folder / "own.yaml").read_text(encoding="utf-8")
@@ -65,6 +69,22 @@ class New(InFolder):
             for law in ("neo_hookean", "rigid"):
                 self.fsi("new", name, "--outline", f"{name}.csv", "--straight", "--size", "0.1", "--law", law, "--defaults", "--overwrite")
 
+    def test_a_rigid_wedge_stays_sharp_loses_less_and_takes_fewer_steps_than_a_rounded_one(self):
+        (self.folder / "wedge.csv").write_text("0,0\n0.12,0.006\n0.12,-0.006\n")
+        said = self.fsi("new", "wedge", "--outline", "wedge.csv", "--straight", "--law", "rigid", "--defaults").stdout
+        lost, steps = (float(re.search(pattern, said)[1]) for pattern in (r"([\d.]+) % of ", r"about (\d+) steps"))
+        self.assertEqual(self.shape("wedge")["radius"], 0)
+        self.assertLess(lost, 25)
+        rounded = self.fsi("check", "wedge.yaml", "--set", "solids.body.shape.radius=0.003").stdout      # what was written before
+        self.assertLess(steps, float(re.search(r"about (\d+) steps", rounded)[1]))
+        self.complete("wedge.yaml", "--set", "time.end=2e-5", "--no-progress")
+
+    def test_a_rigid_body_whose_sharp_corners_have_no_grids_is_rounded_and_that_is_said(self):
+        (self.folder / "dart.csv").write_text("0,0\n1,.4\n.35,0\n1,-.4\n")
+        said = self.fsi("new", "dart", "--outline", "dart.csv", "--straight", "--size", "0.1", "--law", "rigid", "--defaults").stdout
+        self.assertIn("with sharp ones (`radius: 0`) the case is not valid", said)
+        self.assertGreater(self.shape("dart")["radius"], 0)
+
     def test_a_rigid_fin_with_a_sharp_tail(self):
         points = [(0.5 + 0.5 * np.cos(a), 0.1 * np.sin(a) * (1 - np.cos(a)) / 2) for a in np.arange(24) * np.pi / 12]
         np.savetxt(self.folder / "fin.csv", points, delimiter=",")
@@ -77,11 +97,13 @@ class New(InFolder):
 
     def test_what_else_the_text_offers_is_valid(self):
         (self.folder / "bar.csv").write_text("0, 0\n1, 0\n1, 4\n0, 4\n")
-        self.fsi("new", "bar", "--outline", "bar.csv", "--size", "0.1", "--straight", "--on-wall", "--defaults")
-        law, others = re.search(r"law: (\w+) +# or (.*): --solid", (self.folder / "bar.yaml").read_text(encoding="utf-8")).groups()
-        self.assertNotIn(law, others.split(", "))
-        for other in others.split(", "):
-            self.fsi("check", "bar.yaml", "--solid", f"body={other}")
+        for given in (("--on-wall",), ("--law", "rigid")):
+            self.fsi("new", "bar", "--outline", "bar.csv", "--size", "0.1", "--straight", *given, "--defaults", "--overwrite")
+            found = re.search(r"law: (\w+) +# or (.*): --solid body=LAW(.*)", (self.folder / "bar.yaml").read_text(encoding="utf-8"))
+            law, others, more = found.groups()
+            self.assertNotIn(law, others.split(", "))
+            for other in others.split(", "):
+                self.fsi("check", "bar.yaml", "--solid", f"body={other}", *more.split())
 
     def test_a_length_with_its_unit(self):
         self.assertIn("without its unit", self.fsi("new", "own", "--size", "8cm", "--defaults", code=2).stderr)
