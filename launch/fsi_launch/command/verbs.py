@@ -79,7 +79,7 @@ def _add_new(verbs):
     verb.add_argument("--on-wall", action="store_true", help="the body stands with its lowest edge on the lower wall of the gas, clamped; "
                       "an elastic one of four corners keeps them sharp")
     verb.add_argument("--size", metavar="L", type=_plain_number, help="length of the body [m], to which an outline is scaled (default: the file's "
-                      "numbers; a circle: 0.1)")
+                      "numbers, in the unit that its heading names, as x_mm,y_mm, or in m; a circle: 0.1)")
     verb.add_argument("--flow", choices=FLOWS, help="a shock that runs against the body (default), or a stream around it")
     verb.add_argument("--mach", metavar="M", type=_plain_number, help="Mach number of the shock (default: 1.3) or of the stream (0.5)")
     verb.add_argument("--density", metavar="RHO", type=_plain_number, help="of the gas [kg/m^3] (default: air, 1.225)")

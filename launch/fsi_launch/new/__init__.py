@@ -36,8 +36,8 @@ def _outline(options):
             raise UserMistake("--straight is about the points of an outline; add --outline FILE")
         return outline.Outline(radius=0.5 * (options.size or SIZE))
     found = outline.read(options.outline, options.straight)
-    if options.size:
-        found = outline.scaled(found, options.size)
+    found = outline.scaled(found, options.size) if options.size else outline.in_metres(found)
+    found = replace(found, path=None) if found.title else found     # the programs read no titles: they get the points
     return outline.from_its_foot(found) if options.on_wall and options.straight else found
 
 
@@ -64,6 +64,13 @@ def problem_of(options):
 def _write(path, content):
     path.write_text(content, encoding="utf-8")
     print(f"wrote {path}")
+
+
+def _tell_of_outline(options, found):
+    if found.title:
+        print(f"{options.outline}: {found.title}")
+    if found.points and not options.size:
+        print(outline.taken(found, options.outline))
 
 
 def _settled(problem, path):
@@ -101,13 +108,14 @@ def main(options):
     if not options.defaults and sys.stdin.isatty() and sys.stdout.isatty():
         ask_for_missing(options)
     problem = problem_of(options)
+    _tell_of_outline(options, problem.outline)
     own_points = problem.outline.points and problem.outline.path is None and not problem.straight
     for taken in (path, *([points] if own_points else [])):
         if taken.exists() and not options.overwrite:
             raise UserMistake(f"{taken} is there already; write another name, or add --overwrite")
     if own_points:
         lines = "".join(f"{x:.9g}, {y:.9g}\n" for x, y in problem.outline.points)
-        _write(points, f"# points x, y [m] of the outline in {Path(options.outline).name}, its longer side {options.size:g} m\n{lines}")
+        _write(points, f"# points x, y [m] of the outline in {Path(options.outline).name}, its longer side {problem.outline.size():g} m\n{lines}")
     problem = _settled(problem, path)
     file = points.name if own_points else problem.outline.path and os.path.relpath(problem.outline.path, path.parent)
     _write(path, text.write(problem, str(path), file))

@@ -2,7 +2,7 @@
 
 import math
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from fsi_launch.failure import UserMistake
@@ -12,6 +12,8 @@ FEWEST_CORNERS = 3      # of straight edges
 SHARP = 100             # [degree] turns beyond those of a square are meant as corners
 CLEAR = 45              # [degree] so are these, where the points on one side of them turn by less than BESIDE of it: a blunt tail
 BESIDE = 0.1
+UNITS = {"mm": 1e-3, "cm": 1e-2, "m": 1.0, "in": 0.0254, "ft": 0.3048}      # [m], that a heading may name
+WITH_UNIT = r"[^\W_]\s*[_/(\[]\s*(mm|cm|m|in|ft)\s*[)\]]?(?!\w)"      # x_mm, x [mm], x (mm), x/mm
 
 
 @dataclass(frozen=True)
@@ -21,6 +23,8 @@ class Outline:
     path: Path = None
     points: tuple = ()
     radius: float = 0.0
+    unit: str = ""      # that the heading of its file names
+    title: str = ""     # of its file: what is said about it
 
     def box(self):
         """(x low, x high, y low, y high)"""
@@ -39,44 +43,73 @@ def _numbers(line):
     return tuple(float(word) for word in re.split(r"[,;\s]+", line.strip()) if word)
 
 
+def _is_number(word):
+    try:
+        float(word.strip("\"'"))
+        return True
+    except ValueError:
+        return False
+
+
 def _names_columns(text):
     """Words, and no number among them."""
-    for word in re.split(r"[,;\s]+", text):
-        try:
-            float(word.strip("\"'"))
-            return False
-        except ValueError:
-            pass
-    return True
+    return not any(map(_is_number, re.split(r"[,;\s]+", text)))
+
+
+def _is_title(text):
+    """Is a first line one of a file of points of an airfoil? It begins with no number, has a word or a name such as E387, and is no
+    heading: that has separators, or words that begin with x and y."""
+    if _names_columns(text):
+        return not re.search(r"[,;\t]", text) and not all(re.match("[\"']?[xy]", word.lower()) for word in text.split())
+    words = re.split(r"[,;\s]+", text)
+    return not _is_number(words[0]) and any(re.fullmatch(r"[^\W\d_]\w*", word) and not _is_number(word) for word in words)
+
+
+def _unit(heading, place):
+    """The unit that the names of columns have, or "". Throws UserMistake where they have several."""
+    found = sorted(set(re.findall(WITH_UNIT, heading.lower().replace('"', "").replace("'", ""))))
+    if len(found) > 1:
+        raise UserMistake(f"{place}: '{heading[:30]}' names several units, {', '.join(found)}; write both columns in one")
+    return found[0] if found else ""
+
+
+def _point(text, place):
+    try:
+        x, y = _numbers(text)
+        if math.isfinite(x) and math.isfinite(y):
+            return x, y
+    except ValueError:
+        pass
+    raise UserMistake(f"{place}: '{text[:30]}' is no point: write two finite numbers, x, y")
 
 
 def read(path, straight=False):
-    """The Outline in a file with x, y on each line; comments begin with #, and the first line may name the columns. `straight`: with
-    edges between the points. Throws UserMistake with file:line."""
+    """The Outline in a file with x, y on each line; comments begin with #, and the first line may name the columns or be a title.
+    `straight`: with edges between the points. Throws UserMistake with file:line."""
     path = Path(path)
     try:
         lines = path.read_text(encoding="utf-8-sig").splitlines()    # some editors begin a text with a byte-order mark
     except (OSError, UnicodeDecodeError) as error:
         raise UserMistake(f"--outline {path}: cannot be read ({getattr(error, 'strerror', None) or 'it is no UTF-8 text'})") from None
-    points = []
+    points, unit, title, first = [], "", "", True
     for number, line in enumerate(lines, 1):
         text = line.split("#")[0].strip()
-        if not text or (not points and _names_columns(text)):
+        if not text:
             continue
-        try:
-            x, y = _numbers(text)
-            if not (math.isfinite(x) and math.isfinite(y)):
-                raise ValueError
-        except ValueError:
-            raise UserMistake(f"{path}:{number}: '{text[:30]}' is no point: write two finite numbers, x, y") from None
-        points.append((x, y))
+        is_first, first = first, False
+        if named := not points and _names_columns(text):
+            unit = unit or _unit(text, f"{path}:{number}")
+        if is_first and not unit and _is_title(text):
+            title = f"line {number}, '{text[:60]}', is taken as a title"
+        elif not named:
+            points.append(_point(text, f"{path}:{number}"))
     if len(points) > 1 and points[0] == points[-1]:
         points.pop()
     fewest = FEWEST_CORNERS if straight else FEWEST
     if len(points) < fewest:
         raise UserMistake(f"{path}: an outline needs {fewest} points or more, x, y on each line; there are {len(points)}"
                           + ("" if straight else f" (--straight: {FEWEST_CORNERS} or more, as corners)"))
-    outline = Outline(path, tuple(points))
+    outline = Outline(path, tuple(points), unit=unit, title=title)
     if outline.size() <= 0:
         raise UserMistake(f"{path}: all points are the same")
     return outline
@@ -85,7 +118,20 @@ def read(path, straight=False):
 def scaled(outline, size):
     """The outline with its longer side `size` long, about the origin of its coordinates."""
     factor = size / outline.size()
-    return Outline(None, tuple((factor * x, factor * y) for x, y in outline.points), factor * outline.radius)
+    return replace(outline, path=None, points=tuple((factor * x, factor * y) for x, y in outline.points), radius=factor * outline.radius)
+
+
+def in_metres(outline):
+    """The outline with its numbers taken in the unit that its heading names."""
+    factor = UNITS.get(outline.unit, 1.0)
+    return outline if factor == 1.0 else scaled(outline, factor * outline.size())
+
+
+def taken(outline, name):
+    """What is said of the size it has."""
+    x_low, x_high, y_low, y_high = outline.box()
+    why = f"the numbers in {name} are in {outline.unit}, as its heading says: " if outline.unit else ""
+    return f"{why}the outline is {x_high - x_low:.4g} x {y_high - y_low:.4g} m (--size makes its longer side another length)"
 
 
 def is_block(outline):
@@ -103,7 +149,7 @@ def from_its_foot(outline):
     for k in range(len(points)):
         turned = points[k:] + points[:k]
         if turned[0][1] - low <= near and turned[-1][1] - low <= near:
-            return Outline(outline.path, tuple((x, low if y - low <= near else y) for x, y in turned), outline.radius)
+            return replace(outline, points=tuple((x, low if y - low <= near else y) for x, y in turned))
     raise UserMistake("--on-wall: the outline has no level edge at its lowest point on which it could stand")
 
 

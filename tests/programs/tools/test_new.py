@@ -105,6 +105,17 @@ class New(InFolder):
             for other in others.split(", "):
                 self.fsi("check", "bar.yaml", "--solid", f"body={other}", *more.split())
 
+    def test_an_outline_in_millimetres_and_one_with_a_title_are_told_and_written_for_the_programs(self):
+        points = "0, 0\n60, -12\n120, 0\n60, 9\n"
+        for first, words in (("x [mm], y [mm]", "the numbers in mine.csv are in mm, as its heading says: the outline is 0.12 x 0.021 m"),
+                             ("NACA 0012", "mine.csv: line 1, 'NACA 0012', is taken as a title\nthe outline is 120 x 21 m"), ("", "the outline is 120 x 21 m")):
+            (self.folder / "mine.csv").write_text(f"{first}\n{points}")
+            said = self.fsi("new", "own", "--outline", "mine.csv", "--material", "rubber", "--defaults", "--overwrite").stdout
+            self.assertTrue(said.startswith(words), said)
+            written = np.loadtxt(self.folder / self.shape("own")["file"], delimiter=",", skiprows=1)
+            self.assertAlmostEqual(np.ptp(written, axis=0).max(), 0.12 if "mm" in first else 120)
+        self.assertNotIn("the outline is", self.fsi("new", "own", "--outline", "mine.csv", "--size", "0.1", "--defaults", "--overwrite").stdout)
+
     def test_a_length_with_its_unit(self):
         self.assertIn("without its unit", self.fsi("new", "own", "--size", "8cm", "--defaults", code=2).stderr)
 

@@ -43,6 +43,33 @@ class Outlines(InScratch):
     def test_a_byte_order_mark_is_no_part_of_the_first_point(self):
         self.assertEqual(self.read("\ufeff0,0\n1,0\n.5,2\n").points[0], (0.0, 0.0))
 
+    def test_a_heading_with_a_unit_is_what_the_numbers_are_in(self):
+        points = "0,0\n120,0\n120,12\n"
+        for heading, unit, metres in (("x_mm,y_mm", "mm", 1e-3), ("x [mm]; y [mm]", "mm", 1e-3), ("X (cm), Y (cm)", "cm", 1e-2), ("x/m, y/m", "m", 1), ('"x_in","y_in"', "in", 0.0254),
+                                      ("x1 [ft] x2 [ft]", "ft", 0.3048), ("x,y", "", 1), ("X Y", "", 1), ("x_max,y_min", "", 1), ("inner x, y", "", 1)):
+            with self.subTest(heading):
+                found = self.read(f"# of a drawing\n{heading}\n{points}")
+                self.assertEqual((found.unit, found.title), (unit, ""))
+                self.assertAlmostEqual(outline.in_metres(found).size(), 120 * metres)
+                self.assertAlmostEqual(problem(outline=str(self.folder / "outline.csv"), straight=True).outline.size(), 120 * metres)
+                self.assertAlmostEqual(problem(outline=str(self.folder / "outline.csv"), straight=True, size=0.1).outline.size(), 0.1)
+        with self.assertRaisesRegex(UserMistake, "outline.csv:1: 'x_mm,y_cm' names several units, cm, mm; write both"):
+            self.read("x_mm,y_cm\n" + points)
+
+    def test_the_size_that_is_taken_is_said_with_where_it_comes_from(self):
+        words = "the outline is 0.12 x 0.012 m (--size makes its longer side another length)"
+        found = outline.in_metres(self.read("x_mm,y_mm\n0,0\n120,0\n120,12\n"))
+        self.assertEqual(outline.taken(found, "a.csv"), f"the numbers in a.csv are in mm, as its heading says: {words}")
+        self.assertEqual(outline.taken(self.read("0,0\n.12,0\n.12,.012\n"), "a.csv"), words)
+
+    def test_the_title_of_an_airfoil_is_skipped_and_told(self):
+        for title in ("NACA 0012", "E387", "S1223 (10% thick)", "20-32C AIRFOIL", "MH 45, 9.85", "Clark Y"):
+            found = self.read(f"\n{title}\n0,0\n1,0\n.5,2\n")
+            self.assertEqual((len(found.points), found.title), (3, f"line 2, '{title}', is taken as a title"))
+        for content in ("0,0\nNACA 0012\n1,0\n", "x,y\nNACA 0012\n0,0\n", "0,x\n1,0\n"):     # no first line, or no text
+            with self.assertRaisesRegex(UserMistake, "is no point"):
+                self.read(content)
+
     def test_mistakes_say_where(self):
         for content, said in (("0,0\n1,nan\n", "outline.csv:2: '1,nan' is no point"), ("0,0\n1,x\n", "outline.csv:2: '1,x' is no point"), ("O.5,0\n1,1\n", "outline.csv:1: 'O.5,0' is no point"),
                               ("nan,0\n1,1\n", "outline.csv:1: 'nan,0' is no point"), ('"x","y"\n1,1\n', "3 points"), ("0,0\n1,0,3\n", "outline.csv:2"), ("0,0\n1,1\n", "3 points")):
