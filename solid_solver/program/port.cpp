@@ -6,7 +6,9 @@
 #include <cmath>
 #include <utility>
 
+#include "common/case/report/remarks.hpp"
 #include "common/io/write_each.hpp"
+#include "common/program/grid_from_case.hpp"
 #include "solid_solver/kernels/state.hpp"
 
 namespace fsi::solid {
