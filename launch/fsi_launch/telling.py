@@ -39,9 +39,14 @@ def silence(out):
         os.close(nowhere)
 
 
+def is_watched():
+    """Does a person wait before a terminal? What is told only for the sake of waiting depends on how fast the machine is."""
+    return bool(sys.stderr and sys.stderr.isatty())
+
+
 def answer_of(command, meanwhile, first=3.0):
-    """What a program that works quietly answers: subprocess.CompletedProcess. `meanwhile` is told where it takes longer than `first`
-    seconds, and whenever that time has doubled."""
+    """What a program that works quietly answers: subprocess.CompletedProcess. To a person `meanwhile` is told where it takes longer than
+    `first` seconds, and whenever that time has doubled."""
     with subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE, **AS_NAMED) as program:
         try:
             told, pause = 0, first
@@ -52,7 +57,8 @@ def answer_of(command, meanwhile, first=3.0):
                 except subprocess.TimeoutExpired:
                     told += pause
                     pause = told
-                    tell(f"{meanwhile} ({told:.0f} s so far)")
+                    if is_watched():
+                        tell(f"{meanwhile} ({told:.0f} s so far)")
         except BaseException:
             program.kill()
             raise

@@ -19,6 +19,9 @@ class Answers(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.gate = Path(folder.name) / "gate"
         os.mkfifo(self.gate)
+        watched = mock.patch.object(telling, "is_watched", lambda: True)
+        watched.start()
+        self.addCleanup(watched.stop)
 
     def test_of_a_program_that_is_quick_come_alone(self):
         with mock.patch.object(telling, "tell") as told:
@@ -38,6 +41,12 @@ class Answers(unittest.TestCase):
         with mock.patch.object(telling, "tell", hear):
             answer = telling.answer_of(["sh", "-c", f"cat < {self.gate}; echo yes"], "waiting", 0.5)
         self.assertEqual((lines[:3], answer.stdout), ([f"waiting ({seconds} s so far)" for seconds in (0, 1, 2)], "yes\n"))
+
+    def test_of_a_slow_one_come_alone_where_nobody_waits(self):
+        """What a script reads does not depend on how fast the machine is."""
+        with mock.patch.object(telling, "is_watched", lambda: False), mock.patch.object(telling, "tell") as told:
+            answer = telling.answer_of(["sh", "-c", "sleep 0.2; echo yes"], "waiting", 0.01)
+        self.assertEqual((answer.stdout, told.call_count), ("yes\n", 0))
 
     def test_are_not_waited_for_by_one_who_is_interrupted(self):
         with mock.patch.object(telling, "tell", side_effect=KeyboardInterrupt), self.assertRaises(KeyboardInterrupt):
