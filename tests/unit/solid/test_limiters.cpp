@@ -46,8 +46,7 @@ TEST(LimitersOfASolid, LieBetweenNothingAndTheCentredSlope) {
     // reach those of the neighbours and no farther.
     const double ratio = (middle - lower) / (upper - middle);
     const bool smooth = ratio < 3 && ratio > 1.0 / 3;
-    if (smooth) EXPECT_EQ(of.mc, of.none);
-    if (!smooth) EXPECT_DOUBLE_EQ(of.mc, 2 * of.minmod);
+    EXPECT_DOUBLE_EQ(of.mc, smooth ? of.none : 2 * of.minmod);
     ++(smooth ? centred : cut);
   }
   EXPECT_GT(centred, 100);
