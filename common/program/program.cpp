@@ -275,7 +275,7 @@ void ProgressLines::show(std::uint64_t step, double t, double dt, const std::str
   last_ = now;
   std::string word = limit;
   std::ranges::replace(word, ' ', '_');
-  fmt::print("progress step={} t={:.9g} dt={:.6g} limit={} t_end={:.9g}\n", step, t, dt, word, t_end_);
+  fmt::print("progress step={} t={} dt={:.6g} limit={} t_end={}\n", step, t, dt, word, t_end_);
   std::fflush(stdout);
 }
 

@@ -98,7 +98,8 @@ class WorkClock {
   Stopwatch watch_;
 };
 
-/// Prints `progress step=.. t=.. dt=.. limit=.. t_end=..` lines for the launcher, at most ten a second.
+/// Prints `progress step=.. t=.. dt=.. limit=.. t_end=..` lines for the launcher, at most ten a second. Times have all digits: the
+/// launcher's summary of a run whose programs left no report has them from here.
 class ProgressLines {
  public:
   explicit ProgressLines(double t_end) : t_end_(t_end) {}
