@@ -11,8 +11,7 @@
 #include "solid_solver/kernels/sweep/sweep_rows.hpp"
 #include "solid_solver/neo_hookean_solver.hpp"
 
-namespace fsi::solid {
-namespace limiters {
+namespace fsi::solid::limiters {
 namespace {
 
 /// Half slopes of one triple.
@@ -97,5 +96,4 @@ TEST(LimitersOfASolid, ATurningBarGainsNoMoreWithMcThanWithout) {
 }
 
 }  // namespace
-}  // namespace limiters
-}  // namespace fsi::solid
+}  // namespace fsi::solid::limiters
