@@ -190,7 +190,7 @@ class Building(InScratch):
         for verb, code, said in (("check", 0, ""), ("run", 2, f"fsi: {self.folder}/build cannot be written by you, and lacks fsi_xdmf; "
                                                               "ask its owner to build, or clone it\n")):
             answer = subprocess.run([*nobody, self.folder / "launch" / "fsi", verb, "nothing"], env=self.environment() | {"MISSING": ""},
-                                    capture_output=True, text=True, check=False)
+                                    cwd=self.folder, capture_output=True, text=True, check=False)   # from where nobody may be too
             self.assertEqual((answer.returncode, answer.stderr), (code, said))
         self.assertFalse(self.calls.exists())
 
