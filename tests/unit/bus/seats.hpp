@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <future>
 #include <string>
 #include <utility>
@@ -72,17 +73,33 @@ struct End {
   std::string origin = {};
 };
 
+/// A program that runs in a thread.
+class InThread {
+ public:
+  explicit InThread(std::future<End> end) : end_(std::move(end)) {}
+
+  /// Waits as programs do, which wake up to look around: the others take the first thread of this process for it, and one
+  /// that sleeps for `peer_timeout` for one that hangs.
+  End get() {
+    while (end_.wait_for(std::chrono::milliseconds(100)) != std::future_status::ready) continue;
+    return end_.get();
+  }
+
+ private:
+  std::future<End> end_;
+};
+
 /// Runs a program's body in a thread; a Failure becomes its end.
 template <class Body>
-std::future<End> in_thread(Body body) {
-  return std::async(std::launch::async, [body = std::move(body)]() -> End {
+InThread in_thread(Body body) {
+  return InThread(std::async(std::launch::async, [body = std::move(body)]() -> End {
     try {
       body();
       return {};
     } catch (const Failure& failure) {
       return {failure.code(), failure.what(), failure.place(), failure.origin()};
     }
-  });
+  }));
 }
 
 /// True when `text` holds `part`.
