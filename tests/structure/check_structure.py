@@ -239,24 +239,26 @@ NAMES = {
 USED = {header: re.compile(rf"(?<![\w:])(?:{names})(?!\w)") for header, names in NAMES.items()}
 
 
-def closure(root, path, seen):
-    """Targets of all includes of a file and of the headers of this tree it includes."""
+def closure(path, includes, seen):
+    """Targets of all includes of a file and of the headers of this tree it includes. `includes`: of each file of the tree."""
     targets = set()
     if path not in seen:
         seen.add(path)
-        for _, quoted, target in includes_of(root, path):
+        for quoted, target in includes[path]:
             targets.add(target)
-            if quoted and (root / target).is_file():
-                targets |= closure(root, Path(target), seen)
+            if quoted and target in includes:
+                targets |= closure(target, includes, seen)
     return targets
 
 
 def check_headers(root):
-    for path in files(root, CXX):
-        targets = closure(root, path, set())
+    includes = {path.as_posix(): [entry[1:] for entry in includes_of(root, path)] for path in files(root, CXX)}
+    for path in includes:
+        targets = closure(path, includes, set())
         names = targets | {top(target) + "/" for target in targets}
-        missing = {header: pattern for header, pattern in USED.items() if header not in names}
-        for number, line in lines_of(root, path):
+        text = text_of(root, path)
+        missing = {header: pattern for header, pattern in USED.items() if header not in names and pattern.search(text)}
+        for number, line in enumerate(text.splitlines() if missing else (), start=1):
             code = line.split("//")[0]
             for header in [header for header, pattern in missing.items() if pattern.search(code)]:
                 del missing[header]

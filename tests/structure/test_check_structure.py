@@ -19,18 +19,17 @@ def offences(rule, root):
     return list(check_structure.RULES[rule](root))
 
 
-class Copy(unittest.TestCase):
-    """A copy of the source tree, and single changes to its files."""
+def setUpModule():
+    folder = tempfile.TemporaryDirectory()
+    unittest.addModuleCleanup(folder.cleanup)
+    Copy.root = Path(folder.name) / "tree"
+    for entry in ROOT.iterdir():
+        if entry.is_dir() and entry.name not in check_structure.SKIPPED:
+            shutil.copytree(entry, Copy.root / entry.name, ignore=shutil.ignore_patterns("__pycache__"))
 
-    @classmethod
-    def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(cls.folder.cleanup)
-        cls.root = Path(cls.folder.name) / "tree"
-        top_left_out = shutil.ignore_patterns("__pycache__")
-        for entry in ROOT.iterdir():
-            if entry.is_dir() and entry.name not in check_structure.SKIPPED:
-                shutil.copytree(entry, cls.root / entry.name, ignore=top_left_out)
+
+class Copy(unittest.TestCase):
+    """A copy of the source tree, and single changes to its files, which are taken back."""
 
     @contextlib.contextmanager
     def changed(self, where, change):

@@ -218,10 +218,13 @@ class Extending(unittest.TestCase):
         self.assertEqual(cmake.returncode, 0, cmake.stderr)
         return {entry["file"]: entry for entry in json.loads((build / "compile_commands.json").read_text(encoding="utf-8"))}
 
-    def understood(self, entry, file=None):
-        """Lets the compiler read a file, this one's or another with the same options."""
+    def understood(self, commands, *files):
+        """Lets the compiler read these files of one library as one, with the options of the first."""
+        together = self.root / "build" / "together.cpp"
+        together.write_text("".join(f'#include "{self.root / file}"\n' for file in files), encoding="utf-8")
+        entry = commands[str(self.root / files[0])]
         words = shlex.split(entry["command"])
-        words = [str(file) if file and word == entry["file"] else word for word in words[:words.index("-o")]
+        words = [str(together) if word == entry["file"] else word for word in words[:words.index("-o")]
                  + words[words.index("-o") + 2:]] + ["-fsyntax-only"]
         answer = subprocess.run(words, cwd=entry["directory"], capture_output=True, text=True, check=False)
         self.assertEqual(answer.returncode, 0, answer.stderr[-3000:])
@@ -239,17 +242,12 @@ class Extending(unittest.TestCase):
         self.add_kind("common/case", "shape", "drop", "Drop", "common/case/shapes/drop.hpp", SHAPE)
         commands = self.configured()
         self.assertTrue(any(file.endswith("/spongy_solver.cpp") for file in commands), "no program of the law is built")
-        known = self.root / "build" / "known.cpp"
-        known.write_text(KNOWN, encoding="utf-8")
-        component = commands[str(self.root / "fluid_solver/component.cpp")]
-        self.understood(component)
-        self.understood(component, known)
-        for file in ("fluid_solver/boundary/boundary_conditions.cpp", "fluid_solver/program/from_case.cpp",
-                     "common/case/schema/schema_fluid.cpp", "common/case/schema/schema_solid.cpp",
-                     "common/case/schema/schema_shape.cpp", "common/case/read/build_shape.cpp",
-                     "common/case/read/build_material.cpp"):
-            self.understood(commands[str(self.root / file)])
-        self.understood(commands[str(self.root / "reference/chain.cpp")])
+        (self.root / "build/known.cpp").write_text(KNOWN, encoding="utf-8")
+        self.understood(commands, "fluid_solver/component.cpp", "build/known.cpp", "fluid_solver/boundary/boundary_conditions.cpp",
+                        "fluid_solver/program/from_case.cpp")
+        self.understood(commands, *(f"common/case/{name}.cpp" for name in ("schema/schema_fluid", "schema/schema_solid", "schema/schema_shape",
+                                                                           "read/build_shape", "read/build_material")))
+        self.understood(commands, "reference/chain.cpp")
         laws = (self.root / "build/generated/common/case/schema/laws.hpp").read_text(encoding="utf-8")
         self.assertIn('"spongy"', laws, "no case can ask for the law")
 

@@ -24,22 +24,20 @@ class ManufacturedMotion {
     return {-w * a * std::cos(2 * x + p) * std::cos(2 * y + q_) * std::sin(w * t + 0.2),
             -w * a * std::cos(2 * x + q_) * std::sin(1.5 * y + q_) * std::sin(w * t + 0.9)};
   }
-  Tensor2 F(double x, double y, double t) const {
-    const double c1 = a * std::cos(w * t + 0.2), c2 = a * std::cos(w * t + 0.9);
-    return {1 - 2 * c1 * std::sin(2 * x + p) * std::cos(2 * y + q_),
-            -2 * c1 * std::cos(2 * x + p) * std::sin(2 * y + q_),
-            -2 * c2 * std::sin(2 * x + q_) * std::sin(1.5 * y + q_),
-            1 + 1.5 * c2 * std::cos(2 * x + q_) * std::cos(1.5 * y + q_)};
-  }
+  Tensor2 F(double x, double y, double t) const { return F(waves_at(x, y), amplitudes(t)); }
   SolidState state(double x, double y, double t) const {
     return {.u = u(x, y, t), .v = v(x, y, t), .P = law_.P(F(x, y, t))};
   }
   /// rho u_tt - dP_ji/dx_j, the divergence by fourth-order differences of the exact stress.
   Vec2 force(double x, double y, double t) const {
     constexpr double h = 2e-3;
-    const auto P = [&](double dx, double dy) { return law_.P(F(x + dx, y + dy, t)); };
-    const Tensor2 e = P(h, 0), o = P(-h, 0), ee = P(2 * h, 0), oo = P(-2 * h, 0);
-    const Tensor2 n = P(0, h), s = P(0, -h), nn = P(0, 2 * h), ss = P(0, -2 * h);
+    static const Waves one_x = steps(h, 0), two_x = steps(2 * h, 0), one_y = steps(0, h),
+                       two_y = steps(0, 2 * h);
+    const Waves here = waves_at(x, y);
+    const Vec2 c = amplitudes(t);
+    const auto P = [&](const Waves& waves) { return law_.P(F(waves, c)); };
+    const Tensor2 e = P(here + one_x), o = P(here - one_x), ee = P(here + two_x), oo = P(here - two_x);
+    const Tensor2 n = P(here + one_y), s = P(here - one_y), nn = P(here + two_y), ss = P(here - two_y);
     const auto d = [](double p1, double m1, double p2, double m2) {
       return (8 * (p1 - m1) - (p2 - m2)) / (12 * h);
     };
@@ -57,6 +55,33 @@ class ManufacturedMotion {
   static constexpr double a = 0.03, w = 3.0, p = 0.3;
 
  private:
+  /// Cosine and sine of an angle; of sums and differences of angles without any of a further one.
+  struct Wave {
+    double cos, sin;
+    explicit Wave(double angle) : cos(std::cos(angle)), sin(std::sin(angle)) {}
+    Wave(double c, double s) : cos(c), sin(s) {}
+    Wave operator+(const Wave& d) const { return {cos * d.cos - sin * d.sin, sin * d.cos + cos * d.sin}; }
+    Wave operator-(const Wave& d) const { return {cos * d.cos + sin * d.sin, sin * d.cos - cos * d.sin}; }
+  };
+  /// Of 2x + p, 2x + q, 2y + q and 1.5y + q.
+  struct Waves {
+    Wave x1, x2, y1, y2;
+    Waves operator+(const Waves& d) const { return {x1 + d.x1, x2 + d.x2, y1 + d.y1, y2 + d.y2}; }
+    Waves operator-(const Waves& d) const { return {x1 - d.x1, x2 - d.x2, y1 - d.y1, y2 - d.y2}; }
+  };
+  Waves waves_at(double x, double y) const {
+    return {Wave(2 * x + p), Wave(2 * x + q_), Wave(2 * y + q_), Wave(1.5 * y + q_)};
+  }
+  /// By how much these angles grow over a way.
+  static Waves steps(double dx, double dy) {
+    return {Wave(2 * dx), Wave(2 * dx), Wave(2 * dy), Wave(1.5 * dy)};
+  }
+  static Vec2 amplitudes(double t) { return {a * std::cos(w * t + 0.2), a * std::cos(w * t + 0.9)}; }
+  static Tensor2 F(const Waves& k, const Vec2& c) {
+    return {1 - 2 * c[0] * k.x1.sin * k.y1.cos, -2 * c[0] * k.x1.cos * k.y1.sin,
+            -2 * c[1] * k.x2.sin * k.y2.sin, 1 + 1.5 * c[1] * k.x2.cos * k.y2.cos};
+  }
+
   L law_;
   double rho_, q_;
 };

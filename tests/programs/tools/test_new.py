@@ -107,13 +107,14 @@ class New(InFolder):
 
     def test_an_outline_in_millimetres_and_one_with_a_title_are_told_and_written_for_the_programs(self):
         points = "0, 0\n60, -12\n120, 0\n60, 9\n"
-        for first, words in (("x [mm], y [mm]", "the numbers in mine.csv are in mm, as its heading says: the outline is 0.12 x 0.021 m"),
+        in_mm = "the numbers in mine.csv are in mm, as its heading says: the outline is 0.12 x 0.021 m"
+        for first, words in (("x [mm], y [mm]", in_mm), ("# x (mm), y (mm)", in_mm), ("# x, y in mm", in_mm), ("# mine, in mm", "the outline is 120 x 21 m"),
                              ("NACA 0012", "mine.csv: line 1, 'NACA 0012', is taken as a title\nthe outline is 120 x 21 m"), ("", "the outline is 120 x 21 m")):
             (self.folder / "mine.csv").write_text(f"{first}\n{points}")
             said = self.fsi("new", "own", "--outline", "mine.csv", "--material", "rubber", "--defaults", "--overwrite").stdout
             self.assertTrue(said.startswith(words), said)
             written = np.loadtxt(self.folder / self.shape("own")["file"], delimiter=",", skiprows=1)
-            self.assertAlmostEqual(np.ptp(written, axis=0).max(), 0.12 if "mm" in first else 120)
+            self.assertAlmostEqual(np.ptp(written, axis=0).max(), 0.12 if words == in_mm else 120)
         self.assertNotIn("the outline is", self.fsi("new", "own", "--outline", "mine.csv", "--size", "0.1", "--defaults", "--overwrite").stdout)
 
     def test_a_length_with_its_unit(self):
@@ -131,6 +132,12 @@ class New(InFolder):
 
         before, behind = fluxes(numbers["rho_0"], 0, numbers["p_0"]), fluxes(*(numbers[name] for name in ("rho_1", "v_1", "p_1")))
         np.testing.assert_allclose(behind, before, rtol=1e-12)
+
+    def test_a_case_that_is_refused_stays_and_it_is_told(self):
+        (self.folder / "leaf.csv").write_text("0, 0\n25, -0.3\n50, -0.4\n75, -0.3\n100, 0\n75, 0.3\n50, 0.4\n25, 0.3\n")
+        said = self.fsi("new", "leaf", "--outline", "leaf.csv", "--size", "1", "--defaults", code=2).stderr
+        self.assertRegex(said, r"^fsi: leaf\.yaml:\d+:\d+: .*\nleaf\.yaml stays: .* --overwrite\n$")
+        self.assertTrue((self.folder / "leaf.yaml").exists())
 
     def test_nothing_is_overwritten_unasked(self):
         self.fsi("new", "own")

@@ -114,8 +114,7 @@ TEST(ChosenGrids, ABendThatTakesTooManyPointsIsNamedWithItsPlace) {
   EXPECT_NE(message.find("solids.body_0.shape: grids inside this outline would take"), std::string::npos)
       << message;
   EXPECT_NE(message.find("law: rigid"), std::string::npos) << message;
-  EXPECT_EQ(mistake_in(bodies_case({"{kind: ellipse, semi_axes: [1.5, 0.01]}"}), {}, {}).find('\n'),
-            std::string::npos);
+  EXPECT_EQ(message.find('\n'), std::string::npos) << message;
 }
 
 /// Its outline takes 3727 points and a hundred lines, and none of fifty choices before connects: the watchdog of
