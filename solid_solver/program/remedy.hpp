@@ -45,9 +45,8 @@ inline std::string remedy_for(const std::string& solid, const SolidScheme& schem
                               bool softens, double squeezed = 1, double pressed = 0) {
   if (pressed > crushing)
     return fmt::format(
-        "a stiffer solids.{} or a weaker load: the pressure of the gas differs from p_e by up to {:.3g} "
-        "times "
-        "its lambda + 2 mu",
+        "a stiffer solids.{} or a weaker load: the pressure of the gas differs from p_e by up to "
+        "{:.3g} times its lambda + 2 mu",
         solid, pressed);
   if (squeezed < 1)
     return fmt::format(

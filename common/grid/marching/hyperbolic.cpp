@@ -126,7 +126,9 @@ std::string HyperbolicMarch::flat_on_wall(ConstFieldView x, double t) const {
         "the run end before",
         there[0], there[1]);
   }
-  return t > 0 ? ": its curve bends too sharply there; a larger grid.factor holds sharper bends" : "";
+  return t > 0 ? ": its curve bends too sharply there; a larger grid.factor holds sharper bends, a stiffer "
+                 "body bends less"
+               : "";
 }
 
 /// Steps in which the line after this one is reached, a distance d away; the first march decides. Where lines are farther

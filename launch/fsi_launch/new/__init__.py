@@ -124,6 +124,9 @@ def main(options):
         print(f"the points of {options.outline} turn by more than {angle} degrees: if these are corners, add --straight for edges between the points")
     if words := _rounded(problem, path):
         print(words)
-    print(cases.check(str(path), [], []))
+    try:
+        print(cases.check(str(path), [], []))
+    except UserMistake as mistake:
+        raise UserMistake(f"{mistake}\n{path} stays: change it there, or write it anew with other options and --overwrite") from None
     print(f"next: {paths.COMMAND} check {path} --plot, {paths.COMMAND} run {path}")
     return DONE

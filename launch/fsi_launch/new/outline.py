@@ -13,7 +13,7 @@ SHARP = 100             # [degree] turns beyond those of a square are meant as c
 CLEAR = 45              # [degree] so are these, where the points on one side of them turn by less than BESIDE of it: a blunt tail
 BESIDE = 0.1
 UNITS = {"mm": 1e-3, "cm": 1e-2, "m": 1.0, "in": 0.0254, "ft": 0.3048}      # [m], that a heading may name
-WITH_UNIT = r"[^\W_]\s*[_/(\[]\s*(mm|cm|m|in|ft)\s*[)\]]?(?!\w)"      # x_mm, x [mm], x (mm), x/mm
+WITH_UNIT = r"[^\W_]\s*(?:[_/(\[]|\bin\b)\s*(mm|cm|m|in|ft)\s*[)\]]?(?!\w)"      # x_mm, x [mm], x (mm), x/mm, x in mm
 
 
 @dataclass(frozen=True)
@@ -65,6 +65,12 @@ def _is_title(text):
     return not _is_number(words[0]) and any(re.fullmatch(r"[^\W\d_]\w*", word) and not _is_number(word) for word in words)
 
 
+def _is_heading(comment):
+    """Does a comment name the columns x and y?"""
+    words = re.split(r"[^a-z]+", comment.lower())
+    return "x" in words and "y" in words and _names_columns(comment)
+
+
 def _unit(heading, place):
     """The unit that the names of columns have, or "". Throws UserMistake where they have several."""
     found = sorted(set(re.findall(WITH_UNIT, heading.lower().replace('"', "").replace("'", ""))))
@@ -84,8 +90,8 @@ def _point(text, place):
 
 
 def read(path, straight=False):
-    """The Outline in a file with x, y on each line; comments begin with #, and the first line may name the columns or be a title.
-    `straight`: with edges between the points. Throws UserMistake with file:line."""
+    """The Outline in a file with x, y on each line; comments begin with #. The first line may be a title; it, or a comment before
+    the points, may name the columns. `straight`: with edges between the points. Throws UserMistake with file:line."""
     path = Path(path)
     try:
         lines = path.read_text(encoding="utf-8-sig").splitlines()    # some editors begin a text with a byte-order mark
@@ -93,13 +99,16 @@ def read(path, straight=False):
         raise UserMistake(f"--outline {path}: cannot be read ({getattr(error, 'strerror', None) or 'it is no UTF-8 text'})") from None
     points, unit, title, first = [], "", "", True
     for number, line in enumerate(lines, 1):
-        text = line.split("#")[0].strip()
+        text, _, comment = (part.strip() for part in line.partition("#"))
         if not text:
+            if not points and _is_heading(comment):
+                unit = unit or _unit(comment, f"{path}:{number}")
             continue
         is_first, first = first, False
-        if named := not points and _names_columns(text):
-            unit = unit or _unit(text, f"{path}:{number}")
-        if is_first and not unit and _is_title(text):
+        named = not points and _names_columns(text)
+        here = _unit(text, f"{path}:{number}") if named else ""
+        unit = unit or here
+        if is_first and not here and _is_title(text):
             title = f"line {number}, '{text[:60]}', is taken as a title"
         elif not named:
             points.append(_point(text, f"{path}:{number}"))
