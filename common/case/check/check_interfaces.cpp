@@ -66,6 +66,10 @@ void check_background(const FluidSpec& fluid, const Node& root) {
     const BoundarySpec& spec = fluid.boundary[static_cast<std::size_t>(side)];
     if (spec.kind != BoundaryKind::interface) continue;
     const bool upright = side == Side::left || side == Side::right;
+    if (grids_at(fluid, spec.solid) > 0)
+      fail(side_of(root, fluid, side).place, fmt::format("{}.boundary.{}", fluid.path, name_of(side)),
+           fmt::format("{} meets the gas by its grid in `body_fitted`; write slip_wall or outflow here",
+                       in_ticks(spec.solid)));
     fail(
         side_of(root, fluid, side).place, fmt::format("{}.boundary.{}", fluid.path, name_of(side)),
         fmt::format("moves with {} and the whole grid with it, but the background of the grids in "

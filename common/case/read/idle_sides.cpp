@@ -35,8 +35,9 @@ void refuse_idle_sides(const config::Node& node, const std::string& path, const 
          stands_on
              ? fmt::format("the body stands on this side; write {}`{}: slip_wall`",
                            solid.law == rigid_law ? "" : fmt::format("`{}: clamped` or ", name), name)
-             : "is no side of the body, whose outline is `shape`, and would have no effect; write free, "
-               "and what holds on the outline as `body_fitted: {boundary: ..}`");
+             : "is no side of the body, whose outline is `shape`, and would have no effect; write free; what "
+               "holds on the outline of a body without a gas is `body_fitted: {boundary: ..}`, and a rigid "
+               "body may be held by `motion: fixed`");
   }
 }
 

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "common/case/grids/composite_from_case.hpp"
+#include "common/case/grids/curve_side.hpp"
 #include "common/case/grids/grid_points.hpp"
 #include "common/case/schema/laws.hpp"
 #include "common/core/failure.hpp"
@@ -159,15 +160,20 @@ StepCost step_of(const std::string& program, const Owner& owner, double speed) {
   return cost;
 }
 
-/// The largest |v| + a of a state on a grid.
-double fastest(const GasExpressions& state, const GridSpec& grid, double gamma) {
+/// The largest finite |v| + a of a state where there is gas on its grid.
+double fastest(const GasExpressions& state, const FluidSpec& fluid) {
   constexpr int samples = 64;
   double most = 0;
   for (int j = 0; j <= samples; ++j) {
     for (int i = 0; i <= samples; ++i) {
-      const Vec2 x = place(grid, static_cast<double>(i) / samples, static_cast<double>(j) / samples, 0);
+      const Vec2 x = place(fluid.grid, static_cast<double>(i) / samples, static_cast<double>(j) / samples, 0);
+      if (std::ranges::any_of(fluid.body_fitted, [&](const BodyFittedSpec& fitted) {
+            return lies_behind(fitted, fluid.grid, x);
+          }))
+        continue;
       const double v = std::hypot(state.v1(x[0], x[1], 0), state.v2(x[0], x[1], 0));
-      most = std::max(most, v + std::sqrt(gamma * state.p(x[0], x[1], 0) / state.rho(x[0], x[1], 0)));
+      const double speed = v + std::sqrt(fluid.gamma * state.p(x[0], x[1], 0) / state.rho(x[0], x[1], 0));
+      if (std::isfinite(speed)) most = std::max(most, speed);
     }
   }
   return most;
@@ -175,9 +181,9 @@ double fastest(const GasExpressions& state, const GridSpec& grid, double gamma) 
 
 /// 0: the states come from a reference solution.
 double wave_speed_of(const FluidSpec& fluid) {
-  double most = fluid.initial ? fastest(*fluid.initial, fluid.grid, fluid.gamma) : 0;
+  double most = fluid.initial ? fastest(*fluid.initial, fluid) : 0;
   for (const BoundarySpec& side : fluid.boundary) {
-    if (side.state) most = std::max(most, fastest(*side.state, fluid.grid, fluid.gamma));
+    if (side.state) most = std::max(most, fastest(*side.state, fluid));
   }
   return most;
 }

@@ -180,6 +180,19 @@ const std::vector<std::string>& reserved_names() {
   return names;
 }
 
+namespace {
+
+/// What other languages have, and how it is written here.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 4> written_otherwise{
+    {{"and", "`&&`"}, {"or", "`||`"}, {"pow", "`x^2` for pow(x, 2)"}, {"if", "`condition ? one : other`"}}};
+
+bool is_function(const std::string& name) {
+  const mu::Parser parser = extended_parser();
+  return parser.GetFunDef().contains(name);
+}
+
+}  // namespace
+
 struct Expression::Implementation {
   using Variables = std::array<double, variable_names.size()>;
   using Dependence = std::bitset<variable_names.size()>;  // on which variables, through definitions too
@@ -305,17 +318,20 @@ struct Expression::Implementation {
       const std::string name =
           token.substr(0, static_cast<std::size_t>(
                               std::find_if_not(token.begin(), token.end(), continues_name) - token.begin()));
+      const std::string place_of_name =
+          fmt::format("`{}` at position {} of {}", name, error.GetPos() + 1, in_ticks(formula));
+      for (const auto& [other, here] : written_otherwise)
+        if (other == name) return fmt::format("unknown name {}; write {}", place_of_name, here);
+      if (is_function(name)) return fmt::format("{} is a function: write `{}(..)`", place_of_name, name);
       if (const std::optional<double> number = number_before(formula, error.GetPos()))
         return fmt::format(
-            "unknown name `{}` at position {} of {}; numbers have no units here: {}", name,
-            error.GetPos() + 1, in_ticks(formula),
+            "unknown name {}; numbers have no units here: {}", place_of_name,
             without_unit(*number, name,
                          formula.substr(static_cast<std::size_t>(error.GetPos()) + name.size())));
       std::vector<std::string> known = reserved_names();
       for (const auto& entry : constants) known.push_back(entry.first);
       for (const auto& entry : definitions) known.push_back(entry.first);
-      return fmt::format("unknown name `{}` at position {} of {}{}", name, error.GetPos() + 1,
-                         in_ticks(formula), did_you_mean(name, known));
+      return fmt::format("unknown name {}{}", place_of_name, did_you_mean(name, known));
     }
     const bool at_end = error.GetPos() < 0 || static_cast<std::size_t>(error.GetPos()) >= formula.size();
     const std::string place = at_end ? "" : fmt::format(" at position {}", error.GetPos() + 1);

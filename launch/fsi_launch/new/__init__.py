@@ -37,7 +37,8 @@ def _outline(options):
         return outline.Outline(radius=0.5 * (options.size or SIZE))
     found = outline.read(options.outline, options.straight)
     found = outline.scaled(found, options.size) if options.size else outline.in_metres(found)
-    found = replace(found, path=None) if found.title else found     # the programs read no titles: they get the points
+    if found.title or found.headings > 1:
+        found = replace(found, path=None)       # the programs read no titles: they get the points
     return outline.from_its_foot(found) if options.on_wall and options.straight else found
 
 
@@ -86,6 +87,7 @@ def _settled(problem, path):
         return replace(problem, sharp=False)
 
 
+WIDE = 50               # [degree] so far few points of a smooth curve turn
 WORTH_TELLING = 0.03    # part of a body's extent
 
 
@@ -122,6 +124,9 @@ def main(options):
     angle = None if problem.straight or not problem.outline.points else outline.corners(problem.outline)[0]
     if angle is not None and not text.keeps_corners(problem):
         print(f"the points of {options.outline} turn by more than {angle} degrees: if these are corners, add --straight for edges between the points")
+    elif problem.outline.points and not problem.straight and angle is None and (most := outline.largest_turn(problem.outline)) > WIDE:
+        print(f"a smooth curve goes through the points of {options.outline}, which turn by up to {most:.0f} degrees: if they are corners, add "
+              "--straight for edges between them")
     if words := _rounded(problem, path):
         print(words)
     try:

@@ -12,8 +12,12 @@ FEWEST_CORNERS = 3      # of straight edges
 SHARP = 100             # [degree] turns beyond those of a square are meant as corners
 CLEAR = 45              # [degree] so are these, where the points on one side of them turn by less than BESIDE of it: a blunt tail
 BESIDE = 0.1
-UNITS = {"mm": 1e-3, "cm": 1e-2, "m": 1.0, "in": 0.0254, "ft": 0.3048}      # [m], that a heading may name
-WITH_UNIT = r"[^\W_]\s*(?:[_/(\[]|\bin\b)\s*(mm|cm|m|in|ft)\s*[)\]]?(?!\w)"      # x_mm, x [mm], x (mm), x/mm, x in mm
+# Units [m] that a heading may name.
+UNITS = {"um": 1e-6, "mm": 1e-3, "cm": 1e-2, "m": 1.0, "km": 1e3, "in": 0.0254, "ft": 0.3048}
+SPELLINGS = {"µm": "um", "μm": "um", "inch": "in", "inches": "in", "feet": "ft", "foot": "ft",
+             **{f"{prefix}met{ending}": unit for prefix, unit in (("micro", "um"), ("milli", "mm"), ("centi", "cm"), ("", "m"), ("kilo", "km"))
+                for ending in ("re", "res", "er", "ers")}}
+OF_COLUMN = r"\b[xy]\s*(?:[_/(\[]|\bin\b)\s*(?:in\s+)?([a-zµμ]+)"      # x_mm, x [mm], x (in mm), x/mm, x in mm
 
 
 @dataclass(frozen=True)
@@ -25,6 +29,7 @@ class Outline:
     radius: float = 0.0
     unit: str = ""      # that the heading of its file names
     title: str = ""     # of its file: what is said about it
+    headings: int = 0   # lines before its points that are no comments
 
     def box(self):
         """(x low, x high, y low, y high)"""
@@ -65,18 +70,33 @@ def _is_title(text):
     return not _is_number(words[0]) and any(re.fullmatch(r"[^\W\d_]\w*", word) and not _is_number(word) for word in words)
 
 
-def _is_heading(comment):
-    """Does a comment name the columns x and y?"""
-    words = re.split(r"[^a-z]+", comment.lower())
-    return "x" in words and "y" in words and _names_columns(comment)
+def _words(text):
+    return re.findall(r"[a-zµμ]+", text.lower())
+
+
+def _speaks_of_columns(comment):
+    """Does a comment name the columns x and y, or the unit?"""
+    words = set(_words(comment))
+    return _names_columns(comment) and ({"x", "y"} <= words or bool({"unit", "units"} & words))
 
 
 def _unit(heading, place):
-    """The unit that the names of columns have, or "". Throws UserMistake where they have several."""
-    found = sorted(set(re.findall(WITH_UNIT, heading.lower().replace('"', "").replace("'", ""))))
+    """The unit that the names of columns have, or else one that stands among them, or "". Throws UserMistake where there are several."""
+    def known(words):
+        return sorted({SPELLINGS.get(word, word) for word in words} & UNITS.keys())
+    plain = heading.lower().replace('"', "").replace("'", "")
+    free = [word for word in _words(heading) if word != "in"]    # that one may be no unit
+    found = known(re.findall(OF_COLUMN, plain)) or known(free) or known(re.findall(r"\b[xy]\s+(in)\s*(?:[,;]|$)", plain))
     if len(found) > 1:
         raise UserMistake(f"{place}: '{heading[:30]}' names several units, {', '.join(found)}; write both columns in one")
     return found[0] if found else ""
+
+
+def _check_order(heading, place):
+    """Throws UserMistake where y is named before x."""
+    names = [word for word in _words(heading) if word in ("x", "y")]
+    if names[:2] == ["y", "x"]:
+        raise UserMistake(f"{place}: '{heading[:30]}' has y before x; write x first")
 
 
 def _point(text, place):
@@ -97,28 +117,34 @@ def read(path, straight=False):
         lines = path.read_text(encoding="utf-8-sig").splitlines()    # some editors begin a text with a byte-order mark
     except (OSError, UnicodeDecodeError) as error:
         raise UserMistake(f"--outline {path}: cannot be read ({getattr(error, 'strerror', None) or 'it is no UTF-8 text'})") from None
-    points, unit, title, first = [], "", "", True
+    points, unit, title, headings, first = [], "", "", 0, True
     for number, line in enumerate(lines, 1):
         text, _, comment = (part.strip() for part in line.partition("#"))
         if not text:
-            if not points and _is_heading(comment):
+            if not points and _speaks_of_columns(comment):
                 unit = unit or _unit(comment, f"{path}:{number}")
             continue
         is_first, first = first, False
         named = not points and _names_columns(text)
         here = _unit(text, f"{path}:{number}") if named else ""
         unit = unit or here
-        if is_first and not here and _is_title(text):
+        if is_first and _is_title(text) and not {"x", "y"} <= set(_words(text)):
             title = f"line {number}, '{text[:60]}', is taken as a title"
-        elif not named:
+        elif named:
+            _check_order(text, f"{path}:{number}")
+        else:
             points.append(_point(text, f"{path}:{number}"))
+            continue
+        headings += 1
     if len(points) > 1 and points[0] == points[-1]:
         points.pop()
     fewest = FEWEST_CORNERS if straight else FEWEST
     if len(points) < fewest:
         raise UserMistake(f"{path}: an outline needs {fewest} points or more, x, y on each line; there are {len(points)}"
                           + ("" if straight else f" (--straight: {FEWEST_CORNERS} or more, as corners)"))
-    outline = Outline(path, tuple(points), unit=unit, title=title)
+    outline = Outline(path, tuple(points), unit=unit, title=title, headings=headings)
+    if straight:
+        outline = _without_points_within_edges(outline)
     if outline.size() <= 0:
         raise UserMistake(f"{path}: all points are the same")
     return outline
@@ -179,6 +205,11 @@ def turns(outline):
     return [abs(turn) for turn in _signed_turns(outline)]
 
 
+def largest_turn(outline):
+    """[degree]"""
+    return math.degrees(max(turns(outline)))
+
+
 def _is_corner(before, turn, after):
     """Is a point meant as a corner, from how far the lines turn there and at its neighbours?"""
     return turn > math.radians(SHARP) or turn > math.radians(CLEAR) and min(before, after) < BESIDE * turn
@@ -197,6 +228,12 @@ def corners(outline):
     around = math.copysign(1.0, sum(signed))
     taken = [turn * around for turn in signed if abs(turn) > math.radians(angle)]
     return (angle, any(turn < 0 for turn in taken)) if taken else (None, False)
+
+
+def _without_points_within_edges(outline):
+    """The corners alone; an outline of fewer than three stays."""
+    kept = tuple(point for turn, point in zip(turns(outline), outline.points) if turn > 1e-6)
+    return replace(outline, points=kept) if len(kept) >= FEWEST_CORNERS else outline
 
 
 def shortest_edge(outline):

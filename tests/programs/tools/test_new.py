@@ -16,6 +16,7 @@ import yaml
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from running import BIN, FSI, ROOT, WATCHDOG, EndToEnd  # noqa: E402
+from fsi_launch.new import outline  # noqa: E402
 from fsi_launch.plot.one_run import grids  # noqa: E402
 from fsi_launch.plot.reading import data  # noqa: E402
 
@@ -116,6 +117,30 @@ class New(InFolder):
             written = np.loadtxt(self.folder / self.shape("own")["file"], delimiter=",", skiprows=1)
             self.assertAlmostEqual(np.ptp(written, axis=0).max(), 0.12 if words == in_mm else 120)
         self.assertNotIn("the outline is", self.fsi("new", "own", "--outline", "mine.csv", "--size", "0.1", "--defaults", "--overwrite").stdout)
+
+    def test_units_of_headings(self):
+        points = "0, 0\n60, -12\n120, 0\n60, 9\n"
+        units = {"x,y (in mm)": "mm", "# x_mm, y_mm": "mm", "# unit: mm": "mm", "x mm,y mm": "mm", "x in mm,y in mm": "mm", "x_um,y_um": "um",
+                 "x_inch,y_inch": "in", "x in, y in": "in", "x (millimetres),y (millimetres)": "mm", "x,y\nmm,mm": "mm", "my part in mm": "mm",
+                 "x,y": "", "x (m), y (m) of part_mm": "m", "# drawn in 3 mm steps": ""}
+        for heading, unit in units.items():
+            (self.folder / "mine.csv").write_text(f"{heading}\n{points}")
+            self.assertEqual(outline.read(self.folder / "mine.csv").unit, unit, heading)
+        for heading, words in (("y_mm,x_mm", "y before x"), ("x_mm,y_cm", "several units, cm, mm")):
+            (self.folder / "mine.csv").write_text(f"{heading}\n{points}")
+            self.assertIn(words, self.fsi("new", "own", "--outline", "mine.csv", "--defaults", code=2).stderr)
+        (self.folder / "mine.csv").write_text(f"x,y\nm,m\n{points}")     # two headings, of which the programs skip one
+        self.fsi("new", "own", "--outline", "mine.csv", "--defaults", "--material", "rubber")
+
+    def test_points_within_straight_edges_are_no_corners(self):
+        (self.folder / "mid.csv").write_text("x_mm,y_mm\n-10,0\n0,0\n10,0\n10,80\n-10,80\n")
+        self.fsi("new", "post", "--outline", "mid.csv", "--straight", "--on-wall", "--material", "rubber", "--defaults")
+        self.assertEqual(sorted(self.shape("post")["corners"]), [[-0.01, 0], [-0.01, 0.08], [0.01, 0], [0.01, 0.08]])
+
+    def test_few_points_of_a_smooth_curve_are_told(self):
+        (self.folder / "square.csv").write_text("0,0\n1,0\n1,1\n0,1\n")
+        said = self.fsi("new", "square", "--outline", "square.csv", "--size", "0.1", "--defaults").stdout
+        self.assertIn("a smooth curve goes through the points of square.csv, which turn by up to 90 degrees", said)
 
     def test_a_length_with_its_unit(self):
         self.assertIn("without its unit", self.fsi("new", "own", "--size", "8cm", "--defaults", code=2).stderr)

@@ -69,6 +69,36 @@ void check_values(const GivenSide& side, const Vec2& x, double t) {
   }
 }
 
+/// Do the displacement and the velocity that a side is given belong together anywhere, where it moves? Formulas may have
+/// bends at which differences are not their rate.
+void check_rate(const Case& problem, const GivenSide& side, const std::vector<SidePoint>& points) {
+  if (!side.spec.vector || !side.spec.velocity) return;
+  constexpr double tolerance = 0.2, short_time = 1e-6;
+  const GivenVector u = given_by(*side.spec.vector), v = given_by(*side.spec.velocity);
+  const double dt = short_time * problem.time.end;
+  std::string apart;
+  Vec2 where;
+  double when = 0;
+  for (int k = 1; k + 1 < looked_at_times; ++k) {
+    const double t = looked_at_time(problem, k);
+    for (const SidePoint& point : points) {
+      const Vec2 rate = (u(point.x, t + dt) - u(point.x, t - dt)) / (2 * dt), given = v(point.x, t);
+      const double speed = std::max(rate.norm(), given.norm());
+      if (speed == 0) continue;
+      if ((rate - given).norm() <= tolerance * speed) return;
+      if (!apart.empty()) continue;
+      apart = fmt::format("({:.3g}, {:.3g}), but `value` moves there with ({:.3g}, {:.3g})", given[0],
+                          given[1], rate[0], rate[1]);
+      where = point.x;
+      when = t;
+    }
+  }
+  if (apart.empty()) return;
+  fail(side.node_of("velocity").place, side.path_of("velocity"),
+       fmt::format("is {} (at ({:.4g}, {:.4g}), t = {:.4g}); leave it out, and it is the rate of `value`",
+                   apart, where[0], where[1], when));
+}
+
 /// What is wrong with the first cell where a side begins with another displacement than the body, or "".
 std::string wrong_in_first_cell(const SolidSpec& solid, const SidePoint& point, const Vec2& of_side,
                                 const GivenVector& u) {
@@ -138,6 +168,7 @@ void check_solid_side(const Case& problem, const SolidSpec& solid, const GivenSi
   const GivenVector u = initial_displacement(problem, solid);
   for (int k = 0; k < looked_at_times; ++k)
     for (const SidePoint& point : points) check_values(side, point.x, looked_at_time(problem, k));
+  check_rate(problem, side, points);
   for (const SidePoint& point : points) {
     check_jump(solid, side, point, u);
     check_jump_to_wall(solid, side, point, u);

@@ -99,13 +99,14 @@ std::vector<OtherChoice> rounded_polygons(const Node& root, const std::vector<st
                                           double h) {
   std::vector<OtherChoice> choices;
   for (const char* given : {"radius", "sharpness"}) {
-    OtherChoice usual{.words =
-                          fmt::format("leave out `{}` of `shape`, whose corners are then rounded", given)};
+    OtherChoice usual{.words = fmt::format("leave out `{}` of {}, whose corners are then rounded", given,
+                                           fmt::join(shapes, " and "))};
     for (const std::string& key : shapes) usual.left_out.push_back(fmt::format("{}.{}", key, given));
     choices.push_back(std::move(usual));
   }
   for (const double radius : {2 * h, h, 0.5 * h}) {
-    OtherChoice choice{.words = fmt::format("round the corners of `shape` with `radius: {:.3g}`", radius)};
+    OtherChoice choice{.words = fmt::format("round the corners of {} with `radius: {:.3g}`",
+                                            fmt::join(shapes, " and "), radius)};
     for (const std::string& key : shapes) {
       const Node* shape = value_under(root, words_in_key(key));
       if (shape == nullptr || shape->find("corners") == nullptr) continue;
@@ -175,6 +176,8 @@ std::vector<OtherChoice> rigid_solids(const Node& root, const std::vector<std::s
     names.push_back(owner);
     choice.written.emplace_back(owner + ".law", "rigid");
     choice.written.emplace_back(owner + ".motion", "fixed");
+    if (value_under(root, words_in_key(owner + ".boundary")) != nullptr)
+      choice.left_out.push_back(owner + ".boundary");
     sharpen(value_under(root, words_in_key(key)), key, choice);
   }
   if (names.empty()) return {};
@@ -182,8 +185,8 @@ std::vector<OtherChoice> rigid_solids(const Node& root, const std::vector<std::s
   for (const auto& [key, value] : choice.written)
     if (key.ends_with(".radius") || key.ends_with(".corner_angle"))
       sharp = fmt::format(", with `{}: {}` in its shape", key.substr(key.rfind('.') + 1), value);
-  choice.words =
-      fmt::format("write `law: rigid` and `motion: fixed` for {}{}", fmt::join(names, " and "), sharp);
+  choice.words = fmt::format("write `law: rigid` and `motion: fixed` for {}{}{}", fmt::join(names, " and "),
+                             choice.left_out.empty() ? "" : ", leave out its `boundary`", sharp);
   return {choice};
 }
 
@@ -233,7 +236,9 @@ std::vector<OtherChoice> choices_for_gas(const Node& root, const std::string& ow
   std::ranges::copy(sharp_shapes(root, shapes), std::back_inserter(choices));
   if (changed(root, given))
     for (const OtherChoice& one : finer) choices.push_back(both(given, one));
-  std::ranges::copy(rigid_solids(root, shapes_of_solids(root, true)), std::back_inserter(choices));
+  const std::vector<std::string> bodies = shapes_of_solids(root, true);
+  std::ranges::copy(rounded_polygons(root, bodies, h), std::back_inserter(choices));
+  std::ranges::copy(rigid_solids(root, bodies), std::back_inserter(choices));
   return choices;
 }
 

@@ -91,6 +91,23 @@ TEST(GivenSide, ThatIsAWallLeavesTheFirstCellOfTheBodyWholeToo) {
   }
 }
 
+TEST(GivenSide, MovesAsFastAsItsVelocitySays) {
+  const auto moved = [](const char* value, const char* velocity) {
+    return Solid{
+        .right = fmt::format("{{kind: displacement, value: [{}, 0], velocity: [{}, 0]}}", value, velocity)}
+        .text();
+  };
+  EXPECT_EQ(mistake_in(moved("0.01 * sin(9 * t)", "0.09 * cos(9 * t)")), "");
+  EXPECT_EQ(mistake_in(moved("0", "0")), "");
+  EXPECT_EQ(mistake_in(moved("\"t < 1 ? 0.01 * t : 0.01\"", "\"t < 1 ? 0.01 : 0\"")), "");
+  expect_refused(moved("0.01 * t", "5"),
+                 "solids.s.boundary.right.velocity: is (5, 0), but `value` moves there with (0.01, 0) (at "
+                 "(0, 0), t = 0.125); "
+                 "leave it out, and it is the rate of `value`");
+  expect_refused(moved("0.01 * t", "-0.01"), "solids.s.boundary.right.velocity: is (-0.01, 0)");
+  expect_refused(moved("0", "0.1"), "moves there with (0, 0)");
+}
+
 TEST(GivenSide, IsFiniteForTheWholeRun) {
   expect_refused(Solid{.right = "{kind: traction, value: [1 / t, 0]}"}.text(),
                  "solids.s.boundary.right.value: is (inf, 0) at (0, 0), t = 0; must be finite");

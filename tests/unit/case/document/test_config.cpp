@@ -29,6 +29,14 @@ TEST(YamlReader, RefusesARepeatedKeyAndNamesBothPlaces) {
   EXPECT_EQ(mistake_of("s: {b: 1, c: 2, b: 3}\n"), "f:1:17: key `b` is there twice, first at 1:5; keep one");
 }
 
+TEST(YamlReader, TellsThatACommaInBracesEndsAFormula) {
+  EXPECT_EQ(mistake_of("gas: {rho: max(2, 1), p: 1}\n"),
+            "f:1:12: rho: in braces a comma ends a formula, here after max(2: put the whole of it in quotes");
+  EXPECT_NE(mistake_of("{p: f(x, (y))}\n").find("here after f(x: put"), std::string::npos);
+  for (const char* fine : {"{rho: \"max(2, 1)\"}\n", "{rho: (2), v}\n", "rho: max(2, 1)\n"})
+    EXPECT_EQ(mistake_of(fine), "") << fine;
+}
+
 TEST(YamlReader, TakesADecimalCommaInBracesForOne) {
   EXPECT_EQ(mistake_of("time: {end: 0,0004}\n"), "f:1:13: end: a decimal comma? Write a point, 0.0004");
   EXPECT_EQ(mistake_of("time: {dt: 1, end: 4,5e-4}\n"),

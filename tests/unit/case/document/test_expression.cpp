@@ -88,6 +88,14 @@ TEST(Expression, NamesWhatItDoesNotKnow) {
             "in definition `f`: unknown name `zz` at position 5 of `1 + zz`");
 }
 
+TEST(Expression, SaysHowWordsOfOtherLanguagesAreWrittenHere) {
+  EXPECT_EQ(mistake_of("x < 0 and y > 0", {}),
+            "unknown name `and` at position 7 of `x < 0 and y > 0`; write `&&`");
+  EXPECT_NE(mistake_of("x < y or y > 0", {}).find("; write `||`"), std::string::npos);
+  EXPECT_NE(mistake_of("pow(x, 2)", {}).find("; write `x^2` for pow(x, 2)"), std::string::npos);
+  EXPECT_EQ(mistake_of("1 + abs x", {}), "`abs` at position 5 of `1 + abs x` is a function: write `abs(..)`");
+}
+
 TEST(Expression, TakesAWordBehindANumberForAUnit) {
   EXPECT_EQ(
       mistake_of("1ms", {}),

@@ -205,7 +205,7 @@ TEST(Blocks, WhatHasNotFourStraightSidesIsRefusedWithARadiusThatHolds) {
   const std::string house = "corners: [[-0.5, -0.5], [0.5, -0.5], [0.5, 0.4], [0, 0.7], [-0.5, 0.4]]";
   const std::string message = mistake_in(block_case(house));
   for (const char* said : {"sharp corner at (0.5, -0.5)", "it has 5 corners; ",
-                           "leave out `radius` of `shape`", "(tried: valid)"})
+                           "leave out `radius` of solids.block.shape", "(tried: valid)"})
     EXPECT_NE(message.find(said), std::string::npos) << message << "\nexpected: " << said;
 }
 

@@ -60,6 +60,17 @@ TEST(CostOfARun, IsThatOfTheWavesThroughTheSmallestCell) {
   EXPECT_EQ(cost.programs[0].points, 121);
 }
 
+/// The stream around a cylinder, whose formulas are infinite in its middle.
+TEST(CostOfARun, IsOfTheGasWhereThereIsGas) {
+  std::string text = costly_case({disk_alone});
+  const std::string rest = "v: [0, 0]";
+  ASSERT_NE(text.find(rest), std::string::npos);
+  const double at_rest = cost_of(load_text(text)).programs[0].dt;
+  const auto with = [&](const char* v) { return std::string(text).replace(text.find(rest), rest.size(), v); };
+  EXPECT_EQ(cost_of(load_text(with("v: [\"r < 0.4 ? 1 / r : 0\", 0]"))).programs[0].dt, at_rest);
+  EXPECT_LT(cost_of(load_text(with("v: [\"r > 0.6 ? 1 / r : 0\", 0]"))).programs[0].dt, 0.8 * at_rest);
+}
+
 TEST(CostOfARun, CountsNoPointsWhereTheGasOrTheSolidIsNot) {
   const Case problem = load_text(costly_case({disk_alone}));
   const auto all = [](const auto& owner) {

@@ -117,6 +117,18 @@ TEST(ChosenGrids, ABendThatTakesTooManyPointsIsNamedWithItsPlace) {
   EXPECT_EQ(message.find('\n'), std::string::npos) << message;
 }
 
+TEST(ChosenGrids, ASideDoesNotMeetABodyThatHasItsGrid) {
+  std::string text = bodies_case({circle});
+  const std::string side = "left: outflow";
+  text.replace(text.find(side), side.size(), "left: {kind: interface, solid: body_0}");
+  EXPECT_NE(
+      mistake_in(text).find(
+          "fluid.boundary.left: `body_0` meets the gas by its grid in `body_fitted`; write slip_wall or "
+          "outflow here"),
+      std::string::npos)
+      << mistake_in(text);
+}
+
 /// Its outline takes 3727 points and a hundred lines, and none of fifty choices before connects: the watchdog of
 /// this program ends it where each of them is looked at to its last line.
 TEST(ChosenGrids, AVeryThinBodyIsDecidedSoon) {

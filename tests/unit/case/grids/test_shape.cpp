@@ -253,9 +253,9 @@ std::string with_side(const std::string& name, const std::string& side,
 
 TEST(CaseShape, LeavesSidesThatAreNoSideOfTheBodyFree) {
   const std::string idle =
-      "is no side of the body, whose outline is `shape`, and would have no effect; write free, and what "
-      "holds "
-      "on the outline as `body_fitted: {boundary: ..}`";
+      "is no side of the body, whose outline is `shape`, and would have no effect; write free; what "
+      "holds on the outline of a body without a gas is `body_fitted: {boundary: ..}`, and a rigid body may "
+      "be held";
   for (const char* side : {"bar.boundary.left=clamped", "bar.boundary.top=slip_wall",
                            "bar.boundary.right={kind: traction, value: [-5, 0]}"})
     EXPECT_NE(with_side("bar_on_wall", side).find(idle), std::string::npos) << with_side("bar_on_wall", side);

@@ -138,6 +138,23 @@ std::string number_after(const std::string& message, const std::string& words) {
   return message.substr(from, message.find('`', from) - from);
 }
 
+/// Corners that the gas's grid cannot follow are the body's.
+TEST(Walls, RoundCornersOfABodyAreAmongWhatIsTriedForTheGas) {
+  const std::string text =
+      "time: {end: 1}\ngrid: {factor: 4}\nfluid:\n  grid: {x: [-2, 2], y: [-0.5, 1]}\n"
+      "  boundary: {left: outflow, right: outflow, bottom: slip_wall, top: outflow}\n"
+      "  initial: {rho: 1, v: [0, 0], p: 1}\n"
+      "solids:\n  flap:\n    law: neo_hookean\n    rho: 1\n    E: 300\n    nu: 0.3\n"
+      "    shape: {kind: polygon, radius: 0, corners: [[-0.22, -0.5], [0.06, 0.18], [0.22, -0.5]], walls: "
+      "[bottom, bottom]}\n"
+      "    boundary: {left: free, right: free, bottom: clamped, top: free}\n";
+  const std::string message = mistake_in(text);
+  EXPECT_NE(
+      message.find("leave out `radius` of solids.flap.shape, whose corners are then rounded (tried: valid)"),
+      std::string::npos)
+      << message;
+}
+
 TEST(Walls, AnElasticBodyWithMoreThanFourSidesHasNoSharpCornersAndWhatIsToldWorks) {
   const auto box = [](const std::string& radius) {
     return "time: {end: 1}\ngrid: {factor: 2}\nsolids:\n  box:\n    law: neo_hookean\n    rho: 1\n    "
@@ -148,8 +165,9 @@ TEST(Walls, AnElasticBodyWithMoreThanFourSidesHasNoSharpCornersAndWhatIsToldWork
   };
   const std::string message = mistake_in(box(", radius: 0"));
   EXPECT_NE(message.find("sharp corner at (1, 0)"), std::string::npos) << message;
-  EXPECT_NE(message.find("leave out `radius` of `shape`, whose corners are then rounded (tried: valid)"),
-            std::string::npos)
+  EXPECT_NE(
+      message.find("leave out `radius` of solids.box.shape, whose corners are then rounded (tried: valid)"),
+      std::string::npos)
       << message;
   EXPECT_EQ(mistake_in(box("")), "");
 }
