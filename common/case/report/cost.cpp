@@ -167,13 +167,13 @@ double fastest(const GasExpressions& state, const FluidSpec& fluid) {
   for (int j = 0; j <= samples; ++j) {
     for (int i = 0; i <= samples; ++i) {
       const Vec2 x = place(fluid.grid, static_cast<double>(i) / samples, static_cast<double>(j) / samples, 0);
-      if (std::ranges::any_of(fluid.body_fitted, [&](const BodyFittedSpec& fitted) {
-            return lies_behind(fitted, fluid.grid, x);
-          }))
-        continue;
       const double v = std::hypot(state.v1(x[0], x[1], 0), state.v2(x[0], x[1], 0));
       const double speed = v + std::sqrt(fluid.gamma * state.p(x[0], x[1], 0) / state.rho(x[0], x[1], 0));
-      if (std::isfinite(speed)) most = std::max(most, speed);
+      if (!std::isfinite(speed) || speed <= most) continue;
+      if (std::ranges::none_of(fluid.body_fitted, [&](const BodyFittedSpec& fitted) {
+            return lies_behind(fitted, fluid.grid, x);
+          }))
+        most = speed;
     }
   }
   return most;

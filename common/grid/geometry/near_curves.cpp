@@ -96,10 +96,10 @@ void report_too_near(const NearCurves& near, const CompositeGrid& composite, dou
   throw Diverged(
       fmt::format(
           "{} and {} are {:.3g} apart, less than {} of a cell of the gas's background ({:.3g}): gas is not "
-          "computed between bodies so near to each other, nor is contact; let the run end before, or let "
-          "them "
-          "come nearer with a greater grid.factor",
-          called(nearest.a), called(nearest.b), nearest.gap.distance, NearCurves::fewest_cells, cell),
+          "computed between bodies so near to each other, nor is contact; let {}, or let "
+          "them come nearer with a greater grid.factor",
+          called(nearest.a), called(nearest.b), nearest.gap.distance, NearCurves::fewest_cells, cell,
+          t > 0 ? "the run end before" : "them begin farther apart"),
       {.t = t, .position = {nearest.gap.x[0], nearest.gap.x[1]}});
 }
 
