@@ -5,6 +5,9 @@
 ///             \   \ | /   /                u + a        u + 2a/(gamma-1)   inside while u + a > 0
 ///              \   \|/   /                 u            p/rho^gamma, v_t   inside while u > 0
 ///     ----------- side ---- n -->          u - a        u - 2a/(gamma-1)   inside while u - a > 0
+///
+/// Each invariant has the entropy of where it comes from: the two meet at one p and u, on both sides of the contact that may
+/// be between them.
 
 #include <cstddef>
 #include <vector>
@@ -22,7 +25,8 @@ struct OpenSide {
   double gamma = 1.4;  ///< [-]
 };
 
-/// The state on a side between that inside and a given one beyond it. Simple waves that leave, of any
+/// The state on a side between that inside and a given one beyond it, which comes in as a whole where even a shock into it
+/// is carried inwards. Contacts pass, and simple waves that leave, of any
 /// strength, meet no resistance; shocks leave up to the third power of their strength.
 BoundedState between(const StateVector& inside, const StateVector& beyond, const OpenSide& side);
 
