@@ -17,7 +17,7 @@ UNITS = {"um": 1e-6, "mm": 1e-3, "cm": 1e-2, "m": 1.0, "km": 1e3, "in": 0.0254, 
 SPELLINGS = {"µm": "um", "μm": "um", "inch": "in", "inches": "in", "feet": "ft", "foot": "ft",
              **{f"{prefix}met{ending}": unit for prefix, unit in (("micro", "um"), ("milli", "mm"), ("centi", "cm"), ("", "m"), ("kilo", "km"))
                 for ending in ("re", "res", "er", "ers")}}
-OF_COLUMN = r"\b[xy]\s*(?:[_/(\[]|\bin\b)\s*(?:in\s+)?([a-zµμ]+)"      # x_mm, x [mm], x (in mm), x/mm, x in mm
+OF_COLUMN = r"\b[xy][^\W_]*\s*(?:[_/(\[]|\bin\b)\s*(?:in\s+)?([a-zµμ]+)"      # x_mm, x [mm], x (in mm), x/mm, x in mm
 
 
 @dataclass(frozen=True)
@@ -128,7 +128,7 @@ def read(path, straight=False):
         named = not points and _names_columns(text)
         here = _unit(text, f"{path}:{number}") if named else ""
         unit = unit or here
-        if is_first and _is_title(text) and not {"x", "y"} <= set(_words(text)):
+        if is_first and _is_title(text) and not re.search(OF_COLUMN, text.lower()) and not {"x", "y"} <= set(_words(text)):
             title = f"line {number}, '{text[:60]}', is taken as a title"
         elif named:
             _check_order(text, f"{path}:{number}")
