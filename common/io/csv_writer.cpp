@@ -44,8 +44,10 @@ CsvWriter::CsvWriter(std::string path, const std::vector<std::string>& columns, 
   std::string found(header.size(), '\0');
   found.resize(std::fread(found.data(), 1, found.size(), file_.get()));
   if (found != header)
-    throw OutputFailed(
-        fmt::format("'{}' has other columns than this run; restart with the same probes", path_));
+    throw OutputFailed(fmt::format(
+        "'{}' has other columns than this run, or its first line is damaged: restart with the same "
+        "probes, or put that line back",
+        path_));
 }
 
 CsvWriter::~CsvWriter() {

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -273,6 +274,9 @@ void ProgressLines::show(std::uint64_t step, double t, double dt, const std::str
   const auto now = std::chrono::steady_clock::now();
   if (now - last_ < std::chrono::milliseconds(100)) return;
   last_ = now;
+  // Whoever reads may have been stopped; a line that is lost then is no loss, and a program that waited would be.
+  pollfd out{.fd = STDOUT_FILENO, .events = POLLOUT, .revents = 0};
+  if (poll(&out, 1, 0) != 1 || (out.revents & POLLOUT) == 0) return;
   std::string word = limit;
   std::ranges::replace(word, ' ', '_');
   fmt::print("progress step={} t={} dt={:.6g} limit={} t_end={}\n", step, t, dt, word, t_end_);

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from amp_fsi.results import Run
 from fsi_launch import paths
-from fsi_launch.living import processes
+from fsi_launch.living import processes, registry
 from fsi_launch.failure import EXPECTATION_MISSED
 from fsi_launch.telling import AS_NAMED
 
@@ -142,7 +142,7 @@ def start(case=None, *, set=None, solids=None, out=None, restart=None, overwrite
     process = subprocess.Popen([_command(), *words, "--no-progress"], stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
                                stderr=subprocess.PIPE, **AS_NAMED)
     running = Running(process, directory, former)
-    running.until(lambda: processes.programs_of(directory))
+    running.until(lambda: registry.running_in(directory) == process.pid and processes.programs_of(directory))
     if not running.going():
         running.wait()
     return running

@@ -246,6 +246,7 @@ def _begin(request, say, until):
         if case.end <= checkpoint.t * (1 + 1e-12):
             say("that is time.end: the run is complete; --set time.end=.. goes on to a later one")
         former.lay_aside(directory)
+        (directory / "log").mkdir(exist_ok=True)    # somebody may have removed it
     return case, directory, made, checkpoint
 
 

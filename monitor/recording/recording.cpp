@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <string>
+#include <system_error>
 #include <utility>
 
 #include "common/core/failure.hpp"
@@ -20,14 +22,28 @@ constexpr double flush_s = 5;
 /// Messages of a block, should they come faster than usual.
 constexpr std::size_t block_length = 2000;
 
+constexpr auto format = "AMP-FSI recording 2";
+
 std::string block_name(std::size_t index) {
   return fmt::format("{:06}", index);
+}
+
+/// What is there already may be replaced. @throws UserMistake
+void expect_recording(const std::string& path) {
+  std::error_code unknown;
+  if (!fs::exists(path, unknown)) return;
+  try {
+    if (fs::is_regular_file(path) && io::Hdf5::open(path).text_attribute("format") == format) return;
+  } catch (const Failure&) {  // another file
+  }
+  throw UserMistake(fmt::format("--record: '{}' is there and is no recording; name another file", path));
 }
 
 }  // namespace
 
 Recorder::Recorder(std::string path, RunEntry run, double now)
     : path_(std::move(path)), run_(std::move(run)), start_(now), last_flush_(now) {
+  expect_recording(path_);
   io::make_directory(path_ + ".parts");
   write_whole(true);
 }
@@ -71,7 +87,7 @@ void Recorder::flush() {
 /// The file itself: links to the blocks while it grows, the blocks themselves at the end.
 void Recorder::write_whole(bool linked) const {
   io::Hdf5 file = io::Hdf5::create(io::aside(path_));
-  file.write_attribute("format", std::string("AMP-FSI recording 2"));
+  file.write_attribute("format", std::string(format));
   file.write_attribute("run", run_.run);
   file.write_attribute("case", run_.name);
   file.write_attribute("dir", run_.dir);

@@ -165,5 +165,5 @@ def main(arguments):
     except OSError as error:
         if error.filename is None:
             silence(sys.stdout)
-        tell(f"fsi: {error.filename or 'output'}: {error.strerror}")
+        tell(f"fsi: {error.filename or 'output'}: {error.strerror or error}")
         return OUTPUT_FAILED

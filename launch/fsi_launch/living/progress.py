@@ -1,6 +1,7 @@
 """The bar a person watches while a run goes on, from the `progress ...` lines of the coupler or the standalone solver."""
 
 import collections
+import select
 import shutil
 import sys
 import time
@@ -43,6 +44,14 @@ def fitting(words, width):
     while len(words) > 1 and sum(len(text) + 2 for _, text in words) - 2 > width:
         words.remove(max(words, key=lambda word: word[0]))
     return [text for _, text in words]
+
+
+def _takes(out):
+    """Does it take a line without waiting? What is no file does."""
+    try:
+        return bool(select.select([], [out], [], 0)[1])
+    except (OSError, ValueError):
+        return True
 
 
 class Progress:
@@ -124,7 +133,10 @@ class Progress:
             self._show(self.text(None) + "\n")
 
     def _show(self, text):
-        """Where nothing can be shown any more, as on a terminal that was closed, the run goes on in silence."""
+        """Where nothing can be shown any more, as on a terminal that was closed, the run goes on in silence; one that does not take
+        anything now, as after Ctrl-S, must not hold the launcher up."""
+        if not _takes(self._out):
+            return
         try:
             self._out.write(text)
             self._out.flush()

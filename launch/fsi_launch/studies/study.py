@@ -11,6 +11,7 @@ import os
 import re
 import subprocess
 import time
+import zlib
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -76,8 +77,15 @@ def _moment(path):
     return found.st_mtime_ns, found.st_ino
 
 
+LONGEST_NAME, KEPT = 200, 120    # [byte] of a folder; of a longer one so much is kept
+
+
 def _folder_name(values, short):
-    return re.sub(r"[^\w.,=+-]", "_", ",".join(f"{short[key]}={value}" for key, value in values.items()))
+    said = ",".join(f"{short[key]}={value}" for key, value in values.items())
+    name = re.sub(r"[^\w.,=+-]", "_", said)
+    if len(os.fsencode(name)) <= LONGEST_NAME:
+        return name
+    return f"{os.fsencode(name)[:KEPT].decode(errors='ignore')}-{zlib.crc32(said.encode(errors='surrogateescape')):08x}"
 
 
 def trials(vary, directory):

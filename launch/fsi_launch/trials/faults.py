@@ -25,7 +25,7 @@ from fsi_launch.telling import AS_NAMED, tell
 
 PEER_TIMEOUT = 4.0      # [s] of the runs: a stopped program is lost after it
 STOP_FOR = 1.0          # [s] and goes on as if nothing had been
-WATCHDOG = 240.0        # [s] nothing here takes so long: what does hangs
+WATCHDOG = 900.0        # [s] nothing here takes so long: what does hangs
 CASE = ("elastic_piston", "--set", "grid.factor=2", "--set", "time.dt=1e-3", "--set", "output.every=0.1",
         "--set", "output.checkpoint_every=40", "--set", f"time.peer_timeout={PEER_TIMEOUT:g}", "--set", "expect={}")
 PROGRAMS = {"fluid": "fluid_solver", "solid": "solid_solver_linear_elastic", "coupler": "coupler"}

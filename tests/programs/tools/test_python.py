@@ -101,6 +101,15 @@ class FromPython(EndToEnd):
         self.assertEqual(watched.probes["t"][-1], watched.summary["t"])
         self.assertEqual(set(watched.probes), self.in_parts)
 
+    def test_a_start_that_is_refused_is_not_taken_for_the_run_that_goes_on_there(self):
+        first = amp_fsi.start("elastic_piston", set={"grid.factor": 2, "time.dt": 1e-7, "expect": {}}, out=self.folder / "taken")
+        self.addCleanup(first.process.kill)
+        with self.assertRaises(amp_fsi.RunFailed):
+            amp_fsi.start("sod_tube", out=self.folder / "taken")
+        self.assertTrue(first.going())
+        first.stop()
+        self.assertEqual(first.wait().summary["status"], "stopped")
+
     def test_study_goes_on_where_it_was(self):
         vary = {"parameters.density_ratio": [0.01, 1]}
         first = amp_fsi.study("elastic_piston", vary, set=COARSE, jobs=2, out=self.folder / "study")

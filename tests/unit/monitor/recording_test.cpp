@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <limits>
 #include <memory>
 #include <string>
@@ -86,6 +87,20 @@ TEST_F(Recordings, ComeBackTheSameNumberForNumber) {
   Recording recording(path());
   EXPECT_EQ(recording.run().run, "r-1");
   EXPECT_EQ(shown(recording), expected);
+}
+
+TEST_F(Recordings, ReplaceOthersAndNothingElse) {
+  Recorder(path(), run(), 0).close();
+  Recorder(path(), run(), 0).close();
+  const std::string notes = path() + ".txt", folder = path() + ".folder";
+  std::ofstream(notes) << "mine";
+  fs::create_directory(folder);
+  for (const std::string& taken : {notes, folder, std::string("/dev/null")}) {
+    EXPECT_THROW(Recorder(taken, run(), 0), UserMistake) << taken;
+    EXPECT_FALSE(fs::exists(taken + ".parts")) << taken;
+  }
+  EXPECT_EQ(fs::file_size(notes), 4U);
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
 }
 
 TEST_F(Recordings, KeepTheReasonWhereItsPlaceIsNoNumber) {

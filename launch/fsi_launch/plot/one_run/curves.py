@@ -153,11 +153,12 @@ def _title(heading):
 
 def steady(axes, values):
     """Room around values that differ by round-off only, which is not worth a scale."""
-    largest = np.nanmax(np.abs(values), initial=0)
+    values = values[np.isfinite(values)]
+    largest = np.max(np.abs(values), initial=0)
     if largest == 0:
         axes.set_ylim(-1, 1)
-    elif np.nanmax(values) - np.nanmin(values) <= SAME_VALUE * largest:
-        axes.set_ylim(np.nanmin(values) - 0.5 * largest, np.nanmax(values) + 0.5 * largest)
+    elif np.max(values) - np.min(values) <= SAME_VALUE * largest:
+        axes.set_ylim(np.min(values) - 0.5 * largest, np.max(values) + 0.5 * largest)
 
 
 def _curve(axes, name, t, values, label, floor):

@@ -1,8 +1,10 @@
 #!/usr/bin/python3
 """The progress lines of the programs are understood, other lines are left alone."""
 
+import contextlib
 import errno
 import io
+import os
 import sys
 import unittest
 from pathlib import Path
@@ -41,6 +43,23 @@ class Lines(unittest.TestCase):
         shown.tick()
         shown.close()
         self.assertEqual(out.getvalue(), "")
+
+    def test_who_takes_nothing_now_holds_nobody_up(self):
+        reader, writer = os.pipe()
+        self.addCleanup(os.close, reader)
+        os.set_blocking(writer, False)
+        with contextlib.suppress(BlockingIOError):
+            while True:
+                os.write(writer, b"." * 4096)
+        os.set_blocking(writer, True)
+        with os.fdopen(writer, "w", encoding="ascii") as out:
+            shown = progress.Progress(out=out)
+            shown.hear("progress step=1 t=0.1 dt=0.1 limit=fluid t_end=1")
+            shown.tick()    # comes back
+            self.assertNotIn(b"%", os.read(reader, 1 << 20))
+            shown._drawn = 0
+            shown.tick()
+        self.assertIn(b"10 %", os.read(reader, 1 << 20))
 
     def test_who_cannot_be_shown_anything_is_shown_nothing_more(self):
         for ready in (True, False):

@@ -19,6 +19,15 @@ from fsi_launch.studies import study  # noqa: E402
 from fsi_launch.failure import UserMistake  # noqa: E402
 
 
+class Folders(unittest.TestCase):
+    def test_names_are_as_long_as_files_can_have_them(self):
+        long, other = ("1" + "+0*x" * 100, "1" + "+0*x" * 99 + "+0*y")
+        names = [study._folder_name({"fluid.initial.p": value}, {"fluid.initial.p": "p"}) for value in ("1", long, other, "ä" * 300)]
+        self.assertEqual(names[0], "p=1")
+        self.assertEqual(len(set(names)), 4)
+        self.assertTrue(all(len(os.fsencode(name)) < 255 for name in names))
+
+
 class Values(unittest.TestCase):
     def test_list_is_split_at_its_commas(self):
         self.assertEqual(study.values_of("parameters.rho_bar=0.1, 1,10"), ("parameters.rho_bar", ["0.1", "1", "10"]))
