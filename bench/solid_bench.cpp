@@ -77,6 +77,14 @@ void curvilinear_svk_dissipation(benchmark::State& state) {
 void cartesian_neo_hookean(benchmark::State& state) {
   advance<NeoHookean>(state, cartesian_grid(), {.limiter = Limiter::minmod});
 }
+/// The coefficients that a case has unless it says otherwise.
+void cartesian_neo_hookean_defaults(benchmark::State& state) {
+  advance<NeoHookean>(state, cartesian_grid(),
+                      {.limiter = Limiter::mc,
+                       .tangential_stress = {.scaled = 0.5},
+                       .displacement = {.scaled = 0.5},
+                       .relaxation = {.scaled = 0.2}});
+}
 
 BENCHMARK(cartesian_svk)->Unit(benchmark::kMillisecond);
 BENCHMARK(cartesian_svk_mc)->Unit(benchmark::kMillisecond);
@@ -84,5 +92,6 @@ BENCHMARK(cartesian_svk_centred)->Unit(benchmark::kMillisecond);
 BENCHMARK(curvilinear_svk)->Unit(benchmark::kMillisecond);
 BENCHMARK(curvilinear_svk_dissipation)->Unit(benchmark::kMillisecond);
 BENCHMARK(cartesian_neo_hookean)->Unit(benchmark::kMillisecond);
+BENCHMARK(cartesian_neo_hookean_defaults)->Unit(benchmark::kMillisecond);
 
 }  // namespace

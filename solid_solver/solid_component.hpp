@@ -117,19 +117,6 @@ class SolidComponent {
   double settled_ = 0;
 };
 
-/// Time in which a p-wave of the rest state crosses the smallest cell.
-inline double crossing_time(const ReferenceMetrics& metrics, const Layout& layout, double modulus,
-                            double rho) {
-  double rate = 0;
-  for (int j = 0; j < layout.n2; ++j) {
-    for (int i = 0; i < layout.n1; ++i) {
-      const PointMetrics m = metrics.at(i, j);
-      rate = std::max(rate, m.r1.norm() + m.r2.norm());
-    }
-  }
-  return 1.0 / (rate * std::sqrt(modulus / rho));
-}
-
 template <Law L>
 SolidComponent<L>::SolidComponent(SolidPart part, int index, SolidPoints points, const L& law,
                                   const SolidOptions& options)
@@ -141,7 +128,8 @@ SolidComponent<L>::SolidComponent(SolidPart part, int index, SolidPoints points,
       boundary_(
           {.name = grid_.name(), .index = index, .x = grid_.x(), .metrics = &metrics_, .points = &points_},
           law_, options_.rho, std::move(part.boundaries), options_.limiter,
-          crossing_time(metrics_, grid_.layout(), law_.lambda + 2.0 * law_.mu, options_.rho)),
+          1.0 / (metrics_.largest_rate(grid_.layout()) *
+                 std::sqrt((law_.lambda + 2.0 * law_.mu) / options_.rho))),
       q_(grid_.layout(), plane::count),
       next_(grid_.layout(), plane::count),
       work_(sweep_work, 1) {}
@@ -275,6 +263,8 @@ SweepResult SolidComponent<L>::sweep_with(double dt, Look look) {
       .dt = dt,
       .look = look,
       .measures_spread = options_.relaxation.active() || options_.tangential_stress.active(),
+      .coupling_limit = coupling_limit(options_.relaxation.at(dt)),
+      .softened = measured_.coupled > 0,
       .rows = rows_.all ? grid::RowRange{0, layout().n2} : rows_.own};
   if (options_.limiter == Limiter::minmod)
     return run_sweep<Row, Gradient>(GodunovSweep<L, Row, Limiter::minmod>(data, metrics_, law_), dt);
@@ -338,6 +328,7 @@ void SolidComponent<L>::predict(double t, double dt, Look look) {
   if (look == Look::soundness) {
     met.rate_squared = measured_.rate_squared;
     met.spread_squared = measured_.spread_squared;
+    met.coupled = measured_.coupled;
     met.min_phi_s = measured_.min_phi_s;
   }
   measured_ = met;
@@ -388,6 +379,7 @@ void SolidComponent<L>::archive(Archive& archive) {
   archive.values("next", next_.values());
   archive.number("rate_squared", measured_.rate_squared);
   archive.number("spread_squared", measured_.spread_squared);
+  archive.number("coupled", measured_.coupled);
   archive.number("min_det_F", measured_.min_det_F);
   archive.number("min_phi_s", measured_.min_phi_s);
   archive.number("settled", settled_);

@@ -75,6 +75,17 @@ void ReferenceMetrics::fill_points(ConstFieldView x) {
   }
 }
 
+double ReferenceMetrics::largest_rate(const Layout& layout) const {
+  double rate = 0;
+  for (int j = 0; j < layout.n2; ++j) {
+    for (int i = 0; i < layout.n1; ++i) {
+      const PointMetrics m = at(i, j);
+      rate = std::max(rate, m.r1.norm() + m.r2.norm());
+    }
+  }
+  return rate;
+}
+
 PointMetrics ReferenceMetrics::at(int i, int j) const {
   if (cartesian_) return {.r1 = {1.0 / h1_, 0.0}, .r2 = {0.0, 1.0 / h2_}, .jacobian = h1_ * h2_};
   const ConstFieldView m = values_.view();

@@ -44,6 +44,8 @@ class ReferenceMetrics {
   ConstFieldView values() const { return values_.view(); }
   PointMetrics at(int i, int j) const;
   bool cartesian() const { return cartesian_; }
+  /// Largest |grad r1| + |grad r2|: cells per length that a wave crosses, at most [1/length].
+  double largest_rate(const Layout& layout) const;
   /// Spacings of a Cartesian grid.
   double h1() const { return h1_; }
   double h2() const { return h2_; }

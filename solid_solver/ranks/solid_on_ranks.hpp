@@ -150,19 +150,21 @@ void SolidSolver<L>::agree_on_prediction(std::size_t first, double dt) {
   std::vector<double> most, here;
   for (std::size_t k = first; k < found_.size(); ++k) {
     const SweepResult& m = components_[k].measured();
-    most.insert(most.end(), {m.rate_squared, m.spread_squared, -m.min_det_F, -m.min_phi_s, m.broken});
+    most.insert(most.end(),
+                {m.rate_squared, m.spread_squared, m.coupled, -m.min_det_F, -m.min_phi_s, m.broken});
     here.push_back(m.broken);
   }
   early_.ranks().largest_of_each(most);
   for (std::size_t k = first; k < found_.size(); ++k) {
     SolidComponent<L>& component = components_[k];
-    const double* of_all = &most[5 * (k - first)];
+    const double* of_all = &most[6 * (k - first)];
     component.measured() = {.rate_squared = of_all[0],
                             .spread_squared = of_all[1],
-                            .min_det_F = -of_all[2],
-                            .min_phi_s = -of_all[3],
-                            .broken = of_all[4]};
-    if (of_all[4] == 0) continue;
+                            .coupled = of_all[2],
+                            .min_det_F = -of_all[3],
+                            .min_phi_s = -of_all[4],
+                            .broken = of_all[5]};
+    if (of_all[5] == 0) continue;
     for (std::size_t later = k + 1; later < found_.size(); ++later) {
       components_[later].measured() = found_[later].measured;
       components_[later].set_settled(found_[later].settled);

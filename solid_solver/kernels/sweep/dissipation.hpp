@@ -83,23 +83,6 @@ struct WideStress {
   }
 };
 
-/// Row j of the new stress.
-struct StressRow {
-  double *P11, *P12, *P21, *P22;
-
-  StressRow(FieldView next, int j)
-      : P11(next.row(plane::P11, j)),
-        P12(next.row(plane::P12, j)),
-        P21(next.row(plane::P21, j)),
-        P22(next.row(plane::P22, j)) {}
-  [[gnu::always_inline]] void subtract(int i, double a11, double a12, double a21, double a22) const {
-    P11[i] -= a11;
-    P12[i] -= a12;
-    P21[i] -= a21;
-    P22[i] -= a22;
-  }
-};
-
 /// Paper eq. (39) at a point: the part of D^(4) P that no wave carries along r1 or r2, times beta^P / 2.
 template <class Row>
 [[gnu::always_inline]] inline Tensor2 tangential_part(const Row& row, const WideStress& P, int i,
@@ -149,7 +132,7 @@ template <class Row>
 #pragma omp simd
   for (int i = run.begin; i < run.end; ++i) {
     const Tensor2 part = tangential_part(row, P, i, factor);
-    to.subtract(i, part.a11, part.a12, part.a21, part.a22);
+    to.subtract(i, part);
   }
 }
 
@@ -179,7 +162,7 @@ template <class Gradient, Law L>
 #pragma omp simd
   for (int i = run.begin; i < run.end; ++i) {
     const Tensor2 part = surplus(law, gradient(i, u1.first(i), u2.first(i)), P.here(i), beta);
-    to.subtract(i, part.a11, part.a12, part.a21, part.a22);
+    to.subtract(i, part);
   }
 }
 

@@ -4,7 +4,8 @@
 /// Row j goes through five loops, each a pass over whole runs of points of structure-of-arrays rows that stay
 /// in cache: `find_stiffness` (F, K; of laws whose K is quick, in the next), `predict` (slopes, states at t + dt/2), `solve_faces2` (faces between rows j - 1
 /// and j), `update` (row j - 1, whose four faces are now known, with what dissipation and relaxation add to it), and
-/// `solve_faces1` (faces inside row j). One Riemann problem per face. Wide grids are swept in strips of columns.
+/// `solve_faces1` (faces inside row j). One Riemann problem per face. Wide grids are swept in strips of columns. Where
+/// pressure makes upwinding of the stress amplify it, the passes of `StressUpwinding` go between these.
 
 #include <algorithm>
 #include <limits>
@@ -15,6 +16,7 @@
 #include "solid_solver/kernels/sweep/stiffness_at.hpp"
 #include "solid_solver/kernels/sweep/sweep_data.hpp"
 #include "solid_solver/kernels/sweep/sweep_work.hpp"
+#include "solid_solver/kernels/sweep/upwinding.hpp"
 #include "solid_solver/solid_points.hpp"
 
 namespace fsi::solid {
@@ -57,6 +59,7 @@ class GodunovSweep {
   [[gnu::noinline]] void find_stiffness(RowRun run) const;
   [[gnu::noinline]] void predict(RowRun run) const;
   [[gnu::noinline]] SweepResult waves(RowRun run) const;
+  template <bool softened>
   [[gnu::noinline]] double spread_squared(RowRun run) const;
   [[gnu::noinline]] double settle(RowRun run) const;
   [[gnu::noinline]] void solve_faces1(RowRun run) const;
@@ -74,6 +77,7 @@ class GodunovSweep {
   const L& law_;
   Strip strip_;
   SweepWork work_;
+  StressUpwinding<Row, limiter> softer_{d_, metrics_, work_};
 };
 
 template <Law L, class Row, Limiter limiter>
@@ -110,17 +114,26 @@ SweepResult GodunovSweep<L, Row, limiter>::run_strip(const TermsOf& terms_of, co
       const double settled = settle(run);
       if (rows.contains(std::clamp(j, 0, n2 - 1))) result.settled += settled;
     });
+    if (d_.softened) each_run(j, points.predicted(j), 1, [&](RowRun run) { softer_.find_shares(run); });
     if (d_.look == Look::all && rows.contains(j))
       each_run(j, points.discretised(j), 0, [&](RowRun run) { look_at_waves(run, result); });
-    if (j >= rows.first) each_run(j, points.faces(j), 0, [&](RowRun run) { solve_faces2(run); });
+    if (j >= rows.first) {
+      each_run(j, points.faces(j), 0, [&](RowRun run) { solve_faces2(run); });
+      if (d_.softened) each_run(j, points.faces(j), 0, [&](RowRun run) { softer_.correct_faces2(run); });
+    }
     if (j > rows.first) {
       each_run(j - 1, points.discretised(j - 1), 0, [&](RowRun run) {
         result.add(look_at_soundness(run));
         update(run, terms_of(run.j));
+        if (d_.softened) softer_.add_decay(run);
         after(run);
       });
     }
-    if (rows.contains(j)) each_run(j, points.discretised(j), 0, [&](RowRun run) { solve_faces1(run); });
+    if (rows.contains(j)) {
+      each_run(j, points.discretised(j), 0, [&](RowRun run) { solve_faces1(run); });
+      if (d_.softened)
+        each_run(j, points.discretised(j), 0, [&](RowRun run) { softer_.correct_faces1(run); });
+    }
   }
   return result;
 }
@@ -139,7 +152,9 @@ void GodunovSweep<L, Row, limiter>::each_run(int j, std::span<const grid::Interv
 template <Law L, class Row, Limiter limiter>
 void GodunovSweep<L, Row, limiter>::look_at_waves(RowRun run, SweepResult& result) const {
   result.add(waves(run));
-  if (d_.measures_spread) result.spread_squared = std::max(result.spread_squared, spread_squared(run));
+  if (!d_.measures_spread) return;
+  result.spread_squared =
+      std::max(result.spread_squared, d_.softened ? spread_squared<true>(run) : spread_squared<false>(run));
 }
 
 /// A loop of its own: K of some blocks is long in the coming, and other blocks have theirs meanwhile.
@@ -200,46 +215,61 @@ void GodunovSweep<L, Row, limiter>::predict(RowRun run) const {
   }
 }
 
-/// What `find_stiffness` left in the rows of run.j; for SweepResult::rate_squared and min_phi_s.
+/// What `find_stiffness` left in the rows of run.j; for SweepResult::rate_squared, min_phi_s and coupled.
 template <Law L, class Row, Limiter limiter>
 SweepResult GodunovSweep<L, Row, limiter>::waves(RowRun run) const {
   const Row row(metrics_, run.j);
   const AcousticRows along1 = work_.acoustic1(), along2 = work_.acoustic2(run.j);
-  double rate = 0, min_phi = std::numeric_limits<double>::infinity();
-#pragma omp simd reduction(max : rate) reduction(min : min_phi)
+  const StiffnessRows stiff = work_.stiffness(run.j);
+  const double limit = d_.coupling_limit;
+  double rate = 0, min_phi = std::numeric_limits<double>::infinity(), coupled = 0;
+#pragma omp simd reduction(max : rate, coupled) reduction(min : min_phi)
   for (int i = run.begin; i < run.end; ++i) {
     const double scale = row.inverse_jacobian(i) * row.inverse_jacobian(i);
-    const Pair phi1 = wave_eigenvalues(along1.at(i)), phi2 = wave_eigenvalues(along2.at(i));
+    const SymmetricTensor2 A1 = along1.at(i), A2 = along2.at(i);
+    const Pair phi1 = wave_eigenvalues(A1), phi2 = wave_eigenvalues(A2);
     const double fastest = scale * (phi1.x + phi2.x + 2.0 * std::sqrt(phi1.x * phi2.x));
     const double slowest = scale * (phi1.y < phi2.y ? phi1.y : phi2.y);
+    const double beyond = couples_beyond(limit, A1, A2, row.acoustic12(i, stiff.at(i))) ? 1.0 : 0.0;
     rate = rate < fastest ? fastest : rate;
     min_phi = slowest < min_phi ? slowest : min_phi;
+    coupled = coupled < beyond ? beyond : coupled;
   }
-  return {.rate_squared = rate / d_.rho, .min_phi_s = min_phi};
+  return {.rate_squared = rate / d_.rho, .coupled = coupled, .min_phi_s = min_phi};
 }
 
-/// What `find_stiffness` left in the rows of run.j; for SweepResult::spread_squared.
+/// What `find_stiffness` and `find_shares` left in the rows of run.j; for SweepResult::spread_squared.
 template <Law L, class Row, Limiter limiter>
+template <bool softened>
 double GodunovSweep<L, Row, limiter>::spread_squared(RowRun run) const {
   const Row row(metrics_, run.j);
   const AcousticRows along1 = work_.acoustic1(), along2 = work_.acoustic2(run.j);
   const StiffnessRows stiff = work_.stiffness(run.j);
+  const double* shares = work_.share(run.j);
+  const double rho = d_.rho;
   double spread = 0;
 #pragma omp simd reduction(max : spread)
   for (int i = run.begin; i < run.end; ++i) {
     const SymmetricTensor2 A1 = along1.at(i), A2 = along2.at(i);
     const Pair phi1 = wave_eigenvalues(A1), phi2 = wave_eigenvalues(A2);
+    const double both = phi1.x + phi2.x, twice = 2.0 * std::sqrt(phi1.x * phi2.x);
     const double shared = shared_upwinding(A1, A2, row.acoustic12(i, stiff.at(i)));
     const double scale = row.inverse_jacobian(i) * row.inverse_jacobian(i);
-    const double apart = scale * (phi1.x + phi2.x - 2.0 * std::sqrt(phi1.x * phi2.x) + 4.0 * shared);
+    double apart = scale * (both - twice + 4.0 * shared);
+    if constexpr (softened) {
+      const double share = shares[i];
+      const double part =
+          share * std::sqrt(apart / rho) + (1.0 - share) * std::sqrt(scale * (both + twice) / rho);
+      apart = rho * part * part;
+    }
     spread = spread < apart ? apart : spread;
   }
-  return spread / d_.rho;
+  return spread / rho;
 }
 
 /// Ghost points have a displacement that was extrapolated, and beside a corner with a singular stress it may
 /// turn the material inside out or leave it no wave speed, though the body itself is far from that. What such
-/// a point brings to its face is then its state at t, and the acoustic matrix of the point of the body beside
+/// a point brings to its face is then its state at t, and K and the acoustic matrix of the point of the body beside
 /// it. Returns the number of such points, each in one strip.
 template <Law L, class Row, Limiter limiter>
 double GodunovSweep<L, Row, limiter>::settle(RowRun run) const {
@@ -252,6 +282,7 @@ double GodunovSweep<L, Row, limiter>::settle(RowRun run) const {
       if (b < 0 || b >= d_.q.layout.n2 || !d_.points->is_discretised(a, b)) continue;
       const Stiffness K = law_.K(deformation_gradient(Row(metrics_, b), StateRows(d_.q, b), a, 0.5 * d_.dt));
       const Row row(metrics_, j);
+      work_.stiffness(j).set(i, K);
       along1.set(i, row.acoustic1(i, K));
       along2.set(i, row.acoustic2(i, K));
       const StateRows q(d_.q, j);

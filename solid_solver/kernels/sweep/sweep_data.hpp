@@ -19,9 +19,10 @@ enum class Look {
 /// are there where the sweep looked for all.
 struct SweepResult {
   double rate_squared = 0;  ///< largest (sum over directions of c_p |grad r|)^2 [1/time^2]
-  /// Largest (difference of the two directions' c_p |grad r|)^2 + 4 |X|^2 (shared_upwinding) [1/time^2]; 0
-  /// where it is not measured.
+  /// Largest square of s sqrt((difference of the two directions' c_p |grad r|)^2 + 4 |X|^2) + (1 - s) (their sum), with |X|^2
+  /// = shared_upwinding and s = upwind_share; 0 where it is not measured.
   double spread_squared = 0;  ///< [1/time^2]
+  double coupled = 0;         ///< 1 where some point has a wave_coupling beyond the limit, else 0
   double min_det_F = std::numeric_limits<double>::infinity();
   double min_phi_s = std::numeric_limits<double>::infinity();  ///< smallest phi_s |grad r|^2
   double broken = 0;                                           ///< points with det F <= 0 or phi_s <= 0 [-]
@@ -30,6 +31,7 @@ struct SweepResult {
   void add(const SweepResult& other) {
     rate_squared = std::max(rate_squared, other.rate_squared);
     spread_squared = std::max(spread_squared, other.spread_squared);
+    coupled = std::max(coupled, other.coupled);
     min_det_F = std::min(min_det_F, other.min_det_F);
     min_phi_s = std::min(min_phi_s, other.min_phi_s);
     broken += other.broken;
@@ -47,7 +49,9 @@ struct SweepData {
   double rho = 1;        ///< [mass/volume]
   double dt = 0;         ///< [time]
   Look look = Look::all;
-  bool measures_spread = true;  ///< SweepResult::spread_squared; only relaxation and (39) need it
+  bool measures_spread = true;    ///< SweepResult::spread_squared; only relaxation and (39) need it
+  double coupling_limit = 1e300;  ///< of `wave_coupling`, beyond which StressUpwinding takes a part [-]
+  bool softened = false;          ///< it passes over the rows: the last sweep found such a point
   /// Those that are advanced; two rows beside them are read.
   grid::RowRange rows = {0, std::numeric_limits<int>::max()};
 };

@@ -144,22 +144,4 @@ struct StiffnessRows {
   return (A.a11 > 0.0) & (A.a11 * A.a22 - A.a12 * A.a12 > 0.0);
 }
 
-/// Upwinding makes the stress decay at the rates of M = sum over directions of K Z^-1 n^T / h, paper eq. (36)
-/// with the face velocities of paper eq. (34). The non-zero eigenvalues of M are those of the block matrix
-/// ((Z1, X), (X^T, Z2)) with X = Z1^-1/2 N Z2^-1/2; this is |X|^2 = tr(Z1^-1 N Z2^-1 N^T), with Z = (A + d I)
-/// / sqrt(tr A + 2 d), d = sqrt(det A).
-/// @param N a1 K a2 of the two area vectors
-[[gnu::always_inline]] inline double shared_upwinding(const SymmetricTensor2& A1, const SymmetricTensor2& A2,
-                                                      const Tensor2& N) {
-  const double d1 = std::sqrt(A1.a11 * A1.a22 - A1.a12 * A1.a12),
-               d2 = std::sqrt(A2.a11 * A2.a22 - A2.a12 * A2.a12);
-  const double roots = d1 * d2 * std::sqrt((A1.a11 + A1.a22 + 2.0 * d1) * (A2.a11 + A2.a22 + 2.0 * d2));
-  const double a = A1.a22 + d1, b = -A1.a12, c = A1.a11 + d1;  // det(A1) / d1 times (A1 + d1 I)^-1
-  const double e = A2.a22 + d2, f = -A2.a12, g = A2.a11 + d2;
-  const double sum =
-      (a * N.a11 + b * N.a21) * (N.a11 * e + N.a12 * f) + (a * N.a12 + b * N.a22) * (N.a11 * f + N.a12 * g) +
-      (b * N.a11 + c * N.a21) * (N.a21 * e + N.a22 * f) + (b * N.a12 + c * N.a22) * (N.a21 * f + N.a22 * g);
-  return sum / roots;
-}
-
 }  // namespace fsi::solid

@@ -10,7 +10,7 @@ namespace fsi::solid {
 
 /// Rows for as many columns of a grid as are swept at a time, at places that the compiler knows from one another: one
 /// pointer leads to all of them. With a pointer for each the loops were as much about pointers as about points.
-inline constexpr Layout sweep_work(528, 76);
+inline constexpr Layout sweep_work(528, 101);
 
 /// The rows, by the index of the grid's columns. Those of a row number exist for the present and the last row.
 class SweepWork {
@@ -46,6 +46,14 @@ class SweepWork {
   }
   /// det F, but no number where waves are not real.
   double* soundness(int j) const { return row(23, j); }
+  /// Of StressUpwinding: the share of upwinding that stays, c_p of the rest, the stress at t + dt/2 and what is
+  /// taken from it.
+  double* share(int j) const { return row(24, j); }
+  double* rest1() const { return row(28); }
+  double* rest2(int j) const { return row(25, j); }
+  StressRow decay1() const { return stress_row(row(29)); }
+  StressRow decay2(int j) const { return stress_row(row(26, j)); }
+  StressRow centre_stress(int j) const { return stress_row(row(30, j)); }
   /// Nobody writes there.
   const double* zero() const { return row(19); }
   /// The step of blocks that reach beyond their run.
@@ -55,12 +63,15 @@ class SweepWork {
 
  private:
   static constexpr std::ptrdiff_t next = sweep_work.stride;
-  static constexpr int shared = 28, of_a_row = 24;
+  static constexpr int shared = 33, of_a_row = 34;
   static_assert(shared + 2 * of_a_row == sweep_work.n2);
 
   double* row(int k) const { return data_ + k * next; }
   double* row(int k, int j) const { return row(shared + of_a_row * (j & 1)) + k * next; }
   static FaceRows face_rows(double* first) {
+    return {first, first + next, first + 2 * next, first + 3 * next};
+  }
+  static StressRow stress_row(double* first) {
     return {first, first + next, first + 2 * next, first + 3 * next};
   }
   static AcousticRows acoustic_rows(double* first) { return {first, first + next, first + 2 * next}; }

@@ -41,6 +41,28 @@ StateRow<T> state_row(BasicFieldView<T> q, int j) {
           q.row(plane::P11, j), q.row(plane::P12, j), q.row(plane::P21, j), q.row(plane::P22, j)};
 }
 
+/// Row j of the stress.
+template <class T>
+struct BasicStressRow {
+  T *P11, *P12, *P21, *P22;
+
+  BasicStressRow(T* p11, T* p12, T* p21, T* p22) : P11(p11), P12(p12), P21(p21), P22(p22) {}
+  BasicStressRow(BasicFieldView<T> q, int j)
+      : P11(q.row(plane::P11, j)),
+        P12(q.row(plane::P12, j)),
+        P21(q.row(plane::P21, j)),
+        P22(q.row(plane::P22, j)) {}
+  operator BasicStressRow<const double>() const { return {P11, P12, P21, P22}; }
+  [[gnu::always_inline]] void subtract(int i, Tensor2 part) const {
+    P11[i] -= part.a11;
+    P12[i] -= part.a12;
+    P21[i] -= part.a21;
+    P22[i] -= part.a22;
+  }
+};
+using StressRow = BasicStressRow<double>;
+using ConstStressRow = BasicStressRow<const double>;
+
 /// Nothing is added to the step of a point.
 struct NoTerms {
   [[gnu::always_inline]] NoTerms at(int /*i*/) const { return {}; }

@@ -14,12 +14,11 @@ namespace fsi::solid::test {
 template <Law L>
 class ManufacturedMotion {
  public:
-  ManufacturedMotion(const L& law, double rho, double q) : law_(law), rho_(rho), q_(q) {}
+  /// @param squeeze the body is squeezed uniformly to 1 - squeeze of its lengths besides
+  ManufacturedMotion(const L& law, double rho, double q, double squeeze = 0)
+      : law_(law), rho_(rho), q_(q), squeeze_(squeeze) {}
 
-  Vec2 u(double x, double y, double t) const {
-    return {a * std::cos(2 * x + p) * std::cos(2 * y + q_) * std::cos(w * t + 0.2),
-            a * std::cos(2 * x + q_) * std::sin(1.5 * y + q_) * std::cos(w * t + 0.9)};
-  }
+  Vec2 u(double x, double y, double t) const { return motion(x, y, t) - squeeze_ * Vec2(x, y); }
   Vec2 v(double x, double y, double t) const {
     return {-w * a * std::cos(2 * x + p) * std::cos(2 * y + q_) * std::sin(w * t + 0.2),
             -w * a * std::cos(2 * x + q_) * std::sin(1.5 * y + q_) * std::sin(w * t + 0.9)};
@@ -41,7 +40,7 @@ class ManufacturedMotion {
     const auto d = [](double p1, double m1, double p2, double m2) {
       return (8 * (p1 - m1) - (p2 - m2)) / (12 * h);
     };
-    return -rho_ * w * w * u(x, y, t) -
+    return -rho_ * w * w * motion(x, y, t) -
            Vec2(d(e.a11, o.a11, ee.a11, oo.a11) + d(n.a21, s.a21, nn.a21, ss.a21),
                 d(e.a12, o.a12, ee.a12, oo.a12) + d(n.a22, s.a22, nn.a22, ss.a22));
   }
@@ -77,13 +76,18 @@ class ManufacturedMotion {
     return {Wave(2 * dx), Wave(2 * dx), Wave(2 * dy), Wave(1.5 * dy)};
   }
   static Vec2 amplitudes(double t) { return {a * std::cos(w * t + 0.2), a * std::cos(w * t + 0.9)}; }
-  static Tensor2 F(const Waves& k, const Vec2& c) {
-    return {1 - 2 * c[0] * k.x1.sin * k.y1.cos, -2 * c[0] * k.x1.cos * k.y1.sin,
-            -2 * c[1] * k.x2.sin * k.y2.sin, 1 + 1.5 * c[1] * k.x2.cos * k.y2.cos};
+  Tensor2 F(const Waves& k, const Vec2& c) const {
+    const double size = 1 - squeeze_;
+    return {size - 2 * c[0] * k.x1.sin * k.y1.cos, -2 * c[0] * k.x1.cos * k.y1.sin,
+            -2 * c[1] * k.x2.sin * k.y2.sin, size + 1.5 * c[1] * k.x2.cos * k.y2.cos};
+  }
+  Vec2 motion(double x, double y, double t) const {
+    return {a * std::cos(2 * x + p) * std::cos(2 * y + q_) * std::cos(w * t + 0.2),
+            a * std::cos(2 * x + q_) * std::sin(1.5 * y + q_) * std::cos(w * t + 0.9)};
   }
 
   L law_;
-  double rho_, q_;
+  double rho_, q_, squeeze_;
 };
 
 }  // namespace fsi::solid::test

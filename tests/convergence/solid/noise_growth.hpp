@@ -14,11 +14,13 @@ namespace fsi::solid::test {
 
 struct NoiseCase {
   Tensor2 F = {1, 0, 0, 1};
+  double lambda = 1;  ///< over mu
   double aspect = 1;  ///< height of a cell over its width
   double beta_P = 0, beta_u = 0, beta_r = 0;
   double cfl = 0.9;
   /// Sides under the stress of the strained body as a dead load; the others are held.
   std::array<bool, 4> loaded = {};
+  bool given = false;  ///< all of the strained body's state at sides and ghost points
 };
 
 inline constexpr int noise_cells = 12;
@@ -27,6 +29,14 @@ inline Boundaries noise_boundaries(const NoiseCase& noise, const Tensor2& P) {
   const Tensor2 F = noise.F;
   Boundaries boundaries;
   for (Boundary& boundary : boundaries) {
+    if (noise.given) {
+      boundary.condition = Dirichlet::condition;
+      boundary.state = [F, P](double x, double y, double) {
+        return SolidState{
+            .u = {(F.a11 - 1) * x + F.a12 * y, F.a21 * x + (F.a22 - 1) * y}, .v = Vec2::Zero(), .P = P};
+      };
+      continue;
+    }
     boundary.condition = Displacement::condition;
     boundary.vector = [F](double x, double y, double) -> Vec2 {
       return {(F.a11 - 1) * x + F.a12 * y, F.a21 * x + (F.a22 - 1) * y};
@@ -73,7 +83,7 @@ inline void add_noise(FieldView q, double h) {
 /// where the solution diverges.
 template <class L>
 double growth_of_noise(const NoiseCase& noise, int steps) {
-  const L law{.lambda = 1, .mu = 1};
+  const L law{.lambda = noise.lambda, .mu = 1};
   const Tensor2 F = noise.F, P = law.P(F);
   const double h1 = 1.0 / noise_cells, h2 = noise.aspect * h1;
   SolidSolver<L> solver(

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <utility>
 
 #include "tests/convergence/solid/noise_growth.hpp"
 
@@ -54,6 +55,35 @@ TYPED_TEST(RoundOffNoise, DoesNotGrowInAStretchedBody) {
 
 TYPED_TEST(RoundOffNoise, DoesNotGrowInAShearedBody) {
   expect_no_growth<TypeParam>(sheared);
+}
+
+/// K is not positive there, and upwinding as in (36) alone would make a sawtooth of P grow by up to three quarters per step
+/// (docs/theory_solid.md, *Solids under pressure*).
+TYPED_TEST(RoundOffNoise, DoesNotGrowInABodyUnderPressureEq36) {
+  for (const double aspect : {1.0, 4.0, 8.0}) {
+    for (const Betas& beta : betas) {
+      for (const Tensor2& F : {Tensor2{0.85, 0, 0, 0.85}, Tensor2{0.8, 0.1, 0, 1}}) {
+        const NoiseCase noise = {
+            .F = F, .aspect = aspect, .beta_P = beta.P, .beta_u = beta.u, .beta_r = beta.r};
+        EXPECT_LT(test::growth_of_noise<TypeParam>(noise, 3000), 1.0) << name(noise);
+      }
+    }
+  }
+}
+
+/// Half of its area and less is left.
+TEST(RoundOffNoiseUnderPressure, DoesNotGrowInABodySqueezedFar) {
+  for (const Betas& beta : betas) {
+    for (const auto& [lambda, F] : {std::pair(1.0, Tensor2{0.65, 0, 0, 0.65}),
+                                    {1.0, {0.4, 0, 0, 1}},
+                                    {4.0, {0.74, 0, 0, 0.74}},
+                                    {4.0, {0.52, 0, 0, 1}},
+                                    {49.0, {0.92, 0, 0, 0.92}}}) {
+      const NoiseCase noise = {
+          .F = F, .lambda = lambda, .beta_P = beta.P, .beta_u = beta.u, .beta_r = beta.r};
+      EXPECT_LT(test::growth_of_noise<NeoHookean>(noise, 3000), 1.0) << name(noise) << ", lambda " << lambda;
+    }
+  }
 }
 
 /// Without relaxation only the dissipation of the tangential stress makes the noise of P that no wave carries decay,
