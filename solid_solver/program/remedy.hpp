@@ -51,7 +51,8 @@ inline std::string remedy_for(const std::string& solid, const SolidScheme& schem
   if (squeezed < 1)
     return fmt::format(
         "a stiffer solids.{} or a weaker load: pressure had squeezed it to {:.2g} of its volume "
-        "there before, which a sharp corner of a clamped side reaches the sooner the finer the grid is",
+        "there before; sharp corners of clamped sides, and free sides that are pressed along themselves by a "
+        "third, where they crease, get there the sooner the finer the grid is",
         solid, squeezed);
   const std::string path = "solids." + solid + ".scheme";
   const bool nearly_incompressible = stiffness > 10;

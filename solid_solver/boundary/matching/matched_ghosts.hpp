@@ -36,7 +36,7 @@ class MatchedGhosts {
   void match_velocity(FieldView q, const SidePoint& p, double t, const BoundaryStrain& strain,
                       const Vec2& du) const;
   void match_corner_of(FieldView q, const SidePoint& one, double t) const;
-  void broke(const SidePoint& p, double t) const;
+  void broke(ConstFieldView q, const SidePoint& p, double t) const;
 
   const Sides& sides_;
   const ChosenValues& chosen_;
@@ -61,7 +61,7 @@ void MatchedGhosts<L>::match_slip_point(FieldView q, const SidePoint& p, double 
   const std::ptrdiff_t a = line.at(p.k, 0);
   const double shear = m.t0.dot(traction_of(minus(chosen_.state(a, t).P, chosen_.offset(a, t)), m.n0));
   const auto du = match_shear(law_, strain, shear, difference_across(q, line, plane::u1, p.k, m.sign));
-  if (!du) return broke(p, t);
+  if (!du) return broke(q, p, t);
   set_ghost(q, line, p.k, plane::u1, 2.0 * m.sign * *du);
   const Stiffness K = law_.K(plus_dyad(strain.F, *du, m.across));
   const Tensor2 strain_rate = contract(K, gradient(sides_, q, p, plane::v1));
@@ -130,7 +130,7 @@ void MatchedGhosts<L>::set_matched_ghosts(FieldView q, Side side, double t, Load
       du = match_traction(law_, strain, T, difference_across(q, line, plane::u1, k, s.sign));
     }
     if (!du) {
-      broke({side, k}, t);
+      broke(q, {side, k}, t);
       continue;
     }
     set_ghost(q, line, k, plane::u1, 2.0 * s.sign * *du);
@@ -169,7 +169,7 @@ void MatchedGhosts<L>::match_corner_of(FieldView q, const SidePoint& one, double
   const Tensor2 P = minus(load(q, a).P, chosen_.offset(a, t));
   const Tensor2 start = gradient(sides_, q, one, plane::u1);
   const auto F = match_corner(law_, P, plus(identity, start));
-  if (!F) return broke(one, t);
+  if (!F) return broke(q, one, t);
   set_corner_ghosts(sides_, q, one, plane::u1, minus(*F, identity));
   if (!sides_.condition(one.side).knows_rate() || !sides_.condition(other.side).knows_rate()) return;
   const Stiffness K = law_.K(*F);
@@ -182,16 +182,19 @@ void MatchedGhosts<L>::match_corner_of(FieldView q, const SidePoint& one, double
 }
 
 template <Law L>
-void MatchedGhosts<L>::broke(const SidePoint& p, double t) const {
+void MatchedGhosts<L>::broke(ConstFieldView q, const SidePoint& p, double t) const {
   if (!sides_.owns(p.side, p.k)) return;
   const GridPoint point = grid_point(sides_.layout(), p.side, p.k);
   const Vec2 T = memory_.T(p.side, p.k), X = sides_.position(sides_.line(p.side).at(p.k, 0));
+  const Stiffness K = law_.K(plus(identity, gradient(sides_, q, p, plane::u1)));
+  const SymmetricTensor2 Z = impedance_matrix(K, sides_.at(p.side, p.k).n0, 1.0, 1.0);
   const std::string what =
-      T.allFinite() ? fmt::format(
-                          "on side {} the law {} cannot bear the traction ({:.4g}, {:.4g}) per "
-                          "reference area and stay hyperbolic",
-                          name_of(p.side), L::name, T.x(), T.y())
-                    : fmt::format("on side {} the traction is not a number any more", name_of(p.side));
+      fmt::format("on side {} the ", name_of(p.side)) +
+      (T.allFinite()          ? fmt::format("law {} cannot bear the traction ({:.4g}, {:.4g}) per reference "
+                                                     "area and stay hyperbolic",
+                                            L::name, T.x(), T.y())
+       : std::isfinite(Z.a11) ? std::string("traction is not a number any more")
+                              : fmt::format("law {} carries no waves any more", L::name));
   throw Diverged(what, {.t = t,
                         .grid = sides_.grid().name,
                         .point = {point.i, point.j},

@@ -132,7 +132,7 @@ template <class Row>
 #pragma omp simd
   for (int i = run.begin; i < run.end; ++i) {
     const Tensor2 part = tangential_part(row, P, i, factor);
-    to.subtract(i, part);
+    to.subtract(i, part.a11, part.a12, part.a21, part.a22);
   }
 }
 
@@ -162,7 +162,7 @@ template <class Gradient, Law L>
 #pragma omp simd
   for (int i = run.begin; i < run.end; ++i) {
     const Tensor2 part = surplus(law, gradient(i, u1.first(i), u2.first(i)), P.here(i), beta);
-    to.subtract(i, part);
+    to.subtract(i, part.a11, part.a12, part.a21, part.a22);
   }
 }
 

@@ -53,11 +53,11 @@ struct BasicStressRow {
         P21(q.row(plane::P21, j)),
         P22(q.row(plane::P22, j)) {}
   operator BasicStressRow<const double>() const { return {P11, P12, P21, P22}; }
-  [[gnu::always_inline]] void subtract(int i, Tensor2 part) const {
-    P11[i] -= part.a11;
-    P12[i] -= part.a12;
-    P21[i] -= part.a21;
-    P22[i] -= part.a22;
+  [[gnu::always_inline]] void subtract(int i, double a11, double a12, double a21, double a22) const {
+    P11[i] -= a11;
+    P12[i] -= a12;
+    P21[i] -= a21;
+    P22[i] -= a22;
   }
 };
 using StressRow = BasicStressRow<double>;

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
+#include <initializer_list>
 
 #include "tests/convergence/solid/noise_growth.hpp"
 
@@ -41,21 +42,38 @@ Worst worst_of_betas(NoiseCase noise, int steps) {
 }
 
 template <class L>
+void print(const char* state, const NoiseCase& noise, bool free, const Worst& worst) {
+  fmt::print("| {} | {} | 1:{:g} | {} | {} of {} | {:.2g} | {:g}, {:g}, {:g} |\n", L::name, state,
+             noise.aspect, free ? "one held" : "held", worst.growing, worst.runs, worst.growth,
+             worst.at.beta_P, worst.at.beta_u, worst.at.beta_r);
+  std::fflush(stdout);
+}
+
+struct State {
+  const char* name;
+  Tensor2 F;
+  double lambda = 1;
+};
+
+/// Dead loads are not for bodies under pressure: these would buckle.
+template <class L>
+void campaign_under_pressure(std::initializer_list<State> states, int steps) {
+  for (const State& state : states) {
+    for (const double aspect : {1.0, 4.0, 8.0}) {
+      const NoiseCase noise = {.F = state.F, .lambda = state.lambda, .aspect = aspect};
+      print<L>(state.name, noise, false, worst_of_betas<L>(noise, steps));
+    }
+  }
+}
+
+template <class L>
 void campaign(int steps) {
-  struct State {
-    const char* name;
-    Tensor2 F;
-  };
   for (const State& state : {State{"at rest", {1, 0, 0, 1}}, State{"stretched by 1.3", {1.3, 0, 0, 1}},
                              State{"sheared by 0.4", {1, 0.4, 0, 1}}}) {
     for (const double aspect : {1.0, 4.0, 8.0}) {
       for (const bool free : {false, true}) {
-        const Worst worst =
-            worst_of_betas<L>({.F = state.F, .aspect = aspect, .loaded = {false, free, free, free}}, steps);
-        fmt::print("| {} | {} | 1:{:g} | {} | {} of {} | {:.2g} | {:g}, {:g}, {:g} |\n", L::name, state.name,
-                   aspect, free ? "one held" : "held", worst.growing, worst.runs, worst.growth,
-                   worst.at.beta_P, worst.at.beta_u, worst.at.beta_r);
-        std::fflush(stdout);
+        const NoiseCase noise = {.F = state.F, .aspect = aspect, .loaded = {false, free, free, free}};
+        print<L>(state.name, noise, free, worst_of_betas<L>(noise, steps));
       }
     }
   }
@@ -71,5 +89,13 @@ int main(int count, char** words) {
   campaign<LinearElastic>(steps);
   campaign<SaintVenantKirchhoff>(steps);
   campaign<NeoHookean>(steps);
+  campaign_under_pressure<SaintVenantKirchhoff>({{"pressed to 0.85", {0.85, 0, 0, 0.85}}}, steps);
+  campaign_under_pressure<NeoHookean>({{"pressed to 0.85", {0.85, 0, 0, 0.85}},
+                                       {"pressed to 0.7", {0.7, 0, 0, 0.7}},
+                                       {"pressed to 0.6 along x", {0.6, 0, 0, 1}},
+                                       {"pressed to 0.85, lambda = 4 mu", {0.85, 0, 0, 0.85}, 4},
+                                       {"pressed to 0.75, lambda = 4 mu", {0.75, 0, 0, 0.75}, 4},
+                                       {"pressed to 0.95, lambda = 49 mu", {0.95, 0, 0, 0.95}, 49}},
+                                      steps);
   return 0;
 }
