@@ -8,8 +8,10 @@ from pathlib import Path
 from fsi_launch.failure import Failure, OUTPUT_FAILED, UserMistake
 from fsi_launch.results import alone, former, replaced, restart
 
-OF_A_RUN = ("case.yaml", "summary.json", "log", "parts", "fields", "checkpoints", "last_state", "plots", "*.csv", "run.xmf",
-            "fluid.h5", "fluid_*.h5", "solid_*.h5", "reference.h5", former.ASIDE)
+OF_A_RUN = ("case.yaml", "summary.json", "log", "parts", "fields", "checkpoints", "last_state", "plots", "interface.csv", "probes.csv",
+            "forces_*.csv", "energies_*.csv", "budget_*.csv", "run.xmf", "fluid.h5", "fluid_*.h5", "solid_*.h5", "reference.h5", former.ASIDE, replaced.ASIDE)
+OF_PICTURES = ("*.png", "*.csv", "movie.mp4", "movie.gif")    # in plots/
+UNFINISHED = (".part", ".tmp")               # of a program that was killed while it wrote
 OF_THE_START = ("case.yaml", "case.yaml.tmp", "log")    # what is there before the first program begins
 # What a person has to put right; anything else is a fault of the disk.
 REMEDY = "name another folder, or wait for its end"
@@ -24,10 +26,18 @@ def _free_name(name, stamp):
     raise Failure(OUTPUT_FAILED, "no free name for the results in runs/")
 
 
+def _is_one_of(name, patterns):
+    for ending in UNFINISHED:
+        name = name.removesuffix(ending)
+    return any(Path(name).match(pattern) for pattern in patterns)
+
+
 def _expect_own(directory):
     """Nothing but what a run and its pictures leave (docs/output.md) is in it. Throws UserMistake."""
-    found = sorted(path for path in directory.iterdir() if not path.name.endswith((".part", ".tmp")))
-    if strangers := [path.name for path in found if not any(path.match(pattern) for pattern in OF_A_RUN)]:
+    strangers = [path.name for path in sorted(directory.iterdir()) if not _is_one_of(path.name, OF_A_RUN)]
+    if (plots := directory / "plots").is_dir():
+        strangers += [f"plots/{path.name}" for path in sorted(plots.iterdir()) if path.is_dir() or not _is_one_of(path.name, OF_PICTURES)]
+    if strangers:
         raise UserMistake(f"--out {directory} also holds {', '.join(strangers[:3])}, which no run wrote; name a new folder, "
                           "or move it away")
 

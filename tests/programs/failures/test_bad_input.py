@@ -172,12 +172,15 @@ class BadInput(EndToEnd):
     def test_overwriting_takes_nothing_else_and_no_living_run(self):
         short = ("elastic_piston", "--set", "grid.factor=1", "--set", "expect={}")
         run = self.complete(*short)
-        notes = run.directory / "notes.txt"
-        notes.write_text("mine", encoding="utf-8")
-        refused = self.launch(*short, "--overwrite")
-        self.assertEqual(refused.wait(), 2)
-        self.assertIn("notes.txt", refused.stderr)
-        self.assertEqual(notes.read_text(encoding="utf-8"), "mine")
+        (run.directory / "plots").mkdir()
+        for name in ("notes.txt", "measured.csv", "forces.part", "plots/mine.svg"):
+            notes = run.directory / name
+            notes.write_text("mine", encoding="utf-8")
+            refused = self.launch(*short, "--overwrite")
+            self.assertEqual(refused.wait(), 2)
+            self.assertIn(f"also holds {name}, which no run wrote", refused.stderr)
+            self.assertEqual(notes.read_text(encoding="utf-8"), "mine")
+            notes.unlink()
         self.assertEqual(run.summary()["status"], "completed")
         living = self.launch(*LONG, out="long")
         living.until_stepping()
