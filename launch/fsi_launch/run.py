@@ -14,7 +14,7 @@ from pathlib import Path
 from fsi_launch import case as cases
 from fsi_launch import paths
 from fsi_launch.living import hosts, interrupts, ranks, registry
-from fsi_launch.results import alone, folder, former, probes, replaced, restart, summary, verdict
+from fsi_launch.results import alone, folder, former, probes, replaced, restart, summary, verdict, whole_file
 from fsi_launch.failure import (DONE, EXPECTATION_MISSED, Failure, INTERRUPTED, NUMBERS_BROKE, OUTPUT_FAILED, PEER_LOST, TERMINATED,
                                 USER_MISTAKE, UserMistake)
 from fsi_launch.living.progress import Progress
@@ -252,9 +252,7 @@ def _begin(request, say, until):
 
 def _write_case(case, directory):
     """DIR/case.yaml; one that is there is replaced."""
-    temporary = directory / "case.yaml.tmp"
-    temporary.write_text(case.text, **AS_NAMED)
-    temporary.replace(directory / "case.yaml")
+    whole_file.write(directory / "case.yaml", case.text)
 
 
 def _look_around(far, case, directory, request):

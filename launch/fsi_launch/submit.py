@@ -14,7 +14,8 @@ from fsi_launch import paths
 from fsi_launch.failure import DONE, UserMistake
 from fsi_launch.living import ranks
 from fsi_launch.living.hosts import COUPLER
-from fsi_launch.telling import AS_NAMED, tell
+from fsi_launch.results import whole_file
+from fsi_launch.telling import tell
 
 CHECKPOINT_BEFORE = 120     # [s] before the end of the time that was asked for: two steps and a checkpoint
 TIME = r"\d+(:\d{1,2}){0,2}|\d+-\d{1,2}(:\d{1,2}){0,2}"     # as sbatch takes it
@@ -92,6 +93,6 @@ def main(options):
     path = Path(options.out or f"{Path(options.case).stem}.sbatch")
     if path.exists() and not options.overwrite:
         raise UserMistake(f"submit: {path} is there already; name another --out, or add --overwrite")
-    path.write_text(text, **AS_NAMED)
+    whole_file.write(path, text)
     tell(f"{path}: sbatch {shlex.quote(str(path))} submits it (docs/scaling.md)")
     return DONE

@@ -10,6 +10,7 @@ from pathlib import Path
 from fsi_launch import case as cases
 from fsi_launch.failure import DONE, EXPECTATION_MISSED, UserMistake
 from fsi_launch.gallery import problems
+from fsi_launch.results import whole_file
 from fsi_launch.results.summary import aligned
 from fsi_launch.telling import AS_NAMED
 
@@ -56,15 +57,15 @@ def compare(problem, run):
 
 def _write_tables(directory, problem, rows):
     texts = [row.texts() for row in rows]
-    with open(directory / "comparison.csv", "w", **AS_NAMED, newline="") as file:
+    with whole_file.writing(directory / "comparison.csv", newline="") as file:
         csv.writer(file, lineterminator="\n").writerows([HEADING, *texts])
     lines = [f"# {problem.title}", "", problem.source, "", f"`{problem.command()}`", "", f"| {' | '.join(HEADING)} |",
              "|" + "---|" * len(HEADING), *(f"| {' | '.join(text)} |" for text in texts)]
-    (directory / "comparison.md").write_text("\n".join(lines) + "\n", **AS_NAMED)
-    (directory / "comparison.json").write_text(json.dumps(
+    whole_file.write(directory / "comparison.md", "\n".join(lines) + "\n")
+    whole_file.write(directory / "comparison.json", json.dumps(
         {"problem": problem.name, "command": problem.command(), "passes": all(row.passes() for row in rows),
          "rows": [{"quantity": row.what, "computed": row.computed, "known": row.known, "allowed": row.allowed, "passes": row.passes()}
-                  for row in rows]}, indent=2) + "\n", **AS_NAMED)
+                  for row in rows]}, indent=2) + "\n")
 
 
 def judge(problem, run, directory):

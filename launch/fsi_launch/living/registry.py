@@ -69,7 +69,12 @@ class Entry:
         _make_folder(self.path.parent)
         _forget_dead_runs(self.path.parent)
         with open(os.open(self.path, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "w", encoding="utf-8") as file:
-            file.write(json.dumps(self.content) + "\n")
+            try:
+                file.write(json.dumps(self.content) + "\n")
+                file.flush()
+            except OSError as error:
+                self.path.unlink(missing_ok=True)
+                raise OSError(error.errno, error.strerror, str(self.path)) from None
         return self
 
     def __exit__(self, *_):

@@ -13,6 +13,7 @@ from fsi_launch.failure import DONE, UserMistake
 from fsi_launch.new import materials, outline, text
 from fsi_launch.new.problem import Problem
 from fsi_launch.new.questions import ask_for_missing
+from fsi_launch.results import whole_file
 from fsi_launch.results.summary import percent
 
 SIZE = 0.1      # of a circle [m]
@@ -63,7 +64,7 @@ def problem_of(options):
 
 
 def _write(path, content):
-    path.write_text(content, encoding="utf-8")
+    whole_file.write(path, content)
     print(f"wrote {path}")
 
 
@@ -78,7 +79,7 @@ def _settled(problem, path):
     """The Problem with rounded corners where sharp ones of a rigid body turn out to be not valid; takes `path` for the trial."""
     if not text.may_be_sharp(problem):
         return problem
-    path.write_text(text.write(problem, str(path), None), encoding="utf-8")
+    whole_file.write(path, text.write(problem, str(path), None))
     try:
         cases.check(str(path), [], [])
         return problem

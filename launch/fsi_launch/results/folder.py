@@ -12,7 +12,7 @@ OF_A_RUN = ("case.yaml", "summary.json", "log", "parts", "fields", "checkpoints"
             "forces_*.csv", "energies_*.csv", "budget_*.csv", "run.xmf", "fluid.h5", "fluid_*.h5", "solid_*.h5", "reference.h5", former.ASIDE, replaced.ASIDE)
 OF_PICTURES = ("*.png", "*.csv", "movie.mp4", "movie.gif")    # in plots/
 UNFINISHED = (".part", ".tmp")               # of a program that was killed while it wrote
-OF_THE_START = ("case.yaml", "case.yaml.tmp", "log")    # what is there before the first program begins
+OF_THE_START = ("case.yaml", "case.yaml.part", "log")    # what is there before the first program begins
 # What a person has to put right; anything else is a fault of the disk.
 REMEDY = "name another folder, or wait for its end"
 PLACES = (errno.EACCES, errno.EPERM, errno.EROFS, errno.ENOTDIR, errno.ELOOP, errno.ENAMETOOLONG, errno.ENOENT)

@@ -1,9 +1,9 @@
 """probes.csv: what every program wrote about its own probes, side by side in one table over time."""
 
-import contextlib
 import csv
-import os
 from pathlib import Path
+
+from fsi_launch.results import whole_file
 
 
 def _read(path):
@@ -40,12 +40,5 @@ def merge(directory, programs):
     rows = joined(directory, programs)
     if not rows:
         return
-    temporary = Path(directory) / "probes.csv.part"
-    try:
-        with open(temporary, "w", encoding="utf-8", newline="") as file:
-            csv.writer(file, lineterminator="\n").writerows(rows)
-        os.replace(temporary, Path(directory) / "probes.csv")
-    except OSError as error:
-        with contextlib.suppress(OSError):
-            temporary.unlink(missing_ok=True)   # the summary may find room in its place
-        raise OSError(error.errno, error.strerror, str(Path(directory) / "probes.csv")) from None
+    with whole_file.writing(Path(directory) / "probes.csv", newline="") as file:     # else the summary may find room in its place
+        csv.writer(file, lineterminator="\n").writerows(rows)

@@ -4,11 +4,11 @@ import contextlib
 import csv
 import json
 import math
-import os
 import textwrap
 from pathlib import Path
 
 from fsi_launch import version
+from fsi_launch.results import whole_file
 
 ERROR_ORDER = ("rho", "v1", "v2", "T", "p", "u_bar", "v_bar", "P_bar")
 PARTICIPANT_KEYS = ("role", "status", "points", "substeps", "compute_s", "wait_s", "time_s", "point_updates_per_s",
@@ -104,14 +104,7 @@ def merge(parts, case, status, reason, wall_s, known=None, done=()):
 
 def write(directory, summary):
     """Writes DIR/summary.json, whole or not at all."""
-    path = Path(directory) / "summary.json"
-    temporary = path.with_suffix(".json.tmp")
-    with open(temporary, "w", encoding="utf-8") as file:
-        json.dump(summary, file, indent=2)
-        file.write("\n")
-        file.flush()
-        os.fsync(file.fileno())
-    os.replace(temporary, path)
+    whole_file.write(Path(directory) / "summary.json", json.dumps(summary, indent=2) + "\n")
 
 
 # --- expectations

@@ -12,7 +12,8 @@ from fsi_launch import case as cases
 from fsi_launch.studies import self_convergence
 from fsi_launch.failure import DONE, EXPECTATION_MISSED, Failure, UserMistake
 from fsi_launch.run import Request, run
-from fsi_launch.telling import AS_NAMED, tell
+from fsi_launch.results import whole_file
+from fsi_launch.telling import tell
 
 
 ROUND_OFF = 1e-13  # errors below it have no rate: fields of order one are exact there
@@ -153,7 +154,7 @@ def _compare_levels(options, case, directory):
     print(text, end="")
     for suffix, content in (("txt", text), ("md", self_convergence.as_markdown(options.levels, rows)),
                             ("json", self_convergence.as_json(options.levels, rows))):
-        (directory / f"converge.{suffix}").write_text(content, **AS_NAMED)
+        whole_file.write(directory / f"converge.{suffix}", content)
     tell(f"tables in {directory}")
     return _judge({f"{row.quantity} of {row.solid} at t = {row.t:g}": row.orders[-1] if row.orders else None for row in rows
                    if any(difference > row.round_off for difference in row.differences)}, options.min_rate)
@@ -199,6 +200,6 @@ def main(options):
     text = as_text(result)
     print(text, end="")
     for suffix, content in (("txt", text), ("md", as_markdown(result)), ("json", json.dumps(result, indent=2) + "\n")):
-        (directory / f"converge.{suffix}").write_text(content, **AS_NAMED)
+        whole_file.write(directory / f"converge.{suffix}", content)
     tell(f"tables in {directory}")
     return _judge(fitted(result), options.min_rate)

@@ -19,6 +19,7 @@ from fsi_launch import case as cases, paths, version
 from fsi_launch.failure import DONE, EXPECTATION_MISSED, Failure, OUTPUT_FAILED, UserMistake
 from fsi_launch.living.supervise import leashed
 from fsi_launch.run import needed
+from fsi_launch.results import whole_file
 from fsi_launch.results.summary import aligned, value_at
 from fsi_launch.telling import AS_NAMED, tell
 
@@ -271,7 +272,7 @@ def as_markdown(result):
 
 
 def _write_csv(result, path):
-    with open(path, "w", **AS_NAMED, newline="") as file:
+    with whole_file.writing(path, newline="") as file:
         writer = csv.writer(file)
         writer.writerow([*result["vary"], "status", "t", "steps", "wall_s", *result["quantities"]])
         for row in result["rows"]:
@@ -342,9 +343,9 @@ def main(options):
     result = result_of(found, name, vary, options.show)
     text = "\n".join(aligned(_rows(result))) + "\n"
     print(text, end="")
-    (directory / "study.txt").write_text(text, **AS_NAMED)
-    (directory / "study.md").write_text(as_markdown(result), **AS_NAMED)
-    (directory / "study.json").write_text(json.dumps(result, indent=2) + "\n", **AS_NAMED)
+    whole_file.write(directory / "study.txt", text)
+    whole_file.write(directory / "study.md", as_markdown(result))
+    whole_file.write(directory / "study.json", json.dumps(result, indent=2) + "\n")
     _write_csv(result, directory / "study.csv")
     drawn = _draw(result, directory, [trial.case.text for trial in found])
     tell(f"tables{' and picture' if drawn else ''} in {directory}")

@@ -9,6 +9,7 @@ from pathlib import Path
 from fsi_launch import paths
 from fsi_launch.failure import DONE, Failure, INTERNAL_ERROR
 from fsi_launch.living.supervise import leashed
+from fsi_launch.results import whole_file
 from fsi_launch.telling import AS_NAMED, tell
 
 STANDARD = {  # what Google Benchmark itself reports; everything else is a counter of the benchmark's own
@@ -61,6 +62,6 @@ def main(options):
                 print(f"{name:52} {seconds:>14}  {counters}", flush=True)
     path = Path(options.out)
     path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(json.dumps(results, indent=1) + "\n", encoding="utf-8")
+    whole_file.write(path, json.dumps(results, indent=1) + "\n")
     tell(f"all of it is in {path}")
     return DONE

@@ -16,7 +16,7 @@ from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
 from fsi_launch import paths
-from fsi_launch.results import restart
+from fsi_launch.results import restart, whole_file
 from fsi_launch.failure import DONE, EXPECTATION_MISSED, Failure, INTERNAL_ERROR
 from fsi_launch.living import ranks
 from fsi_launch.living.processes import programs_of, until
@@ -275,7 +275,7 @@ def main(options):
     print(f"{len(done)} trials, seed {options.seed}: {len(flawed)} with flaws, {late} too late to hit anything; "
           f"restarts: {dict(collections.Counter(trial.restarted for trial in done if not trial.late))}")
     if options.out:
-        Path(options.out).write_text(json.dumps([asdict(trial) for trial in done], indent=1) + "\n", encoding="utf-8")
+        whole_file.write(options.out, json.dumps([asdict(trial) for trial in done], indent=1) + "\n")
     if flawed:
         tell(f"fsi: what the flawed runs left is in {folder}")
         return EXPECTATION_MISSED

@@ -7,7 +7,8 @@ from pathlib import Path
 import numpy as np
 
 from fsi_launch.plot.reading import data
-from fsi_launch.telling import AS_NAMED, readable
+from fsi_launch.results import whole_file
+from fsi_launch.telling import readable
 
 MOST_TIMES = 3
 TELLING = ("law", "factor", "projection", "multirate")
@@ -80,7 +81,7 @@ def few(times):
 
 
 def write_table(heading, rows, path):
-    with open(path, "w", **AS_NAMED, newline="") as file:
+    with whole_file.writing(path, newline="") as file:
         writer = csv.writer(file)
         writer.writerow(heading)
         writer.writerows(rows)

@@ -140,7 +140,7 @@ class Replaced(Making):
             (self.run / "case.yaml").rename(aside / "case.yaml")
         else:
             self.begin()
-            (self.run / "case.yaml.tmp").touch()
+            (self.run / "case.yaml.part").touch()
         if moment == "half back":
             (self.run / "case.yaml").unlink()
             (aside / "case.yaml").rename(self.run / "case.yaml")
@@ -152,7 +152,7 @@ class Replaced(Making):
                 self.until.close()
                 with self.assertRaisesRegex(UserMistake, "--overwrite"), self.until:
                     folder.make(str(self.run), "piston", False, self.until)
-                (self.run / "case.yaml.tmp").unlink(missing_ok=True)
+                (self.run / "case.yaml.part").unlink(missing_ok=True)
                 self.assertEqual(self.found(), self.before)
                 with self.assertRaises(KeyboardInterrupt), self.until:
                     self.begin()
@@ -165,7 +165,7 @@ class Replaced(Making):
         (self.run / "case.yaml").unlink()
         with self.assertRaisesRegex(UserMistake, "has no checkpoint"):
             restart.expect_run(self.run)
-        (self.run / "case.yaml.tmp").unlink()
+        (self.run / "case.yaml.part").unlink()
         self.assertEqual(self.found(), self.before)
 
     def test_it_is_gone_once_the_programs_start(self):
