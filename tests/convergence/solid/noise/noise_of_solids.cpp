@@ -21,11 +21,12 @@ struct Worst {
 };
 
 template <class L>
-Worst worst_of_betas(NoiseCase noise, int steps) {
+Worst worst_of_betas(NoiseCase noise, int steps,
+                     std::initializer_list<double> relaxations = {0.0, 0.2, 0.5, 0.9}) {
   Worst worst;
   for (const double P : {0.0, 0.1, 0.5, 1.0}) {
     for (const double u : {0.0, 0.1, 0.5, 1.0}) {
-      for (const double r : {0.0, 0.2, 0.5, 0.9}) {
+      for (const double r : relaxations) {
         noise.beta_P = P;
         noise.beta_u = u;
         noise.beta_r = r;
@@ -55,13 +56,13 @@ struct State {
   double lambda = 1;
 };
 
-/// Dead loads are not for bodies under pressure: these would buckle.
+/// With relaxation, without which noise grows there. Dead loads are not for bodies under pressure: these would buckle.
 template <class L>
 void campaign_under_pressure(std::initializer_list<State> states, int steps) {
   for (const State& state : states) {
     for (const double aspect : {1.0, 4.0, 8.0}) {
       const NoiseCase noise = {.F = state.F, .lambda = state.lambda, .aspect = aspect};
-      print<L>(state.name, noise, false, worst_of_betas<L>(noise, steps));
+      print<L>(state.name, noise, false, worst_of_betas<L>(noise, steps, {0.2, 0.5, 0.9}));
     }
   }
 }

@@ -4,6 +4,7 @@
 import dataclasses
 import errno
 import json
+import os
 import sys
 import unittest
 from pathlib import Path
@@ -246,7 +247,7 @@ class Probes(InScratch):
 
     def test_a_table_without_room_is_named_and_leaves_none_of_it(self):
         self.write("fluid", "t [time],a.p\n0,1\n")
-        with mock.patch.object(probes.os, "replace", side_effect=OSError(errno.ENOSPC, "No space left")):
+        with mock.patch.object(os, "replace", side_effect=OSError(errno.ENOSPC, "No space left")):
             with self.assertRaises(OSError) as caught:
                 probes.merge(self.folder, ["fluid"])
         self.assertEqual((caught.exception.errno, caught.exception.filename), (errno.ENOSPC, str(self.folder / "probes.csv")))

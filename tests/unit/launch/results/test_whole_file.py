@@ -1,19 +1,16 @@
 """Files that are written whole or not at all."""
 
 import os
-import tempfile
+import sys
 import unittest
 from pathlib import Path
 
-from fsi_launch.results import whole_file
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+from launcher import InScratch  # noqa: E402
+from fsi_launch.results import whole_file  # noqa: E402
 
 
-class WholeFile(unittest.TestCase):
-    def setUp(self):
-        place = tempfile.TemporaryDirectory()
-        self.addCleanup(place.cleanup)
-        self.folder = Path(place.name)
-
+class WholeFile(InScratch):
     def test_one_takes_the_place_of_another(self):
         path = self.folder / "table.csv"
         whole_file.write(path, "one\n")
