@@ -4,6 +4,7 @@
 import contextlib
 import io
 import sys
+import tempfile
 import unittest
 from pathlib import Path
 
@@ -188,6 +189,19 @@ class Times(unittest.TestCase):
             with contextlib.redirect_stderr(io.StringIO()) as said:
                 self.assertEqual(len(list(fields.pictures([gas], fields.Look(scales.Scales(1, 1, 1))))), 12)
             self.assertEqual(said.getvalue(), told)
+
+
+class DamagedFiles(unittest.TestCase):
+    """They are named, whatever is wrong with them."""
+
+    def test_tables_and_references_that_cannot_be_read(self):
+        reads = {"converge.json": data.convergence, "study.json": data.study, "reference.h5": data.piston_reference}
+        with tempfile.TemporaryDirectory() as place:
+            for name, read_it in reads.items():
+                for content in (b"", b"[]", b"{\"t\": ", b"\x89HDF\r\n\x1a\nand no more"):
+                    (Path(place) / name).write_bytes(content)
+                    with self.assertRaisesRegex(UserMistake, f"{name}' is damaged: "):
+                        read_it(Path(place))
 
 
 class Levels(unittest.TestCase):

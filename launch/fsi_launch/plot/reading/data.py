@@ -155,6 +155,26 @@ def _read_output(group):
 
 
 @contextlib.contextmanager
+def _sound(path):
+    """What is read within from `path` is what was written there; else it is the user's to put right."""
+    try:
+        yield
+    except (ValueError, KeyError, TypeError, csv.Error, OSError) as error:
+        raise UserMistake(f"'{path}' is damaged: {str(error) or type(error).__name__}; make the run again, or take the file away") from None
+
+
+def _json(path):
+    """What is in it, or None where there is none."""
+    if not path.is_file():
+        return None
+    with _sound(path):
+        found = json.loads(path.read_text(**AS_NAMED))
+        if not isinstance(found, dict):
+            raise ValueError("it holds no results")
+        return found
+
+
+@contextlib.contextmanager
 def _opened(path):
     try:
         with h5py.File(path, "r") as file:
@@ -244,20 +264,21 @@ def last_state(directory):
     """Series of the one state that each program left where the solution diverged; none of other runs."""
     series = []
     for path, name in files(directory / "last_state"):
-        with h5py.File(path, "r") as file:
+        with _sound(path), h5py.File(path, "r") as file:
             series.append(Series(name, [_read_output(file)], _is_of_gas(path)))
     return series
 
 
 def read_table(path):
     """The Table in a CSV, or None where it has less than two lines of numbers."""
-    with open(path, **AS_NAMED, newline="") as file:
+    with _sound(path), open(path, **AS_NAMED, newline="") as file:
         return _table(path.stem, [row for row in csv.reader(file) if row])
 
 
 def joined_probes(directory):
     """The Table that probes.csv will be when the run has ended, or None where it has less than two lines of numbers."""
-    return _table("probes", probes.joined(directory))
+    with _sound(directory / "parts"):
+        return _table("probes", probes.joined(directory))
 
 
 def _table(name, rows):
@@ -284,8 +305,7 @@ def all_tables(directory):
 
 def convergence(directory):
     """The table of errors, or of differences between levels, `fsi converge` left in the folder, or None."""
-    path = directory / "converge.json"
-    return json.loads(path.read_text(**AS_NAMED)) if path.is_file() else None
+    return _json(directory / "converge.json")
 
 
 def finest_level(directory):
@@ -296,8 +316,7 @@ def finest_level(directory):
 
 def study(directory):
     """What `fsi study` left in the folder, or None."""
-    path = directory / "study.json"
-    return json.loads(path.read_text(**AS_NAMED)) if path.is_file() else None
+    return _json(directory / "study.json")
 
 
 def disk_reference(directory):
@@ -315,7 +334,7 @@ def _reference(directory, coordinate):
     path = directory / "reference.h5"
     if not path.is_file():
         return {}
-    with h5py.File(path, "r") as file:
+    with _sound(path), h5py.File(path, "r") as file:
         if not all(coordinate in group.get("gas", ()) for group in file.values()):
             return {}
         return {float(group.attrs["t"]): {part: {key: np.asarray(group[part][key]) for key in group[part]}
