@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -112,7 +113,7 @@ void SolidParticipant::write_tables(double t, double dt, ProjectedStates /*proje
 
 void SolidParticipant::write_forces(double t, double dt) {
   const SideLoad load = whole_load();
-  received_.add({load.force[0], load.force[1], load.power}, dt);
+  received_.add({load.force[0], load.force[1], load.power, load.force.norm()}, dt);
   const Pose pose = crew_.pose();
   forces_->row({t, load.force[0], load.force[1], load.moment, load.power, pose.centre[0], pose.centre[1],
                 pose.velocity[0], pose.velocity[1], pose.angle});
@@ -175,10 +176,12 @@ void SolidParticipant::report(double t, io::Part& part) const {
   part.conservation["angular_momentum"] = now.angular_momentum - initial_totals_.angular_momentum;
   part.conservation["angular_momentum_initial"] = initial_totals_.angular_momentum;
   if (surrounded()) {
-    const std::array<double, 3>& in = received_.sum();
+    const std::array<double, 4>& in = received_.sum();
     part.conservation["momentum1_defect"] = part.conservation["momentum1"] - in[0];
     part.conservation["momentum2_defect"] = part.conservation["momentum2"] - in[1];
     part.conservation["energy_defect"] = part.conservation["energy"] - in[2];
+    part.conservation["momentum_scale"] =
+        std::max(in[3], 0.1 * std::sqrt(2.0 * now.mass * now.kinetic_energy));
   }
   const StateFunction exact = body_.data().reference_state();
   if (!exact || part.status == "stopped") return;

@@ -69,7 +69,7 @@ class SolidParticipant final : public Participant {
   std::optional<io::CsvWriter> forces_, probe_table_;
   std::vector<ProbePoint> probes_;
   Totals initial_totals_;
-  TimeIntegral<3> received_;  ///< of the gas: force, power
+  TimeIntegral<4> received_;  ///< of the gas: force, power, size of the force
   Squeeze squeeze_;
   std::optional<grid::RippleWatch> ripples_;
   std::vector<grid::WatchedGrid> watched_;  ///< work memory

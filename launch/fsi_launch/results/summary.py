@@ -243,6 +243,20 @@ def noise_in_words(summary):
             f"its range, grid \"{noise['grid']}\", point ({point}) at ({place}), t = {noise['t']:.4g}")
 
 
+MISSED_MOMENTUM = 0.05  # part of the momentum that the gas gave a solid
+
+
+def momentum_lines(summary):
+    """A line for each solid that has not the momentum that the gas gave it."""
+    lines = []
+    for name, totals in summary.get("conservation", {}).items():
+        missed = math.hypot(totals.get("momentum1_defect") or 0, totals.get("momentum2_defect") or 0)
+        if (scale := totals.get("momentum_scale") or 0) and missed > MISSED_MOMENTUM * scale:
+            lines.append(f"  warning: the momentum of {name} is off by {percent(missed / scale)} of what the gas gave it; a finer grid brings it nearer "
+                         "(docs/output.md, budgets)")
+    return lines
+
+
 def _interface_lines(interface):
     """The jumps beside what they are to be compared with."""
     def jump(name, scale, of):
@@ -306,7 +320,7 @@ def describe(summary, directory, width=None):
         lines += _interface_lines(interface)
     if counted := {key: value for key, value in summary["counters"].items() if value and key not in ROUTINE}:
         lines.append("  counters: " + ", ".join(f"{key.replace('_', ' ')} {value:g}" for key, value in counted.items()))
-    lines += overlap_lines(summary)
+    lines += overlap_lines(summary) + momentum_lines(summary)
     if noise := noise_in_words(summary):
         lines.append(f"  warning: {noise}")
     if summary.get("expectations"):

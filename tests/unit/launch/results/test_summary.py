@@ -138,6 +138,15 @@ class Summary(InScratch):
         self.part("fluid", overlap=sound | {"amplification": None})
         self.assertIn("amplified errors", summary.describe(self.merged(), self.folder))
 
+    def test_solids_that_miss_momentum_are_told_with_how_much(self):
+        def said(**totals):
+            return "\n".join(summary.momentum_lines({"conservation": {"bar": totals, "fluid": {"momentum1_defect": 3, "momentum2_defect": 4}}}))
+        self.assertIn("the momentum of bar is off by 50 % of what the gas gave it", said(momentum1_defect=-3, momentum2_defect=4, momentum_scale=10))
+        self.assertEqual(said(momentum1_defect=0.3, momentum2_defect=0.4, momentum_scale=10.1), "")
+        self.assertEqual(said(momentum1_defect=1, momentum2_defect=1, momentum_scale=0), "")
+        self.assertEqual(said(momentum1_defect=None, momentum2_defect=None, momentum_scale=None), "")
+        self.assertEqual(summary.momentum_lines({}), [])
+
     def test_jumps_are_said_to_be_before_the_projection_and_have_a_scale(self):
         self.part("coupler", interface={"max_velocity_jump": 67.3, "max_traction_jump": 7.3e6, "max_gap": 1e-6,
                                         "velocity_scale": 673.0, "traction_scale": 1e7})
