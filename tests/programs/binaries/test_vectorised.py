@@ -18,7 +18,8 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from running import BIN, ROOT  # noqa: E402
 
 SOLID = (*(f"solid::GodunovSweep<.*::{loop}\\(" for loop in ("predict", "waves", "solve_faces1", "solve_faces2")),
-         "solid::GodunovSweep<.*::update<.*NoTerms", "solid::GodunovSweep<.*::update<.*AllDissipation",
+         *(f"solid::StressUpwinding<.*::{loop}\\(" for loop in ("find_shares", "correct_faces1", "correct_faces2", "add_decay")),
+         "solid::GodunovSweep<.*::spread_squared<", "solid::GodunovSweep<.*::update<.*NoTerms", "solid::GodunovSweep<.*::update<.*AllDissipation",
          *(f"solid::{loop}<" for loop in ("find_misses", "find_stresses", "find_impedances", "show_interface")),
          "solid::take_newton_steps\\(", "solid::add_relaxation<",
          "solid::add_tangential_stress_dissipation<", "solid::add_displacement_dissipation\\(", "solid::add_bulk_diffusion\\(")
