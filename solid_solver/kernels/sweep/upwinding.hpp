@@ -1,9 +1,9 @@
 #pragma once
 /// What upwinding does to the stress, and where it must not: paper eq. (36) takes K grad v* with the velocities v* of the
 /// faces, and their upwind part makes the stress decay at the rates of M = sum over directions of K Z^-1 n^T |grad r|. Where
-/// K is positive on all velocity gradients, no rate is negative. Under pressure K is not: a rotation then lowers
-/// F : P(F), waves stay real, and what no wave carries grows. There a share of M gives way to a decay of all components of
-/// P alike (docs/theory_solid.md, *Solids under pressure*).
+/// K is positive on all velocity gradients, no rate is negative. Under pressure K is not: a rotation of the strained body then
+/// has a negative eigenvalue. Waves stay real, but what no wave carries grows. There a share of M gives way to a decay of all
+/// components of P alike (docs/theory_solid.md, *Solids under pressure*).
 
 #include <algorithm>
 #include <cmath>
