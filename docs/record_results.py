@@ -425,7 +425,15 @@ def noise_of_solids(steps, commit=None):
     return text + (f", in a clone at commit {commit}" if commit else "") + "\n\n" + said.stdout
 
 
+def amplification():
+    """Of waves in a strained solid, from the symbol of the scheme."""
+    script = "tests/convergence/solid/noise/amplification.py"
+    said = subprocess.run(["/usr/bin/python3", "-B", str(ROOT / script)], cwd=ROOT, check=True, capture_output=True, text=True)
+    return f"`{script}`\n\n{said.stdout}"
+
+
 def other_studies():
+    yield "Amplification of waves in a strained solid", amplification
     yield "Noise in a strained solid, 64 combinations of the three betas", lambda: noise_of_solids(10000)
     yield "Noise in a strained solid, before the step bounded what grew", lambda: noise_of_solids(1000, BEFORE_THE_BOUNDS)
     yield "Ten times as long as shipped", ten_times_as_long
