@@ -86,6 +86,15 @@ TEST(RoundOffNoiseUnderPressure, DoesNotGrowInABodySqueezedFar) {
   }
 }
 
+/// Where waves are coupled far beyond what so little relaxation could outweigh: 49 mu at 0.98 is under a pressure of 2 mu.
+TEST(RoundOffNoiseUnderPressure, DoesNotGrowInANearlyIncompressibleBodyWithALittleRelaxation) {
+  for (const double lambda : {49.0, 200.0}) {
+    const NoiseCase noise = {
+        .F = {0.98, 0, 0, 0.98}, .lambda = lambda, .beta_P = 0.5, .beta_u = 0.5, .beta_r = 0.05};
+    EXPECT_LT(test::growth_of_noise<NeoHookean>(noise, 3000), 1.0) << lambda;
+  }
+}
+
 /// Without relaxation only the dissipation of the tangential stress makes the noise of P that no wave carries decay,
 /// and slowly: what is left of it stands beside the corners, and hardly moves.
 TYPED_TEST(RoundOffNoise, DoesNotGrowBesideGivenDisplacementWithoutRelaxationEq18Eq39) {
