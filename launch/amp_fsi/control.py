@@ -1,5 +1,6 @@
 """Starts runs and steers them, through the same command that a person types."""
 
+import contextlib
 import json
 import os
 import subprocess
@@ -11,6 +12,7 @@ from amp_fsi.results import Run
 from fsi_launch import paths
 from fsi_launch.living import processes, registry
 from fsi_launch.failure import EXPECTATION_MISSED
+from fsi_launch.results import new_folder
 from fsi_launch.telling import AS_NAMED
 
 POLL = 0.05     # [s] between two looks
@@ -58,9 +60,7 @@ def _words(case, set, solids):
 def _folder(case, out):
     if out is not None:
         return Path(out)
-    stamp = f"{Path(str(case)).stem}-{time.strftime('%Y%m%d-%H%M%S')}"
-    names = (Path("runs") / (stamp + (f"-{count}" if count > 1 else "")) for count in range(1, 1000))
-    return next(name for name in names if not name.exists())
+    return new_folder.claimed(Path(str(case)).stem)
 
 
 def _moment(directory):
@@ -144,7 +144,11 @@ def start(case=None, *, set=None, solids=None, out=None, restart=None, overwrite
     running = Running(process, directory, former)
     running.until(lambda: registry.running_in(directory) == process.pid and processes.programs_of(directory))
     if not running.going():
-        running.wait()
+        try:
+            running.wait()
+        finally:
+            with contextlib.suppress(OSError):
+                directory.rmdir()   # that of a run which was refused: it is empty
     return running
 
 

@@ -3,14 +3,13 @@
 import csv
 import json
 import re
-import time
 from dataclasses import dataclass
 from pathlib import Path
 
 from fsi_launch import case as cases
 from fsi_launch.failure import DONE, EXPECTATION_MISSED, UserMistake
 from fsi_launch.gallery import problems
-from fsi_launch.results import whole_file
+from fsi_launch.results import new_folder, whole_file
 from fsi_launch.results.summary import aligned
 from fsi_launch.telling import AS_NAMED
 
@@ -119,7 +118,9 @@ def main(options):
     problem = problems.problem(options.problem)
     from fsi_launch import plot
     plot.style_or_mistake()
-    directory = Path(options.out or f"runs/gallery-{problem.name}-{time.strftime('%Y%m%d-%H%M%S')}")
+    if options.compare and not options.out:
+        raise UserMistake("--compare: say which folder's run is to be compared, --out DIR")
+    directory = Path(options.out) if options.out else new_folder.claimed(f"gallery-{problem.name}")
     run = directory / "run"
     if not options.compare:
         from fsi_launch.run import Request, run as start

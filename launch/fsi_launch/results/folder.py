@@ -2,11 +2,10 @@
 
 import contextlib
 import errno
-import time
 from pathlib import Path
 
 from fsi_launch.failure import Failure, OUTPUT_FAILED, UserMistake
-from fsi_launch.results import alone, former, replaced, restart
+from fsi_launch.results import alone, former, new_folder, replaced, restart
 
 OF_A_RUN = ("case.yaml", "summary.json", "log", "parts", "fields", "checkpoints", "last_state", "plots", "interface.csv", "probes.csv",
             "forces_*.csv", "energies_*.csv", "budget_*.csv", "run.xmf", "fluid.h5", "fluid_*.h5", "solid_*.h5", "reference.h5", former.ASIDE, replaced.ASIDE)
@@ -16,14 +15,6 @@ OF_THE_START = ("case.yaml", "case.yaml.part", "log")    # what is there before 
 # What a person has to put right; anything else is a fault of the disk.
 REMEDY = "name another folder, or wait for its end"
 PLACES = (errno.EACCES, errno.EPERM, errno.EROFS, errno.ENOTDIR, errno.ELOOP, errno.ENAMETOOLONG, errno.ENOENT)
-
-
-def _free_name(name, stamp):
-    for count in range(1, 1000):
-        path = Path("runs") / (f"{name}-{stamp}" + (f"-{count}" if count > 1 else ""))
-        if not path.exists():
-            return path
-    raise Failure(OUTPUT_FAILED, "no free name for the results in runs/")
 
 
 def _is_one_of(name, patterns):
@@ -88,10 +79,13 @@ def make(out, name, overwrite, until):
     """(the folder of a new run's results with log/ in it, the folders that were made for it). `out`: where the user wants it, or None.
     `until`: the contextlib.ExitStack until whose end no other command may work there; if it ends by an error, results that the run would
     have replaced are there again, unless replaced.drop was called. Throws UserMistake where none can be."""
-    directory = Path(out) if out else _free_name(name, time.strftime("%Y%m%d-%H%M%S"))
+    directory = Path(out or "runs")
     try:
         _expect_place(directory)
         made = _make(directory)
+        if not out:
+            directory = new_folder.claimed(name)
+            made = [directory, *made]
         until.enter_context(alone.at_work(directory, f"--out {directory}", REMEDY))
         until.enter_context(replaced.kept(directory))
         _expect_free(directory, overwrite)

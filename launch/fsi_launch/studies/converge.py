@@ -5,14 +5,13 @@ Without a reference solution the grids are compared with each other (self_conver
 
 import json
 import math
-import time
 from pathlib import Path
 
 from fsi_launch import case as cases
 from fsi_launch.studies import self_convergence
 from fsi_launch.failure import DONE, EXPECTATION_MISSED, Failure, UserMistake
 from fsi_launch.run import Request, run
-from fsi_launch.results import whole_file
+from fsi_launch.results import new_folder, whole_file
 from fsi_launch.telling import tell
 
 
@@ -188,10 +187,11 @@ def main(options):
     if case.reference == "none" and (module := self_convergence.lacks()):
         tell(f"the rows 'boundary' are left out, they take {module}: apt-get install python3-h5py python3-matplotlib")
     name = case.name
-    directory = Path(options.out or f"runs/converge-{name}-{time.strftime('%Y%m%d-%H%M%S')}")
-    if directory.exists() and (not directory.is_dir() or any(directory.iterdir())):
+    directory = Path(options.out) if options.out else None
+    if directory and directory.exists() and (not directory.is_dir() or any(directory.iterdir())):
         raise UserMistake(f"--out {directory} is not empty; name a new folder")
     _expect_valid(options)
+    directory = directory or new_folder.claimed(f"converge-{name}")
     summaries = _run_levels(options, directory)
     names = [key for key in summaries[0]["errors"] if not options.rates or key in options.rates]
     if not names:

@@ -16,10 +16,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from fsi_launch import case as cases, paths, version
-from fsi_launch.failure import DONE, EXPECTATION_MISSED, Failure, OUTPUT_FAILED, UserMistake
+from fsi_launch.failure import DONE, EXPECTATION_MISSED, UserMistake
 from fsi_launch.living.supervise import leashed
 from fsi_launch.run import needed
-from fsi_launch.results import whole_file
+from fsi_launch.results import new_folder, whole_file
 from fsi_launch.results.summary import aligned, value_at
 from fsi_launch.telling import AS_NAMED, tell
 
@@ -293,19 +293,11 @@ def _draw(result, directory, cases_of_runs):
 
 
 def _made(out, name):
-    """The folder of the study: the one that was named, or a new one, also for one of two that begin in the same second."""
+    """The folder of the study: the one that was named, or a new one."""
     if out:
         Path(out).mkdir(parents=True, exist_ok=True)
         return Path(out)
-    stem = f"runs/study-{name}-{time.strftime('%Y%m%d-%H%M%S')}"
-    for count in range(1, 1000):
-        directory = Path(stem + (f"-{count}" if count > 1 else ""))
-        try:
-            directory.mkdir(parents=True)
-            return directory
-        except FileExistsError:
-            continue
-    raise Failure(OUTPUT_FAILED, "no free name for the study in runs/; name one with --out")
+    return new_folder.claimed(f"study-{name}")
 
 
 def _expect_used(vary, found):
