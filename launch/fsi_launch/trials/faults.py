@@ -3,6 +3,7 @@ as it should (or gone on), with nothing left behind, and its restart must give t
 disturbed."""
 
 import collections
+import contextlib
 import concurrent.futures
 import json
 import os
@@ -125,8 +126,13 @@ def _reason(directory):
 
 
 def _shared_memory():
-    """Without that of ranks: the runs here have none, other runs may."""
-    return {entry.name for entry in ranks.SHARED.iterdir() if not entry.name.startswith(ranks.FOLDER)}
+    """Of this user, without that of ranks: the runs here have none, other runs may."""
+    found = set()
+    for entry in ranks.SHARED.iterdir():
+        with contextlib.suppress(FileNotFoundError):
+            if not entry.name.startswith(ranks.FOLDER) and entry.lstat().st_uid == os.getuid():
+                found.add(entry.name)
+    return found
 
 
 # --- one trial
