@@ -3,8 +3,8 @@ as it should (or gone on), with nothing left behind, and its restart must give t
 disturbed."""
 
 import collections
-import contextlib
 import concurrent.futures
+import contextlib
 import json
 import os
 import random
