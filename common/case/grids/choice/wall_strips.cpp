@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -78,9 +77,17 @@ void refuse_touching(const BodyFittedSpec& ring, const Node& item, Side side, do
           ring.solid, name_of(side), std::max(distance, 0.0))));
 }
 
+/// A side and the curve whose body comes nearest to it.
+struct NearBody {
+  Side side{};
+  const Node* body = nullptr;  ///< none is near
+  double distance = std::numeric_limits<double>::infinity();
+};
+
 /// The curve whose body is near to a wall that has no grid of its own.
-const Node* body_near(const Node& list, const FluidSpec& fluid, const std::vector<std::size_t>& open,
-                      Side side) {
+NearBody body_near(const Node& list, const FluidSpec& fluid, const std::vector<std::size_t>& open,
+                   Side side) {
+  NearBody nearest{.side = side};
   const GridSpec& box = fluid.grid;
   const double across = (box.x_b - box.x_a) / (box.n1 - 1), up = (box.y_b - box.y_a) / (box.n2 - 1);
   const double cell = std::min(across, up), spacing = std::max(across, up);
@@ -91,9 +98,9 @@ const Node* body_near(const Node& list, const FluidSpec& fluid, const std::vecto
     if (!(distance < near * spacing) || !gas_comes_to(foot, fluid, k, cell)) continue;
     if (std::abs(distance) < touching * cell && !ring.solid.empty())
       refuse_touching(ring, list.items[k], side, distance);
-    if (distance > 0) return &list.items[k];
+    if (distance > 0 && distance < nearest.distance) nearest = {side, &list.items[k], distance};
   }
-  return nullptr;
+  return nearest;
 }
 
 Node list_of(std::vector<Node> items, const std::string& place) {
@@ -128,22 +135,25 @@ Node strip_along(const GridSpec& box, Side side, const std::string& place) {
 }  // namespace
 
 bool add_wall_strips(Node& body_fitted, const FluidSpec& fluid, const std::vector<std::size_t>& open) {
-  std::array<bool, 2> has_strips{};  // along x = const, along y = const: strips do not meet in corners
   const auto has_name = [&](const std::string& name) {
     return std::ranges::find(fluid.body_fitted, name, &BodyFittedSpec::name) != fluid.body_fitted.end();
   };
-  std::vector<Node> strips;
+  std::vector<NearBody> near_bodies;
   for (const Side side : {Side::bottom, Side::top, Side::left, Side::right}) {
-    const auto across = static_cast<std::size_t>(direction_of(side));
     const bool is_wall = schema::gas_boundary(fluid.boundary[static_cast<std::size_t>(side)].kind).is_wall;
-    if (!is_wall || has_strips[1 - across] || has_name(fmt::format("along_{}", name_of(side)))) continue;
+    if (!is_wall || has_name(fmt::format("along_{}", name_of(side)))) continue;
     if (std::ranges::any_of(fluid.body_fitted,
                             [side](const BodyFittedSpec& ring) { return has_an_end_on(ring.curve, side); }))
       continue;
-    const Node* body = body_near(body_fitted, fluid, open, side);
-    if (body == nullptr) continue;
-    strips.push_back(strip_along(fluid.grid, side, body->place));
-    has_strips[across] = true;
+    const NearBody found = body_near(body_fitted, fluid, open, side);
+    if (found.body != nullptr) near_bodies.push_back(found);
+  }
+  // Strips do not meet in corners: along x = const or along y = const, where the nearest body is.
+  std::ranges::stable_sort(near_bodies, {}, &NearBody::distance);
+  std::vector<Node> strips;
+  for (const NearBody& near_body : near_bodies) {
+    if (direction_of(near_body.side) == direction_of(near_bodies.front().side))
+      strips.push_back(strip_along(fluid.grid, near_body.side, near_body.body->place));
   }
   body_fitted.items.insert(body_fitted.items.end(), strips.begin(), strips.end());
   return !strips.empty();

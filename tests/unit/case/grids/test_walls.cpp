@@ -342,5 +342,29 @@ TEST(ChosenGrids, OfABodyNearAWallThatIsDrawnAreNotLaidBehindIt) {
   EXPECT_EQ(grids_above("[[-1, 0.9], [1, 0.9]]", "[0, -0.55]"), strip);
 }
 
+/// Names of the grids of a disk in a closed box.
+std::vector<std::string> grids_about_a_disk_at(const std::string& centre) {
+  const Case problem = load_text(
+      "grid: {factor: 2}\ntime: {end: 1}\nfluid:\n"
+      "  grid: {x: [-1, 1], y: [-1, 1]}\n"
+      "  boundary: {left: slip_wall, right: slip_wall, bottom: slip_wall, top: slip_wall}\n"
+      "  initial: {rho: 1, v: [0, 0], p: 1}\n"
+      "  body_fitted:\n"
+      "    - {name: disk, shape: {kind: circle, radius: 0.35, centre: " +
+      centre + "}}\n");
+  std::vector<std::string> names;
+  for (const BodyFittedSpec& ring : problem.fluids.front().body_fitted) names.push_back(ring.name);
+  return names;
+}
+
+/// Strips do not meet in corners; which wall gets one does not depend on how the case lies.
+TEST(ChosenGrids, OfABodyNearTwoWallsAreLaidAlongTheNearerOne) {
+  using Names = std::vector<std::string>;
+  EXPECT_EQ(grids_about_a_disk_at("[-0.5, -0.4]"), Names({"disk", "along_left"}));
+  EXPECT_EQ(grids_about_a_disk_at("[-0.4, -0.5]"), Names({"disk", "along_bottom"}));
+  EXPECT_EQ(grids_about_a_disk_at("[0.5, 0.4]"), Names({"disk", "along_right"}));
+  EXPECT_EQ(grids_about_a_disk_at("[0.4, 0.5]"), Names({"disk", "along_top"}));
+}
+
 }  // namespace
 }  // namespace fsi
