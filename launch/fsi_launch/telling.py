@@ -23,8 +23,11 @@ def readable(name):
 
 
 def tell(text, out=None):
-    """One line or a few on standard error, or on `out`. Where they cannot be written nothing is any more."""
+    """One line or a few on standard error, or on `out`, after what was printed before, also where both go to one file. Where they cannot
+    be written nothing is any more."""
     out = out or sys.stderr
+    with contextlib.suppress(OSError, ValueError, AttributeError):
+        sys.stdout.flush()  # who ends the command meets the same error
     try:
         print(text, file=out, flush=True)
     except OSError:

@@ -2,6 +2,7 @@
 """What is told while a program answers, and that it does not outlive the one who asks."""
 
 import os
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -9,8 +10,29 @@ from pathlib import Path
 from unittest import mock
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
-import launcher  # noqa: E402,F401  the path of the launcher's modules
+import launcher  # noqa: E402
 from fsi_launch import telling  # noqa: E402
+
+
+class Order(unittest.TestCase):
+    """Python keeps what is printed to a file until much of it has come together, or the command ends."""
+
+    @staticmethod
+    def command(words):
+        """What a script of these words says, and the environment for it."""
+        begin = f"import sys; sys.path.insert(0, {str(launcher.ROOT / 'launch')!r}); from fsi_launch.telling import tell; "
+        kept = {name: value for name, value in os.environ.items() if name != "PYTHONUNBUFFERED"}
+        return {"args": [sys.executable, "-c", begin + words], "env": kept, "text": True, "check": False}
+
+    def test_what_was_printed_before_comes_before_in_one_file(self):
+        said = subprocess.run(**self.command("print('one'); tell('two'); print('three')"), stdout=subprocess.PIPE, stderr=subprocess.STDOUT).stdout
+        self.assertEqual(said, "one\ntwo\nthree\n")
+
+    def test_a_full_disk_is_told_when_the_command_ends(self):
+        with open("/dev/full", "w", encoding="utf-8") as full:
+            ended = subprocess.run(**self.command("print('one'); tell('two'); sys.stdout.flush()"), stdout=full, stderr=subprocess.PIPE)
+        self.assertTrue(ended.stderr.startswith("two\n"), ended.stderr)
+        self.assertIn("No space left", ended.stderr)
 
 
 class Answers(unittest.TestCase):
