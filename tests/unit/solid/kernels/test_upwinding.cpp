@@ -7,6 +7,8 @@
 #include <random>
 #include <utility>
 
+#include "common/grid/moving_grid.hpp"
+#include "solid_solver/kernels/state.hpp"
 #include "solid_solver/kernels/sweep/godunov_sweep.hpp"
 #include "solid_solver/laws/neo_hookean.hpp"
 
@@ -29,8 +31,8 @@ Eigen::Matrix4d whole(const Stiffness& K) {
 /// a K b.
 Tensor2 mixed(const Eigen::Matrix4d& K, const Vec2& a, const Vec2& b) {
   Eigen::Matrix2d sum = Eigen::Matrix2d::Zero();
-  for (int k = 0; k < 2; ++k)
-    for (int l = 0; l < 2; ++l) sum += a[k] * b[l] * K.block<2, 2>(2 * k, 2 * l);
+  for (Eigen::Index k = 0; k < 2; ++k)
+    for (Eigen::Index l = 0; l < 2; ++l) sum += a[k] * b[l] * K.block<2, 2>(2 * k, 2 * l);
   return {sum(0, 0), sum(0, 1), sum(1, 0), sum(1, 1)};
 }
 
