@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "common/grid/moving_grid.hpp"
-#include "solid_solver/kernels/state.hpp"
+#include "solid_solver/boundary/ghost_lines.hpp"
 #include "solid_solver/kernels/sweep/godunov_sweep.hpp"
 #include "solid_solver/laws/neo_hookean.hpp"
 
