@@ -309,8 +309,8 @@ TEST(Walls, ProbesNextToTheRimAreBeforeThemOrBehind) {
   }
 }
 
-/// A disk of radius 0.35 above a floor between the left and the right side, with the rectangle's bottom below it.
-std::vector<std::string> grids_above(const std::string& floor, const std::string& centre = "[0, -0.35]") {
+/// Names of the grids in a closed square with a disk of radius 0.35, and with those that are written down before it.
+std::vector<std::string> grids_about_a_disk_at(const std::string& centre, const std::string& others = "") {
   const Case problem = load_text(
       "grid: {factor: 2}\n"
       "time: {end: 1}\n"
@@ -318,15 +318,18 @@ std::vector<std::string> grids_above(const std::string& floor, const std::string
       "  grid: {x: [-1, 1], y: [-1, 1]}\n"
       "  boundary: {left: slip_wall, right: slip_wall, bottom: slip_wall, top: slip_wall}\n"
       "  initial: {rho: 1, v: [0, 0], p: 1}\n"
-      "  body_fitted:\n"
-      "    - {name: floor, shape: {kind: polygon, radius: 0, walls: [left, right], corners: " +
-      floor +
-      "}}\n"
-      "    - {name: disk, shape: {kind: circle, radius: 0.35, centre: " +
-      centre + "}}\n");
+      "  body_fitted:\n" +
+      others + "    - {name: disk, shape: {kind: circle, radius: 0.35, centre: " + centre + "}}\n");
   std::vector<std::string> names;
   for (const BodyFittedSpec& ring : problem.fluids.front().body_fitted) names.push_back(ring.name);
   return names;
+}
+
+/// The disk above a floor between the left and the right side, with the square's bottom below it.
+std::vector<std::string> grids_above(const std::string& floor, const std::string& centre = "[0, -0.35]") {
+  return grids_about_a_disk_at(
+      centre, "    - {name: floor, shape: {kind: polygon, radius: 0, walls: [left, right], corners: " +
+                  floor + "}}\n");
 }
 
 /// Behind a wall that the file draws, and under one that lies along the side, the gas needs no grid.
@@ -340,21 +343,6 @@ TEST(ChosenGrids, OfABodyNearAWallThatIsDrawnAreNotLaidBehindIt) {
   EXPECT_EQ(grids_above("[[-1, 0.9], [1, 0.9]]", "[0, 0.35]"), own);
   const std::vector<std::string> strip = {"floor", "disk", "along_bottom"};
   EXPECT_EQ(grids_above("[[-1, 0.9], [1, 0.9]]", "[0, -0.55]"), strip);
-}
-
-/// Names of the grids of a disk in a closed box.
-std::vector<std::string> grids_about_a_disk_at(const std::string& centre) {
-  const Case problem = load_text(
-      "grid: {factor: 2}\ntime: {end: 1}\nfluid:\n"
-      "  grid: {x: [-1, 1], y: [-1, 1]}\n"
-      "  boundary: {left: slip_wall, right: slip_wall, bottom: slip_wall, top: slip_wall}\n"
-      "  initial: {rho: 1, v: [0, 0], p: 1}\n"
-      "  body_fitted:\n"
-      "    - {name: disk, shape: {kind: circle, radius: 0.35, centre: " +
-      centre + "}}\n");
-  std::vector<std::string> names;
-  for (const BodyFittedSpec& ring : problem.fluids.front().body_fitted) names.push_back(ring.name);
-  return names;
 }
 
 /// Strips do not meet in corners; which wall gets one does not depend on how the case lies.
