@@ -40,5 +40,5 @@ def merge(directory, programs):
     rows = joined(directory, programs)
     if not rows:
         return
-    with whole_file.writing(Path(directory) / "probes.csv", newline="") as file:     # else the summary may find room in its place
+    with whole_file.writing(Path(directory) / "probes.csv", newline="") as file:   # nothing of it stays where there is no room: the summary may find some
         csv.writer(file, lineterminator="\n").writerows(rows)

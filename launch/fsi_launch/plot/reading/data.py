@@ -159,6 +159,8 @@ def _sound(path):
     """What is read within from `path` is what was written there; else it is the user's to put right."""
     try:
         yield
+    except PermissionError:
+        raise
     except (ValueError, KeyError, TypeError, csv.Error, OSError) as error:
         raise UserMistake(f"'{path}' is damaged: {str(error) or type(error).__name__}; make the run again, or take the file away") from None
 
