@@ -265,6 +265,7 @@ SweepResult SolidComponent<L>::sweep_with(double dt, Look look) {
       .measures_spread = options_.relaxation.active() || options_.tangential_stress.active(),
       .coupling_limit = coupling_limit(options_.relaxation.at(dt)),
       .softened = measured_.coupled > 0,
+      .loaded = boundary_.sides().loaded(),
       .rows = rows_.all ? grid::RowRange{0, layout().n2} : rows_.own};
   if (options_.limiter == Limiter::minmod)
     return run_sweep<Row, Gradient>(GodunovSweep<L, Row, Limiter::minmod>(data, metrics_, law_), dt);

@@ -52,6 +52,8 @@ struct SideRows {
     P12,
     P21,
     P22,
+    gap1,  ///< by how much the extrapolated derivative across is more than `d`, per length [-]
+    gap2,
     count
   };
 
@@ -150,6 +152,27 @@ template <Law L>
   for (int k = 0; k < side.n(); ++k) {
     const Tensor2 P = law.P(F.at(k));
     to.set(k, P.a11, P.a12, P.a21, P.a22);
+  }
+}
+
+/// A pressure -w that follows the deformation is in T as the traction of a stress w J F^-1, which makes no force inside a body: the
+/// derivative along the side of its tangential part cancels that of its traction across. Across, tractions are differenced from
+/// inside. So the tangential part of P takes this stress with the derivative of u from inside, not with that of paper eq. (43), which
+/// has no part in it: what is left of the two pushes the side, and the push grows what it comes from. Under tension it pulls the side
+/// back, and stays (docs/theory_solid.md, *Solids under pressure*).
+[[gnu::noinline]] inline void add_pressed_gaps(const SideRows& side) {
+  const TensorRows F = side.F(), P = side.P();
+  const double *n1 = side[SideRows::normal1], *n2 = side[SideRows::normal2], *T1 = side[SideRows::T1],
+               *T2 = side[SideRows::T2], *gap1 = side[SideRows::gap1], *gap2 = side[SideRows::gap2];
+#pragma omp simd
+  for (int k = 0; k < side.n(); ++k) {
+    const double area1 = F.a22[k] * n1[k] - F.a21[k] * n2[k], area2 = F.a11[k] * n2[k] - F.a12[k] * n1[k];
+    const double load = (T1[k] * area1 + T2[k] * area2) / (area1 * area1 + area2 * area2);
+    const double w = load < 0.0 ? load : 0.0;
+    P.a11[k] += w * n2[k] * gap2[k];
+    P.a12[k] -= w * n2[k] * gap1[k];
+    P.a21[k] -= w * n1[k] * gap2[k];
+    P.a22[k] += w * n1[k] * gap1[k];
   }
 }
 

@@ -80,6 +80,7 @@ void MatchedGhosts<L>::match_loaded_side(FieldView q, Side side, double t, Loade
   match_tractions(law_, rows);
   set_matched_ghosts(q, side, t, loaded);
   find_stresses(law_, rows);
+  if (sides_.follows(side)) add_pressed_gaps(rows);
   for (const int k : sides_.points(side)) {
     if (!sides_.inner(side, k)) continue;
     const SideMetrics& s = sides_.at(side, k);
@@ -133,6 +134,9 @@ void MatchedGhosts<L>::set_matched_ghosts(FieldView q, Side side, double t, Load
       broke(q, {side, k}, t);
       continue;
     }
+    const Vec2 gap = (difference_across(q, line, plane::u1, k, s.sign) - *du) * s.sign * s.across.norm();
+    rows[SideRows::gap1][m] = gap.x();
+    rows[SideRows::gap2][m] = gap.y();
     set_ghost(q, line, k, plane::u1, 2.0 * s.sign * *du);
     if (sides_.condition(side).knows_rate()) match_velocity(q, {side, k}, t, strain, *du);
     const Tensor2 F = with_sharper_tangent(sides_, q, {side, k}, plus_dyad(strain.F, *du, s.across));

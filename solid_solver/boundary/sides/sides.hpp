@@ -51,6 +51,9 @@ class Sides {
   /// The values of the condition.
   const Boundary& boundary(Side side) const { return boundaries_[index(side)]; }
   bool loaded(Side side) const { return condition(side).loaded(); }
+  std::array<bool, 4> loaded() const {
+    return {loaded(Side::left), loaded(Side::right), loaded(Side::bottom), loaded(Side::top)};
+  }
   /// The load of a side follows the deformation: its area and its normal are the present ones.
   bool follows(Side side) const { return boundary(side).load == LoadConfiguration::current; }
 

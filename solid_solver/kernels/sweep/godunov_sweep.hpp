@@ -125,7 +125,11 @@ SweepResult GodunovSweep<L, Row, limiter>::run_strip(const TermsOf& terms_of, co
       each_run(j - 1, points.discretised(j - 1), 0, [&](RowRun run) {
         result.add(look_at_soundness(run));
         update(run, terms_of(run.j));
-        if (d_.softened) softer_.add_decay(run);
+        if (d_.softened) {
+          softer_.find_decay(run);
+          softer_.spare_tractions(run);
+          softer_.add_decay(run);
+        }
         after(run);
       });
     }

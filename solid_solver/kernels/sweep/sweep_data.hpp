@@ -2,6 +2,7 @@
 /// What a sweep is given, and what it finds.
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 #include "common/core/field.hpp"
@@ -52,6 +53,7 @@ struct SweepData {
   bool measures_spread = true;    ///< SweepResult::spread_squared; only relaxation and (39) need it
   double coupling_limit = 1e300;  ///< of `wave_coupling`, beyond which StressUpwinding takes a part [-]
   bool softened = false;          ///< it passes over the rows: the last sweep found such a point
+  std::array<bool, 4> loaded{};   ///< by side: its traction is that of a load, and StressUpwinding leaves it
   /// Those that are advanced; two rows beside them are read.
   grid::RowRange rows = {0, std::numeric_limits<int>::max()};
 };

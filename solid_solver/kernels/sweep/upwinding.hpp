@@ -89,6 +89,10 @@ class StressUpwinding {
   [[gnu::noinline]] void correct_faces2(RowRun run) const;
   /// The decay of all components alike, in the step of the points of a run.
   [[gnu::noinline]] void add_decay(RowRun run) const;
+  /// The same before it is added, in the rows of the faces below.
+  [[gnu::noinline]] void find_decay(RowRun run) const;
+  /// Without what it does to the tractions of loaded sides.
+  void spare_tractions(RowRun run) const;
 
  private:
   /// Of the solution at a face, v* - (1 - share) (v* - mean of both sides).
@@ -182,18 +186,50 @@ void StressUpwinding<Row, limiter>::correct_faces2(RowRun run) const {
 }
 
 template <class Row, Limiter limiter>
-void StressUpwinding<Row, limiter>::add_decay(RowRun run) const {
+void StressUpwinding<Row, limiter>::find_decay(RowRun run) const {
   const int j = run.j;
   const Row row(metrics_, j);
-  const StressRow along1 = work_.decay1(), low = work_.decay2(j), high = work_.decay2(j + 1), P(d_.next, j);
+  const StressRow along1 = work_.decay1(), low = work_.decay2(j), high = work_.decay2(j + 1);
   const double half_dt = 0.5 * d_.dt;
 #pragma omp simd
   for (int i = run.begin; i < run.end; ++i) {
     const double factor = half_dt * row.inverse_jacobian(i);
-    P.P11[i] += factor * ((along1.P11[i + 1] - along1.P11[i]) + (high.P11[i] - low.P11[i]));
-    P.P12[i] += factor * ((along1.P12[i + 1] - along1.P12[i]) + (high.P12[i] - low.P12[i]));
-    P.P21[i] += factor * ((along1.P21[i + 1] - along1.P21[i]) + (high.P21[i] - low.P21[i]));
-    P.P22[i] += factor * ((along1.P22[i + 1] - along1.P22[i]) + (high.P22[i] - low.P22[i]));
+    low.P11[i] = factor * ((along1.P11[i + 1] - along1.P11[i]) + (high.P11[i] - low.P11[i]));
+    low.P12[i] = factor * ((along1.P12[i + 1] - along1.P12[i]) + (high.P12[i] - low.P12[i]));
+    low.P21[i] = factor * ((along1.P21[i + 1] - along1.P21[i]) + (high.P21[i] - low.P21[i]));
+    low.P22[i] = factor * ((along1.P22[i + 1] - along1.P22[i]) + (high.P22[i] - low.P22[i]));
+  }
+}
+
+/// A load is there whatever waves do: if its traction decayed along the side, the characteristics would push the side back in
+/// every step, and under pressure the push grows what it comes from.
+template <class Row, Limiter limiter>
+void StressUpwinding<Row, limiter>::spare_tractions(RowRun run) const {
+  const int j = run.j, last1 = d_.q.layout.n1 - 1, last2 = d_.q.layout.n2 - 1;
+  const StressRow decay = work_.decay2(j);
+  const auto loaded = [&](Side side) { return d_.loaded[static_cast<std::size_t>(side)]; };
+  const auto spare = [&](int i, const Vec2& across) {
+    const Vec2 n0 = across.normalized();
+    const Vec2 of_side = {n0.x() * decay.P11[i] + n0.y() * decay.P21[i],
+                          n0.x() * decay.P12[i] + n0.y() * decay.P22[i]};
+    decay.subtract(i, n0.x() * of_side.x(), n0.x() * of_side.y(), n0.y() * of_side.x(), n0.y() * of_side.y());
+  };
+  if ((j == 0 && loaded(Side::bottom)) || (j == last2 && loaded(Side::top))) {
+    for (int i = run.begin; i < run.end; ++i) spare(i, metrics_.at(i, j).r2);
+  }
+  if (run.begin == 0 && loaded(Side::left)) spare(0, metrics_.at(0, j).r1);
+  if (run.end == last1 + 1 && loaded(Side::right)) spare(last1, metrics_.at(last1, j).r1);
+}
+
+template <class Row, Limiter limiter>
+void StressUpwinding<Row, limiter>::add_decay(RowRun run) const {
+  const StressRow decay = work_.decay2(run.j), P(d_.next, run.j);
+#pragma omp simd
+  for (int i = run.begin; i < run.end; ++i) {
+    P.P11[i] += decay.P11[i];
+    P.P12[i] += decay.P12[i];
+    P.P21[i] += decay.P21[i];
+    P.P22[i] += decay.P22[i];
   }
 }
 

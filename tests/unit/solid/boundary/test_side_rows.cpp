@@ -85,6 +85,47 @@ TEST(Eq43MatchTractions, LeavesPointsThatNeedCareToTheSearchPointByPoint) {
   }
 }
 
+/// w J F^-1 of a plane tensor, by components.
+Tensor2 pressed_stress(double w, const Tensor2& F) {
+  return {w * F.a22, -w * F.a12, -w * F.a21, w * F.a11};
+}
+
+/// Loads and gaps of the points.
+void set_gaps(const Points& points, double load) {
+  for (int k = 0; k < n; ++k) {
+    const Vec2 n0 = points.normal(k);
+    points.ask(k, traction_of(pressed_stress(load, points.rows().F().at(k)), n0));
+    points.rows()[SideRows::gap1][k] = 0.02 * std::sin(3.0 * k);
+    points.rows()[SideRows::gap2][k] = 0.03 * std::cos(2.0 * k);
+    points.rows().P().set(k, 1, 2, 3, 4);
+  }
+}
+
+TEST(Eq43PressedGaps, GiveTheTangentialStressThatAPressureHasWithTheDerivativeFromInside) {
+  constexpr double w = -1.7;
+  const Points points;
+  set_gaps(points, w);
+  add_pressed_gaps(points.rows());
+  for (int k = 0; k < n; ++k) {
+    const Vec2 n0 = points.normal(k), t0(-n0.y(), n0.x());
+    const Vec2 gap(points.rows()[SideRows::gap1][k], points.rows()[SideRows::gap2][k]);
+    const Tensor2 F = points.rows().F().at(k), inside = plus_dyad(F, gap, n0);
+    const Tensor2 change = minus(points.rows().P().at(k), {1, 2, 3, 4});
+    const Tensor2 expected = minus(pressed_stress(w, inside), pressed_stress(w, F));
+    EXPECT_NEAR((traction_of(change, t0) - traction_of(expected, t0)).norm(), 0, 1e-15) << k;
+    EXPECT_NEAR(traction_of(change, n0).norm(), 0, 1e-15) << k;
+  }
+}
+
+TEST(Eq43PressedGaps, LeaveSidesAlonePulledOrUnloaded) {
+  for (const double w : {0.0, 0.4}) {
+    const Points points;
+    set_gaps(points, w);
+    add_pressed_gaps(points.rows());
+    for (int k = 0; k < n; ++k) EXPECT_EQ(points.rows().P().a12[k], 2) << w << ", " << k;
+  }
+}
+
 TEST(Eq43MatchTractions, LeavesPointsAloneThatAreNotAsked) {
   const NeoHookean law{.lambda = 1.2, .mu = 0.8};
   const Points points;

@@ -3,12 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <random>
 #include <utility>
 
 #include "common/grid/moving_grid.hpp"
 #include "solid_solver/boundary/ghost_lines.hpp"
+#include "solid_solver/boundary/traction_ghost.hpp"
 #include "solid_solver/kernels/sweep/godunov_sweep.hpp"
 #include "solid_solver/laws/neo_hookean.hpp"
 
@@ -86,7 +89,8 @@ TEST(WaveCoupling, ANumberThatIsNoneLeavesUpwindingAlone) {
 
 /// One step of a square of cells that is strained by F, with `added` to the state at each point.
 template <class Added>
-Field step(const Tensor2& F, bool softened, double limit, const Added& added) {
+Field step(const Tensor2& F, bool softened, double limit, const Added& added, double dt = 0.03,
+           const std::array<bool, 4>& loaded = {}) {
   const grid::MovingGrid grid({.name = "block",
                                .n1 = last_point + 1,
                                .n2 = last_point + 1,
@@ -113,9 +117,10 @@ Field step(const Tensor2& F, bool softened, double limit, const Added& added) {
                        .force = {},
                        .work = work.view(),
                        .rho = 1.7,
-                       .dt = 0.03,
+                       .dt = dt,
                        .coupling_limit = limit,
-                       .softened = softened};
+                       .softened = softened,
+                       .loaded = loaded};
   GodunovSweep<NeoHookean, MappedRow, Limiter::none>(data, metrics, compressible).run();
   return next;
 }
@@ -165,6 +170,45 @@ TEST(Eq36StressUpwinding, ChangesNothingInALinearFieldUnderPressure) {
   for (int k = 0; k < plane::count; ++k)
     for (int j = 0; j <= last_point; ++j)
       for (int i = 0; i <= last_point; ++i) EXPECT_NEAR(one.view()(k, i, j), other.view()(k, i, j), 1e-13);
+}
+
+/// The decay of a load's traction would be a push that no wave makes.
+TEST(Eq36StressUpwinding, TakesNothingOfItsDecayFromTheTractionsOfLoadedSides) {
+  const auto rough = [](int i, int j, const Vec2&, SolidState& s) {
+    s.P.a11 += 0.01 * std::sin(7.0 * i * j + i), s.P.a12 += 0.01 * std::cos(3.0 * i + 5.0 * j);
+    s.P.a21 += 0.01 * std::sin(4.0 * i - 9.0 * j), s.P.a22 += 0.01 * std::cos(8.0 * i * j);
+  };
+  // Normals and tangents of the lines of `step`.
+  const Vec2 n1 = Vec2(1, -0.1).normalized(), n2(0, 1);
+  for (int side = 0; side < 4; ++side) {
+    std::array<bool, 4> loaded = {};
+    loaded[static_cast<std::size_t>(side)] = true;
+    const Vec2 n0 = side < 2 ? n1 : n2, t0(-n0.y(), n0.x());
+    // The limit leaves no upwinding, and in so short a step, from rest, K grad v does next to nothing.
+    constexpr double dt = 1e-4, no_upwinding = 1e-9;
+    const Field with = step(pressed, true, no_upwinding, rough, dt),
+                without = step(pressed, true, no_upwinding, rough, dt, loaded);
+    double spared_by_it = 0, left = 0;
+    for (int j = 0; j <= last_point; ++j) {
+      for (int i = 0; i <= last_point; ++i) {
+        const bool on_it = (side == 0 && i == 0) || (side == 1 && i == last_point) || (side == 2 && j == 0) ||
+                           (side == 3 && j == last_point);
+        const std::ptrdiff_t at = with.layout().at(i, j);
+        const Tensor2 spared = minus(load(without.view(), at).P, load(with.view(), at).P);
+        EXPECT_NEAR(traction_of(spared, t0).norm(), 0, 1e-15);
+        if (!on_it) {
+          EXPECT_EQ(traction_of(spared, n0).norm(), 0);
+          continue;
+        }
+        SolidState before = {.u = Vec2::Zero(), .v = Vec2::Zero(), .P = compressible.P(pressed)};
+        rough(i, j, Vec2::Zero(), before);
+        spared_by_it += traction_of(spared, n0).norm();
+        left += traction_of(minus(load(without.view(), at).P, before.P), n0).norm();
+      }
+    }
+    EXPECT_GT(spared_by_it, 1e-6);
+    EXPECT_LT(left, 0.01 * spared_by_it);
+  }
 }
 
 TEST(Eq36StressUpwinding, ChangesNothingToTheBitWhereKIsPositive) {
