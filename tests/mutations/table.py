@@ -160,6 +160,8 @@ MUTATIONS = [
     ("solid's upwinding under pressure: decay of the tractions of loads", f"{SOLID}/sweep/upwinding.hpp",
      "if (run.begin == 0 && loaded(Side::left))", "if (run.begin == 0 && loaded(Side::right))", "test_solid_kernels",
      "Eq36StressUpwinding*"),
+    ("interface: corners slide the wrong way", "solid_solver/boundary/matching/characteristics.hpp",
+     "s.v += t * (t.dot(push) / t.dot(Z * t));", "s.v -= t * (t.dot(push) / t.dot(Z * t));", "test_solid_of_one_law", "Corners*"),
     ("paper eq. (43) under pressure: derivative from inside", f"{SOLID}/side_rows.hpp",
      "P.a21[k] -= w * n1[k] * gap2[k];", "P.a21[k] += w * n1[k] * gap2[k];", "test_solid_kernels", "Eq43PressedGaps*"),
     ("solid's prediction: stress from the wrong slopes", f"{SOLID}/sweep/godunov_sweep.hpp",

@@ -23,11 +23,13 @@ class Characteristics {
 
   int follow(FieldView q, Side side, double t, const SideMemory& memory) const;
   int slide(FieldView q, const InterfaceValues& values, const SideMemory& memory, LoadedRows& rows) const;
+  int slide_corners(FieldView q, std::span<const InterfaceValues> projected, const SideMemory& memory) const;
   int set_corner_stress(FieldView q, const SideMemory& memory) const;
 
  private:
   Stiffness stiffness(ConstFieldView q, const SidePoint& p) const;
   Mat2 impedance(const Stiffness& K, const SidePoint& p) const;
+  int slide_corner(FieldView q, const SidePoint& one, const Vec2& t, const SideMemory& memory) const;
   int share_change(ConstFieldView q, SolidState& s, const SidePoint& one, const SideMemory& memory) const;
 
   const Sides& sides_;
@@ -128,6 +130,49 @@ int Characteristics<L>::slide(FieldView q, const InterfaceValues& values, const 
     store(q, a, s);
   }
   return waveless;
+}
+
+/// The same at corners round which interfaces go, where the normal is that of the chord.
+template <Law L>
+int Characteristics<L>::slide_corners(FieldView q, std::span<const InterfaceValues> projected,
+                                      const SideMemory& memory) const {
+  int waveless = 0;
+  for (const InterfaceValues& values : projected) {
+    if (values.grid != sides_.grid().index || direction_of(values.side) == 1) continue;
+    const int last = sides_.line(values.side).n - 1;
+    for (const int k : {0, last}) {
+      if (!values.goes_on[k == 0 ? 0 : 1] || !sides_.advanced(values.side, k)) continue;
+      const auto at = static_cast<std::size_t>(k);
+      const Vec2 n(values.n[at], values.n[values.n.size() / 2 + at]);
+      waveless += slide_corner(q, {values.side, k}, {-n.y(), n.x()}, memory);
+    }
+  }
+  return waveless;
+}
+
+/// Both sides push the point, each over the shorter way the more, in proportion to |grad r|. Where corners do not slide, waves along
+/// the sides grow from them on cells that are not square, by 1 % per step on 1:4.
+template <Law L>
+int Characteristics<L>::slide_corner(FieldView q, const SidePoint& one, const Vec2& t,
+                                     const SideMemory& memory) const {
+  const SidePoint other = sides_.around_corner(one.side, one.k);
+  const std::ptrdiff_t a = sides_.line(one.side).at(one.k, 0);
+  SolidState s = load(q, a);
+  const Stiffness K = stiffness(q, one);
+  const Vec2 projected = memory.v_change(one.side, one.k) + memory.v_change(other.side, other.k);
+  Vec2 push = Vec2::Zero();
+  Mat2 Z = Mat2::Zero();
+  for (const SidePoint& p : {one, other}) {
+    const double rate = sides_.at(p.side, p.k).across.norm();
+    const Mat2 of_side = rate * impedance(K, p);
+    push +=
+        rate * (memory.T(p.side, p.k) - traction_of(s.P, sides_.at(p.side, p.k).n0)) - of_side * projected;
+    Z += of_side;
+  }
+  if (!Z.allFinite()) return sides_.owns(one.side, one.k);
+  s.v += t * (t.dot(push) / t.dot(Z * t));
+  store(q, a, s);
+  return 0;
 }
 
 /// Two loaded sides: both tractions hold. Two sides with given displacement: the change of the velocity goes

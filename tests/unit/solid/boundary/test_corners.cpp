@@ -193,6 +193,16 @@ TEST(Corners, Eq41NoiseOfANearlyIncompressibleBlockInALightGasDoesNotGrow) {
   }
 }
 
+TEST(Corners, Eq18NoiseOfABlockOfLongCellsInAGasDoesNotGrow) {
+  for (const double aspect : {0.25, 0.5, 2.0, 4.0, 8.0}) {
+    for (const double z_f : {2e-3, 0.5, 10.0}) {
+      const test::NoiseCase noise = {.aspect = aspect, .beta_P = 0.5, .beta_u = 0.5, .beta_r = 0.2};
+      EXPECT_LT(test::growth_of_noise_in_gas<NeoHookean>(noise, {.z_f = z_f}, 1500), 1.0)
+          << aspect << ", " << z_f;
+    }
+  }
+}
+
 TEST(Corners, Eq43TheStrainOfACornerIsFoundFromAnExtrapolatedOneThatStretchesAreas) {
   const NeoHookean law{.lambda = 49, .mu = 1};
   const Tensor2 P = law.P({1.01, 0.02, -0.01, 1.002});
