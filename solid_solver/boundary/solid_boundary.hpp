@@ -150,6 +150,7 @@ void SolidBoundary<L>::set_tractions(FieldView q, double t, std::span<const Inte
     waveless_ += characteristics.slide(q, values, memory_, rows_);
   }
   waveless_ += characteristics.slide_corners(q, projected, memory_);
+  waveless_ += characteristics.follow_corners(q, memory_);
   for (const Side side : all_sides) {
     const Condition& condition = sides_.condition(side);
     if (condition.knows_rate() || condition.moved() || condition.slips())

@@ -162,6 +162,8 @@ MUTATIONS = [
      "Eq36StressUpwinding*"),
     ("interface: corners slide the wrong way", "solid_solver/boundary/matching/characteristics.hpp",
      "s.v += t * (t.dot(push) / t.dot(Z * t));", "s.v -= t * (t.dot(push) / t.dot(Z * t));", "test_solid_of_one_law", "Corners*"),
+    ("corners of given loads: they follow the wrong way", "solid_solver/boundary/matching/characteristics.hpp",
+     "s.v += Z.inverse() * push;", "s.v -= Z.inverse() * push;", "test_solid_of_one_law", "Corners*"),
     ("paper eq. (43) under pressure: derivative from inside", f"{SOLID}/side_rows.hpp",
      "P.a21[k] -= w * n1[k] * gap2[k];", "P.a21[k] += w * n1[k] * gap2[k];", "test_solid_kernels", "Eq43PressedGaps*"),
     ("solid's prediction: stress from the wrong slopes", f"{SOLID}/sweep/godunov_sweep.hpp",

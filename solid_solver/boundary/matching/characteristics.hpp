@@ -24,12 +24,18 @@ class Characteristics {
   int follow(FieldView q, Side side, double t, const SideMemory& memory) const;
   int slide(FieldView q, const InterfaceValues& values, const SideMemory& memory, LoadedRows& rows) const;
   int slide_corners(FieldView q, std::span<const InterfaceValues> projected, const SideMemory& memory) const;
+  int follow_corners(FieldView q, const SideMemory& memory) const;
   int set_corner_stress(FieldView q, const SideMemory& memory) const;
 
  private:
   Stiffness stiffness(ConstFieldView q, const SidePoint& p) const;
   Mat2 impedance(const Stiffness& K, const SidePoint& p) const;
-  int slide_corner(FieldView q, const SidePoint& one, const Vec2& t, const SideMemory& memory) const;
+  /// What both sides of a corner with known tractions ask of its velocity: Z dv = push.
+  struct CornerPush {
+    Vec2 push;
+    Mat2 Z;
+  };
+  CornerPush push_of_corner(ConstFieldView q, const SidePoint& one, const SideMemory& memory) const;
   int share_change(ConstFieldView q, SolidState& s, const SidePoint& one, const SideMemory& memory) const;
 
   const Sides& sides_;
@@ -132,47 +138,79 @@ int Characteristics<L>::slide(FieldView q, const InterfaceValues& values, const 
   return waveless;
 }
 
-/// The same at corners round which interfaces go, where the normal is that of the chord.
+/// The same at corners where an interface goes on, its normal there that of the chord, or meets a side with a given traction.
 template <Law L>
 int Characteristics<L>::slide_corners(FieldView q, std::span<const InterfaceValues> projected,
                                       const SideMemory& memory) const {
   int waveless = 0;
   for (const InterfaceValues& values : projected) {
-    if (values.grid != sides_.grid().index || direction_of(values.side) == 1) continue;
-    const int last = sides_.line(values.side).n - 1;
+    if (values.grid != sides_.grid().index) continue;
+    const Side side = values.side;
+    const int last = sides_.line(side).n - 1;
     for (const int k : {0, last}) {
-      if (!values.goes_on[k == 0 ? 0 : 1] || !sides_.advanced(values.side, k)) continue;
+      const bool once = values.goes_on[k == 0 ? 0 : 1] && direction_of(side) == 0;
+      const bool slides = once || sides_.condition_beyond(side, k).knows_rate();
+      if (!slides || !sides_.advanced(side, k)) continue;
       const auto at = static_cast<std::size_t>(k);
-      const Vec2 n(values.n[at], values.n[values.n.size() / 2 + at]);
-      waveless += slide_corner(q, {values.side, k}, {-n.y(), n.x()}, memory);
+      const Vec2 t(-values.n[values.n.size() / 2 + at], values.n[at]);
+      const auto [push, Z] = push_of_corner(q, {side, k}, memory);
+      if (!Z.allFinite()) {
+        waveless += sides_.owns(side, k);
+        continue;
+      }
+      const std::ptrdiff_t a = sides_.line(side).at(k, 0);
+      SolidState s = load(q, a);
+      s.v += t * (t.dot(push) / t.dot(Z * t));
+      store(q, a, s);
     }
   }
   return waveless;
 }
 
-/// Both sides push the point, each over the shorter way the more, in proportion to |grad r|. Where corners do not slide, waves along
-/// the sides grow from them on cells that are not square, by 1 % per step on 1:4.
+/// Corners of two sides with given tractions: v follows both, as on either.
 template <Law L>
-int Characteristics<L>::slide_corner(FieldView q, const SidePoint& one, const Vec2& t,
-                                     const SideMemory& memory) const {
-  const SidePoint other = sides_.around_corner(one.side, one.k);
-  const std::ptrdiff_t a = sides_.line(one.side).at(one.k, 0);
-  SolidState s = load(q, a);
-  const Stiffness K = stiffness(q, one);
-  const Vec2 projected = memory.v_change(one.side, one.k) + memory.v_change(other.side, other.k);
-  Vec2 push = Vec2::Zero();
-  Mat2 Z = Mat2::Zero();
-  for (const SidePoint& p : {one, other}) {
-    const double rate = sides_.at(p.side, p.k).across.norm();
-    const Mat2 of_side = rate * impedance(K, p);
-    push +=
-        rate * (memory.T(p.side, p.k) - traction_of(s.P, sides_.at(p.side, p.k).n0)) - of_side * projected;
-    Z += of_side;
+int Characteristics<L>::follow_corners(FieldView q, const SideMemory& memory) const {
+  int waveless = 0;
+  for (const Side side : {Side::left, Side::right}) {
+    for (const int k : {0, sides_.line(side).n - 1}) {
+      const bool given = sides_.condition(side).knows_rate() && sides_.condition_beyond(side, k).knows_rate();
+      if (!given || !sides_.advanced(side, k)) continue;
+      const auto [push, Z] = push_of_corner(q, {side, k}, memory);
+      if (!Z.allFinite()) {
+        waveless += sides_.owns(side, k);
+        continue;
+      }
+      const std::ptrdiff_t a = sides_.line(side).at(k, 0);
+      SolidState s = load(q, a);
+      s.v += Z.inverse() * push;
+      store(q, a, s);
+    }
   }
-  if (!Z.allFinite()) return sides_.owns(one.side, one.k);
-  s.v += t * (t.dot(push) / t.dot(Z * t));
-  store(q, a, s);
-  return 0;
+  return waveless;
+}
+
+/// Each side pushes over the shorter way the more, in proportion to |grad r|. Without it nothing damps what a corner does against its
+/// loads: waves along the sides grow from it on cells that are not square, and others in nearly incompressible bodies.
+template <Law L>
+typename Characteristics<L>::CornerPush Characteristics<L>::push_of_corner(ConstFieldView q,
+                                                                           const SidePoint& one,
+                                                                           const SideMemory& memory) const {
+  const SidePoint other = sides_.around_corner(one.side, one.k);
+  const SolidState s = load(q, sides_.line(one.side).at(one.k, 0));
+  const Stiffness K = stiffness(q, one);
+  Vec2 projected = Vec2::Zero();
+  for (const SidePoint& p : {one, other}) {
+    if (sides_.condition(p.side).meets_gas()) projected += memory.v_change(p.side, p.k);
+  }
+  CornerPush corner = {.push = Vec2::Zero(), .Z = Mat2::Zero()};
+  for (const SidePoint& p : {one, other}) {
+    const SideMetrics& m = sides_.at(p.side, p.k);
+    const double rate = m.across.norm();
+    const Mat2 Z = rate * impedance(K, p);
+    corner.push += rate * (memory.T(p.side, p.k) - traction_of(s.P, m.n0)) - Z * projected;
+    corner.Z += Z;
+  }
+  return corner;
 }
 
 /// Two loaded sides: both tractions hold. Two sides with given displacement: the change of the velocity goes

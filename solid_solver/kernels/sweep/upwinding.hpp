@@ -208,17 +208,23 @@ void StressUpwinding<Row, limiter>::spare_tractions(RowRun run) const {
   const int j = run.j, last1 = d_.q.layout.n1 - 1, last2 = d_.q.layout.n2 - 1;
   const StressRow decay = work_.decay2(j);
   const auto loaded = [&](Side side) { return d_.loaded[static_cast<std::size_t>(side)]; };
+  const bool row_loaded = (j == 0 && loaded(Side::bottom)) || (j == last2 && loaded(Side::top));
   const auto spare = [&](int i, const Vec2& across) {
     const Vec2 n0 = across.normalized();
     const Vec2 of_side = {n0.x() * decay.P11[i] + n0.y() * decay.P21[i],
                           n0.x() * decay.P12[i] + n0.y() * decay.P22[i]};
     decay.subtract(i, n0.x() * of_side.x(), n0.x() * of_side.y(), n0.y() * of_side.x(), n0.y() * of_side.y());
   };
-  if ((j == 0 && loaded(Side::bottom)) || (j == last2 && loaded(Side::top))) {
-    for (int i = run.begin; i < run.end; ++i) spare(i, metrics_.at(i, j).r2);
-  }
-  if (run.begin == 0 && loaded(Side::left)) spare(0, metrics_.at(0, j).r1);
-  if (run.end == last1 + 1 && loaded(Side::right)) spare(last1, metrics_.at(last1, j).r1);
+  const auto spare_end = [&](int i) {
+    if (row_loaded) {  // two tractions are all of P
+      decay.subtract(i, decay.P11[i], decay.P12[i], decay.P21[i], decay.P22[i]);
+    } else {
+      spare(i, metrics_.at(i, j).r1);
+    }
+  };
+  if (run.begin == 0 && loaded(Side::left)) spare_end(0);
+  if (run.end == last1 + 1 && loaded(Side::right)) spare_end(last1);
+  for (int i = run.begin; row_loaded && i < run.end; ++i) spare(i, metrics_.at(i, j).r2);
 }
 
 template <class Row, Limiter limiter>

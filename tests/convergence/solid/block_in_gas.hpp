@@ -16,6 +16,7 @@ namespace fsi::solid::test {
 struct GasAround {
   double z_f = 2e-3;  ///< its impedance over that of the solid at rest [-]
   Limiter limiter = Limiter::none;
+  bool below = true;  ///< there as well; else the bottom is free, of a body at rest
 };
 
 template <class L>
@@ -33,9 +34,9 @@ class BlockInGas {
                  .displacement = {.scaled = noise.beta_u},
                  .relaxation = {.scaled = noise.beta_r},
                  .cfl = noise.cfl},
-                all_interface(), 0),
-        outline_({{Side::bottom}, {Side::right}, {Side::top, true}, {Side::left, true}},
-                 {n1 + 1, n2 + 1, n1 + 1, n2 + 1}, true),
+                boundaries(gas), 0),
+        outline_(outline(gas)),
+        curve_(gas.below ? grid::Curve::closed : grid::Curve::open),
         gas_{.z = gas.z_f * std::sqrt(noise.lambda + 2), .w_n = pressed_.a11 / f_} {
     solver_.assign_initial_conditions([&](double x, double y, double) {
       return SolidState{.u = {(f_ - 1) * x, (f_ - 1) * y}, .v = Vec2::Zero(), .P = pressed_};
@@ -79,17 +80,26 @@ class BlockInGas {
              }},
             0};
   }
-  static Boundaries all_interface() {
+  static Boundaries boundaries(const GasAround& gas) {
     Boundaries boundaries;
     for (Boundary& boundary : boundaries) boundary.condition = Interface::condition;
+    if (!gas.below) boundaries[static_cast<std::size_t>(Side::bottom)].condition = Traction::condition;
     return boundaries;
   }
+  static JoinedSides outline(const GasAround& gas) {
+    if (!gas.below)
+      return {{{Side::right}, {Side::top, true}, {Side::left, true}}, {n2 + 1, n1 + 1, n2 + 1}, false};
+    return {{{Side::bottom}, {Side::right}, {Side::top, true}, {Side::left, true}},
+            {n1 + 1, n2 + 1, n1 + 1, n2 + 1},
+            true};
+  }
   void project() {
-    std::vector<SolidInterface> each(4);
-    for (std::size_t k = 0; k < 4; ++k) solver_.interface_state(outline_.stretches()[k].side, each[k]);
+    std::vector<SolidInterface> each(outline_.stretches().size());
+    for (std::size_t k = 0; k < each.size(); ++k)
+      solver_.interface_state(outline_.stretches()[k].side, each[k]);
     SolidInterface shown;
     outline_.join(each, shown);
-    const std::vector<double> n = grid::normals(shown.x, grid::Curve::closed, 1);
+    const std::vector<double> n = grid::normals(shown.x, curve_, 1);
     const std::size_t count = outline_.points();
     std::vector<double> v_n(count), w_n(count);
     for (std::size_t k = 0; k < count; ++k) {
@@ -112,6 +122,7 @@ class BlockInGas {
   Tensor2 pressed_;
   SolidSolver<L> solver_;
   JoinedSides outline_;
+  grid::Curve curve_;
   NormalSide gas_;
   double t_ = 0;
 };

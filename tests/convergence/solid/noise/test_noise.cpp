@@ -100,7 +100,7 @@ TEST(RoundOffNoiseUnderPressure, DoesNotGrowInANearlyIncompressibleBodyWithALitt
 /// A free body that a light gas squeezes: what a load makes beside a side and what it makes inside must cancel, or sides ripple.
 TEST(RoundOffNoiseUnderPressure, DoesNotGrowInABlockThatALightGasSqueezesEq43) {
   for (const auto& [aspect, lambda, f] : {std::tuple(1.0, 1.0, 0.75),
-                                          {1.0, 4.0, 0.8},
+                                          {1.0, 4.0, 0.85},
                                           {1.0, 9.0, 0.9},
                                           {1.0, 49.0, 0.95},
                                           {2.0, 1.0, 0.8},

@@ -203,6 +203,25 @@ TEST(Corners, Eq18NoiseOfABlockOfLongCellsInAGasDoesNotGrow) {
   }
 }
 
+TEST(Corners, Eq18NoiseWhereAnInterfaceMeetsAFreeSideDoesNotGrow) {
+  for (const double aspect : {0.25, 1.0, 4.0}) {
+    for (const double lambda : {1.0, 49.0}) {
+      const test::NoiseCase noise = {
+          .lambda = lambda, .aspect = aspect, .beta_P = 0.5, .beta_u = 0.5, .beta_r = 0.2};
+      EXPECT_LT(test::growth_of_noise_in_gas<NeoHookean>(noise, {.below = false}, 1500), 1.0)
+          << aspect << ", " << lambda;
+    }
+  }
+}
+
+TEST(Corners, Eq18NoiseOfANearlyIncompressibleBlockUnderGivenLoadsDoesNotGrow) {
+  for (const double lambda : {100.0, 200.0}) {
+    const test::NoiseCase noise = {
+        .lambda = lambda, .beta_P = 0.5, .beta_u = 0.5, .beta_r = 0.2, .loaded = {false, true, true, true}};
+    EXPECT_LT(test::growth_of_noise<NeoHookean>(noise, 5000), 1.0) << lambda;
+  }
+}
+
 TEST(Corners, Eq43TheStrainOfACornerIsFoundFromAnExtrapolatedOneThatStretchesAreas) {
   const NeoHookean law{.lambda = 49, .mu = 1};
   const Tensor2 P = law.P({1.01, 0.02, -0.01, 1.002});
