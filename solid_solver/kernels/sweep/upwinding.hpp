@@ -87,12 +87,12 @@ class StressUpwinding {
   [[gnu::noinline]] void correct_faces1(RowRun run) const;
   /// Faces j - 1/2 between the last row and row j.
   [[gnu::noinline]] void correct_faces2(RowRun run) const;
-  /// The decay of all components alike, in the step of the points of a run.
-  [[gnu::noinline]] void add_decay(RowRun run) const;
-  /// The same before it is added, in the rows of the faces below.
+  /// The decay of all components alike of the points of a run, in the place of that of the faces below them.
   [[gnu::noinline]] void find_decay(RowRun run) const;
-  /// Without what it does to the tractions of loaded sides.
+  /// Takes out what it does to the tractions of loaded sides.
   void spare_tractions(RowRun run) const;
+  /// Adds it to the step.
+  [[gnu::noinline]] void add_decay(RowRun run) const;
 
  private:
   /// Of the solution at a face, v* - (1 - share) (v* - mean of both sides).
