@@ -3,6 +3,8 @@
 /// and a point keeps what was predicted: each function returns how many of the rank's own points do.
 
 #include <Eigen/LU>
+#include <cstddef>
+#include <optional>
 #include <span>
 
 #include "solid_solver/boundary/interface.hpp"
@@ -30,12 +32,8 @@ class Characteristics {
  private:
   Stiffness stiffness(ConstFieldView q, const SidePoint& p) const;
   Mat2 impedance(const Stiffness& K, const SidePoint& p) const;
-  /// What both sides of a corner with known tractions ask of its velocity: Z dv = push.
-  struct CornerPush {
-    Vec2 push;
-    Mat2 Z;
-  };
-  CornerPush push_of_corner(ConstFieldView q, const SidePoint& one, const SideMemory& memory) const;
+  int push_corner(FieldView q, const SidePoint& one, std::optional<Vec2> along,
+                  const SideMemory& memory) const;
   int share_change(ConstFieldView q, SolidState& s, const SidePoint& one, const SideMemory& memory) const;
 
   const Sides& sides_;
@@ -153,15 +151,7 @@ int Characteristics<L>::slide_corners(FieldView q, std::span<const InterfaceValu
       if (!slides || !sides_.advanced(side, k)) continue;
       const auto at = static_cast<std::size_t>(k);
       const Vec2 t(-values.n[values.n.size() / 2 + at], values.n[at]);
-      const auto [push, Z] = push_of_corner(q, {side, k}, memory);
-      if (!Z.allFinite()) {
-        waveless += sides_.owns(side, k);
-        continue;
-      }
-      const std::ptrdiff_t a = sides_.line(side).at(k, 0);
-      SolidState s = load(q, a);
-      s.v += t * (t.dot(push) / t.dot(Z * t));
-      store(q, a, s);
+      waveless += push_corner(q, {side, k}, t, memory);
     }
   }
   return waveless;
@@ -174,43 +164,38 @@ int Characteristics<L>::follow_corners(FieldView q, const SideMemory& memory) co
   for (const Side side : {Side::left, Side::right}) {
     for (const int k : {0, sides_.line(side).n - 1}) {
       const bool given = sides_.condition(side).knows_rate() && sides_.condition_beyond(side, k).knows_rate();
-      if (!given || !sides_.advanced(side, k)) continue;
-      const auto [push, Z] = push_of_corner(q, {side, k}, memory);
-      if (!Z.allFinite()) {
-        waveless += sides_.owns(side, k);
-        continue;
-      }
-      const std::ptrdiff_t a = sides_.line(side).at(k, 0);
-      SolidState s = load(q, a);
-      s.v += Z.inverse() * push;
-      store(q, a, s);
+      if (given && sides_.advanced(side, k)) waveless += push_corner(q, {side, k}, std::nullopt, memory);
     }
   }
   return waveless;
 }
 
-/// Each side pushes over the shorter way the more, in proportion to |grad r|. Without it nothing damps what a corner does against its
-/// loads: waves along the sides grow from it on cells that are not square, and others in nearly incompressible bodies.
+/// Both sides push the corner, each over the shorter way the more, in proportion to |grad r|: Z dv = push, or only what that says along
+/// a tangent. Without it nothing damps what a corner does against its loads: waves along the sides grow from it on cells that are not
+/// square, and others in nearly incompressible bodies.
 template <Law L>
-typename Characteristics<L>::CornerPush Characteristics<L>::push_of_corner(ConstFieldView q,
-                                                                           const SidePoint& one,
-                                                                           const SideMemory& memory) const {
+int Characteristics<L>::push_corner(FieldView q, const SidePoint& one, std::optional<Vec2> along,
+                                    const SideMemory& memory) const {
   const SidePoint other = sides_.around_corner(one.side, one.k);
-  const SolidState s = load(q, sides_.line(one.side).at(one.k, 0));
+  const std::ptrdiff_t a = sides_.line(one.side).at(one.k, 0);
+  SolidState s = load(q, a);
   const Stiffness K = stiffness(q, one);
-  Vec2 projected = Vec2::Zero();
+  Vec2 projected = Vec2::Zero(), push = Vec2::Zero();
   for (const SidePoint& p : {one, other}) {
     if (sides_.condition(p.side).meets_gas()) projected += memory.v_change(p.side, p.k);
   }
-  CornerPush corner = {.push = Vec2::Zero(), .Z = Mat2::Zero()};
+  Mat2 Z = Mat2::Zero();
   for (const SidePoint& p : {one, other}) {
     const SideMetrics& m = sides_.at(p.side, p.k);
     const double rate = m.across.norm();
-    const Mat2 Z = rate * impedance(K, p);
-    corner.push += rate * (memory.T(p.side, p.k) - traction_of(s.P, m.n0)) - Z * projected;
-    corner.Z += Z;
+    const Mat2 of_side = rate * impedance(K, p);
+    push += rate * (memory.T(p.side, p.k) - traction_of(s.P, m.n0)) - of_side * projected;
+    Z += of_side;
   }
-  return corner;
+  if (!Z.allFinite()) return sides_.owns(one.side, one.k);
+  s.v += along ? Vec2(*along * (along->dot(push) / along->dot(Z * *along))) : Vec2(Z.inverse() * push);
+  store(q, a, s);
+  return 0;
 }
 
 /// Two loaded sides: both tractions hold. Two sides with given displacement: the change of the velocity goes
