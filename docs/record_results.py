@@ -425,6 +425,13 @@ def noise_of_solids(steps, commit=None):
     return text + (f", in a clone at commit {commit}" if commit else "") + "\n\n" + said.stdout
 
 
+def steps_of_solids():
+    """Growth per step of a block, from the eigenvalues of its linearised step."""
+    subprocess.run(["./launch/fsi", "--build", "steps_of_solids"], cwd=ROOT, check=True)
+    said = subprocess.run(["build/release/bin/steps_of_solids"], cwd=ROOT, check=True, capture_output=True, text=True)
+    return f"`build/release/bin/steps_of_solids` after `./launch/fsi --build steps_of_solids`\n\n{said.stdout}"
+
+
 def amplification():
     """Of waves in a strained solid, from the symbol of the scheme."""
     script = "tests/convergence/solid/noise/amplification.py"
@@ -434,6 +441,7 @@ def amplification():
 
 def other_studies():
     yield "Amplification of waves in a strained solid", amplification
+    yield "Growth per step of a block, by its sides", steps_of_solids
     yield "Noise in a strained solid, 64 combinations of the three betas", lambda: noise_of_solids(10000)
     yield "Noise in a strained solid, before the step bounded what grew", lambda: noise_of_solids(1000, BEFORE_THE_BOUNDS)
     yield "Ten times as long as shipped", ten_times_as_long

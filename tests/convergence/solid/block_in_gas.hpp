@@ -1,9 +1,10 @@
 #pragma once
-/// A block whose outline the coupler's projection moves, in a light gas that may press it.
+/// A block whose outline, or a part of it, the coupler's projection moves, in a gas that may press it.
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "common/grid/geometry/interface_geometry.hpp"
@@ -13,35 +14,41 @@
 
 namespace fsi::solid::test {
 
-struct GasAround {
-  double z_f = 2e-3;  ///< its impedance over that of the solid at rest [-]
+struct Surroundings {
+  double z_f = 2e-3;  ///< impedance of the gas over that of the solid at rest [-]
   Limiter limiter = Limiter::none;
-  bool below = true;  ///< there as well; else the bottom is free, of a body at rest
+  /// Sides without it are free: of a body at rest.
+  enum class Gas { around, not_below, nowhere } gas = Gas::around;
 };
 
 template <class L>
 class BlockInGas {
  public:
-  /// Squeezed alike in all directions, F = f I, with noise; the gas bears it.
-  BlockInGas(const NoiseCase& noise, const GasAround& gas)
+  /// Squeezed alike in all directions, F = f I; the gas bears it.
+  BlockInGas(const NoiseCase& noise, const Surroundings& around)
       : law_{.lambda = noise.lambda, .mu = 1},
         f_(noise.F.a11),
         pressed_(law_.P({f_, 0, 0, f_})),
         solver_(grid(noise.aspect), law_,
                 {.rho = 1,
-                 .limiter = gas.limiter,
+                 .limiter = around.limiter,
                  .tangential_stress = {.scaled = noise.beta_P},
                  .displacement = {.scaled = noise.beta_u},
                  .relaxation = {.scaled = noise.beta_r},
                  .cfl = noise.cfl},
-                boundaries(gas), 0),
-        outline_(outline(gas)),
-        curve_(gas.below ? grid::Curve::closed : grid::Curve::open),
-        gas_{.z = gas.z_f * std::sqrt(noise.lambda + 2), .w_n = pressed_.a11 / f_} {
+                boundaries(around.gas), 0),
+        outline_(outline(around.gas)),
+        nowhere_(around.gas == Surroundings::Gas::nowhere),
+        curve_(around.gas == Surroundings::Gas::around ? grid::Curve::closed : grid::Curve::open),
+        gas_{.z = around.z_f * std::sqrt(noise.lambda + 2), .w_n = pressed_.a11 / f_} {
     solver_.assign_initial_conditions([&](double x, double y, double) {
       return SolidState{.u = {(f_ - 1) * x, (f_ - 1) * y}, .v = Vec2::Zero(), .P = pressed_};
     });
-    // By a rule of which no wave knows.
+    project();
+  }
+
+  /// By a rule of which no wave knows.
+  void add_noise() {
     FieldView q = solver_.state();
     for (int k = 0; k < plane::count; ++k) {
       for (int j = 0; j <= n2; ++j) {
@@ -52,11 +59,34 @@ class BlockInGas {
     project();
   }
 
+  double stable_step() const { return solver_.compute_time_step().dt; }
   void step() {
-    const double dt = solver_.compute_time_step().dt;
+    const double dt = stable_step();
     solver_.advance_solid(t_, dt);
     t_ += dt;
     project();
+  }
+  /// All unknowns, point by point.
+  std::vector<double> unknowns() const {
+    std::vector<double> all;
+    for (int j = 0; j <= n2; ++j) {
+      for (int i = 0; i <= n1; ++i) {
+        for (int k = 0; k < plane::count; ++k) all.push_back(solver_.state()(k, i, j));
+      }
+    }
+    return all;
+  }
+  /// What conditions and a step make of these.
+  std::vector<double> stepped(std::span<const double> all, double dt) {
+    std::size_t next = 0;
+    for (int j = 0; j <= n2; ++j) {
+      for (int i = 0; i <= n1; ++i) {
+        for (int k = 0; k < plane::count; ++k) solver_.state()(k, i, j) = all[next++];
+      }
+    }
+    project();
+    solver_.advance_solid(t_, dt);
+    return unknowns();
   }
   double largest_velocity() const {
     double largest = 0;
@@ -80,20 +110,24 @@ class BlockInGas {
              }},
             0};
   }
-  static Boundaries boundaries(const GasAround& gas) {
+  static Boundaries boundaries(Surroundings::Gas gas) {
     Boundaries boundaries;
-    for (Boundary& boundary : boundaries) boundary.condition = Interface::condition;
-    if (!gas.below) boundaries[static_cast<std::size_t>(Side::bottom)].condition = Traction::condition;
+    for (const Side side : all_sides) {
+      const bool met =
+          gas == Surroundings::Gas::around || (gas == Surroundings::Gas::not_below && side != Side::bottom);
+      boundaries[static_cast<std::size_t>(side)].condition = met ? Interface::condition : Traction::condition;
+    }
     return boundaries;
   }
-  static JoinedSides outline(const GasAround& gas) {
-    if (!gas.below)
+  static JoinedSides outline(Surroundings::Gas gas) {
+    if (gas == Surroundings::Gas::not_below)
       return {{{Side::right}, {Side::top, true}, {Side::left, true}}, {n2 + 1, n1 + 1, n2 + 1}, false};
     return {{{Side::bottom}, {Side::right}, {Side::top, true}, {Side::left, true}},
             {n1 + 1, n2 + 1, n1 + 1, n2 + 1},
             true};
   }
   void project() {
+    if (nowhere_) return solver_.apply_solid_bcs(t_);
     std::vector<SolidInterface> each(outline_.stretches().size());
     for (std::size_t k = 0; k < each.size(); ++k)
       solver_.interface_state(outline_.stretches()[k].side, each[k]);
@@ -122,6 +156,7 @@ class BlockInGas {
   Tensor2 pressed_;
   SolidSolver<L> solver_;
   JoinedSides outline_;
+  bool nowhere_;
   grid::Curve curve_;
   NormalSide gas_;
   double t_ = 0;
@@ -130,8 +165,9 @@ class BlockInGas {
 /// Largest velocity in a hundred steps after `steps` steps, relative to the largest in the first hundred; infinite where the
 /// solution diverges.
 template <class L>
-double growth_of_noise_in_gas(const NoiseCase& noise, const GasAround& gas, int steps) {
-  BlockInGas<L> block(noise, gas);
+double growth_of_noise_in_gas(const NoiseCase& noise, const Surroundings& around, int steps) {
+  BlockInGas<L> block(noise, around);
+  block.add_noise();
   double first = 0, last = 0;
   try {
     for (int step = 0; step < steps + 100; ++step) {

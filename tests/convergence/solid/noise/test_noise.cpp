@@ -115,7 +115,7 @@ TEST(RoundOffNoiseUnderPressure, DoesNotGrowInABlockThatALightGasSqueezesEq43) {
                                  .beta_P = 0.5,
                                  .beta_u = 0.5,
                                  .beta_r = 0.2};
-        const test::GasAround gas = {.z_f = z_f, .limiter = limiter};
+        const test::Surroundings gas = {.z_f = z_f, .limiter = limiter};
         EXPECT_LT(test::growth_of_noise_in_gas<NeoHookean>(noise, gas, 1500), 1.0)
             << name(noise) << ", lambda " << lambda << ", z_f " << z_f;
       }

@@ -208,7 +208,9 @@ TEST(Corners, Eq18NoiseWhereAnInterfaceMeetsAFreeSideDoesNotGrow) {
     for (const double lambda : {1.0, 49.0}) {
       const test::NoiseCase noise = {
           .lambda = lambda, .aspect = aspect, .beta_P = 0.5, .beta_u = 0.5, .beta_r = 0.2};
-      EXPECT_LT(test::growth_of_noise_in_gas<NeoHookean>(noise, {.below = false}, 1500), 1.0)
+      EXPECT_LT(
+          test::growth_of_noise_in_gas<NeoHookean>(noise, {.gas = test::Surroundings::Gas::not_below}, 1500),
+          1.0)
           << aspect << ", " << lambda;
     }
   }
