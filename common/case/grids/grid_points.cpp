@@ -1,6 +1,8 @@
 #include "common/case/grids/grid_points.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace fsi {
 
@@ -53,6 +55,13 @@ std::vector<double> points_on_side(const GridSpec& grid, Side side, int n) {
     x[count + k] = point[1];
   }
   return x;
+}
+
+int digits_for(double coordinate, double spacing) {
+  if (coordinate == 0) return 1;
+  constexpr int of_a_hundredth = 2;
+  const double before = std::ceil(std::log10(std::abs(coordinate) / spacing));
+  return std::clamp(static_cast<int>(before) + of_a_hundredth, 1, std::numeric_limits<double>::max_digits10);
 }
 
 }  // namespace fsi

@@ -22,5 +22,7 @@ Vec2 side_point(const GridSpec& grid, Side side, int k, double t = 0);
 Vec2 inner_point(const GridSpec& grid, Side side, int k);
 /// n points along a side at t = 0, evenly in the grid's parameter, component-major.
 std::vector<double> points_on_side(const GridSpec& grid, Side side, int n);
+/// Digits that place a coordinate to a hundredth of the distance of points there.
+int digits_for(double coordinate, double spacing);
 
 }  // namespace fsi

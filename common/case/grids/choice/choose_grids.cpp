@@ -13,6 +13,7 @@
 #include "common/case/grids/choice/choose_corners.hpp"
 #include "common/case/grids/choice/fit_grids.hpp"
 #include "common/case/grids/choice/wall_strips.hpp"
+#include "common/case/grids/grid_points.hpp"
 #include "common/case/grids/no_grids_fit.hpp"
 #include "common/case/grids/node_tools.hpp"
 #include "common/case/grids/own_crossing.hpp"
@@ -97,11 +98,15 @@ std::string write_block(Node& solid, const std::string& name, const std::array<V
 
 std::string text_of(const std::string& solid, const BodyGrids& grids) {
   const GridSpec& core = grids.core;
+  const auto range = [](double a, double b, int points) {
+    const double spacing = (b - a) / (points - 1);
+    const int digits = std::max({4, digits_for(a, spacing), digits_for(b, spacing)});
+    return fmt::format("[{:.{}g}, {:.{}g}]", a, digits, b, digits);
+  };
   return fmt::format(
-      "solids.{}: {} points along its outline, {} lines from {:.3g} apart; grid {} x {} on "
-      "[{:.4g}, {:.4g}] x [{:.4g}, {:.4g}]",
-      solid, grids.outline_points, grids.lines, grids.line_spacing, core.n1, core.n2, core.x_a, core.x_b,
-      core.y_a, core.y_b);
+      "solids.{}: {} points along its outline, {} lines from {:.3g} apart; grid {} x {} on {} x {}", solid,
+      grids.outline_points, grids.lines, grids.line_spacing, core.n1, core.n2,
+      range(core.x_a, core.x_b, core.n1), range(core.y_a, core.y_b, core.n2));
 }
 
 /// The core of an elastic body has its sides along the axes: its outline cannot end on a wall that slopes.

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "common/case/grids/composite_from_case.hpp"
+#include "common/case/grids/grid_points.hpp"
 #include "common/case/grids/no_grids_fit.hpp"
 #include "common/core/failure.hpp"
 #include "common/grid/geometry/outline.hpp"
@@ -54,6 +55,11 @@ double as_written(double value) {
   return std::stod(fmt::format("{:.6g}", value));
 }
 
+/// A chosen coordinate, where points are `spacing` apart: far from the origin six digits would not place it.
+double coordinate_as_written(double value, double spacing) {
+  return std::stod(fmt::format("{:.{}g}", value, std::max(6, digits_for(value, spacing))));
+}
+
 /// Two coordinates with points c apart between them that hold the curve: an end with a wall is that wall.
 void span_core(const CurveSpec& curve, int direction, double c, GridSpec& core) {
   const auto n = static_cast<std::ptrdiff_t>(curve.points());
@@ -70,8 +76,8 @@ void span_core(const CurveSpec& curve, int direction, double c, GridSpec& core) 
   double a = wall[0].value_or(*low - 0.5 * c), b = wall[1].value_or(*high + 0.5 * c);
   const int cells = std::max(4, static_cast<int>(std::ceil((b - a) / c * (1 - 1e-9))));
   const double excess = cells * c - (b - a);
-  if (!wall[0]) a = as_written(a - (wall[1] ? excess : 0.5 * excess));
-  if (!wall[1]) b = as_written(a + cells * c);
+  if (!wall[0]) a = coordinate_as_written(a - (wall[1] ? excess : 0.5 * excess), c);
+  if (!wall[1]) b = coordinate_as_written(a + cells * c, c);
   (direction == 0 ? core.x_a : core.y_a) = a;
   (direction == 0 ? core.x_b : core.y_b) = b;
   (direction == 0 ? core.n1 : core.n2) = cells + 1;

@@ -9,6 +9,7 @@
 namespace fsi {
 namespace {
 
+using tests::load_text;
 using tests::mistake_in;
 
 /// What the tests replace in a case of two disks in a gas.
@@ -60,6 +61,28 @@ std::string disk_at(double x) {
 
 TEST(CaseGeometry, TwoDisksApartAreFine) {
   EXPECT_EQ(mistake_in(text_of({})), "");
+}
+
+/// The grid that is chosen inside a disk.
+GridSpec core_at(const std::string& x) {
+  return load_text("parameters: {X: " + x +
+                   "}\ntime: {end: 1}\ngrid: {factor: 2}\n"
+                   "fluid:\n"
+                   "  grid: {x: [X - 2, X + 2], y: [-2, 2]}\n"
+                   "  boundary: {left: outflow, right: outflow, bottom: outflow, top: outflow}\n"
+                   "  initial: {rho: 1, v: [0, 0], p: 1}\n"
+                   "solids:\n  a: {law: neo_hookean, rho: 1, lambda: 1, mu: 1, shape: {kind: circle, "
+                   "centre: [X, 0], radius: 0.5}}\n")
+      .solids[0]
+      .grid;
+}
+
+TEST(CaseGeometry, GridsAreChosenFarFromTheOriginAsTheyAreThere) {
+  const GridSpec near = core_at("0"), far = core_at("2e6");
+  const double hundredth = 0.01 * (near.x_b - near.x_a) / (near.n1 - 1);
+  EXPECT_EQ(far.n1, near.n1);
+  EXPECT_NEAR(far.x_a - 2e6, near.x_a, 2 * hundredth);
+  EXPECT_NEAR(far.x_b - 2e6, near.x_b, 2 * hundredth);
 }
 
 TEST(CaseGeometry, SolidsThatOverlapAreNamedWithHowFar) {
