@@ -104,8 +104,9 @@ TOO_SMALL = 0.5     # radius that is not worth its grids, in h
 
 
 def may_be_sharp(problem):
-    """Straight edges of a rigid body with a point of the grid at each corner: if its grids are valid nothing is rounded away."""
-    return problem.straight and problem.law == "rigid" and problem.sharp and shortest_edge(problem.outline) >= problem.spacing()
+    """Straight edges of a rigid body with a point of the grid at each corner: if its grids are valid nothing is rounded away. At edges
+    shorter than h arcs take by far smaller cells than sharp corners do."""
+    return problem.straight and problem.law == "rigid" and problem.sharp
 
 
 def radius_of_corners(problem):

@@ -80,6 +80,16 @@ class New(InFolder):
         self.assertLess(steps, float(re.search(r"about (\d+) steps", rounded)[1]))
         self.complete("wedge.yaml", "--set", "time.end=2e-5", "--no-progress")
 
+    def test_thin_rigid_plates_stay_sharp_and_take_few_steps(self):
+        for name, points in (("plate", "0,0\n1,.2\n.995,.22\n-.005,.02\n"), ("angle", "0,0\n1,0\n1,.03\n.03,.03\n.03,1\n0,1\n")):
+            (self.folder / f"{name}.csv").write_text(points)
+            self.fsi("new", name, "--outline", f"{name}.csv", "--straight", "--law", "rigid", "--fixed", "--defaults")
+            self.assertEqual(self.shape(name)["radius"], 0)
+            sharp, rounded = (self.fsi("check", f"{name}.yaml", "--set", f"solids.body.shape.radius={radius}").stdout for radius in (0, 0.005))
+            few, many = (float(re.search(r"about (\d+) steps", said)[1]) for said in (sharp, rounded))
+            self.assertLess(5 * few, many)
+        self.complete("plate.yaml", "--set", "time.end=2e-4", "--no-progress")
+
     def test_a_rigid_body_whose_sharp_corners_have_no_grids_is_rounded_and_that_is_said(self):
         (self.folder / "dart.csv").write_text("0,0\n1,.4\n.35,0\n1,-.4\n")
         said = self.fsi("new", "dart", "--outline", "dart.csv", "--straight", "--size", "0.1", "--law", "rigid", "--defaults").stdout
