@@ -113,17 +113,26 @@ void PrescribedMotion::acceleration(double t, std::span<double> a) const {
   });
 }
 
+void InterfaceMotion::start(std::span<const double> v, std::span<const double> a) {
+  std::ranges::copy(v, v_.begin());
+  if (a.empty()) {
+    std::ranges::fill(a_, 0.0);
+  } else {
+    std::ranges::copy(a, a_.begin());
+  }
+}
+
 void InterfaceMotion::take(std::span<const double> v, double dt) {
   // The mean acceleration of the last step belongs to its middle;
   // the trend of the last two brings it to the end.
   const double reach = steps_ > 0 ? dt / (dt + dt_) : 0.0;
   for (std::size_t k = 0; k < v_.size(); ++k) {
-    const double mean = dt > 0 ? (v[k] - v_[k]) / dt : 0.0;
+    const double mean = (v[k] - v_[k]) / dt;
     a_[k] = mean + reach * (mean - mean_[k]);
     mean_[k] = mean;
     v_[k] = v[k];
   }
-  if (dt > 0) ++steps_;
+  ++steps_;
   dt_ = dt;
 }
 

@@ -81,8 +81,9 @@ class InterfaceMotion {
  public:
   explicit InterfaceMotion(std::size_t points) : v_(2 * points), a_(2 * points), mean_(2 * points) {}
 
-  /// Projected velocity at the end of a step of size `dt` (0: the first exchange, no acceleration yet). The
-  /// acceleration is of second order from the third velocity on.
+  /// Projected velocity of the initial state, and its acceleration where the solid says one (empty: 0).
+  void start(std::span<const double> v, std::span<const double> a);
+  /// Projected velocity at the end of a step of size `dt`. The acceleration is of second order from the third velocity on.
   void take(std::span<const double> v, double dt);
   /// Position after the next step, x_s + dt v + dt^2/2 a. It starts from the solid's own position, so that
   /// what the gas and the solid differ by now is gone after the step.

@@ -41,6 +41,7 @@ struct Members<wire::PredictedInterface> {
                                    MemberPair{&Sample::dt_reason, &Ours::dt_reason},
                                    MemberPair{&Sample::x, &Ours::x},
                                    MemberPair{&Sample::v, &Ours::v},
+                                   MemberPair{&Sample::a, &Ours::a},
                                    MemberPair{&Sample::w, &Ours::w},
                                    MemberPair{&Sample::p, &Ours::p},
                                    MemberPair{&Sample::z_f, &Ours::z_f},
@@ -226,15 +227,15 @@ bool same_state(const amp_fsi_PredictedInterface& incoming, const wire::Predicte
     return one._length == other.size() &&
            (other.empty() || std::memcmp(one._buffer, other.data(), other.size() * sizeof(double)) == 0);
   };
-  return same(incoming.x, state.x) && same(incoming.v, state.v) && same(incoming.w, state.w) &&
-         same(incoming.p, state.p) && same(incoming.z_f, state.z_f) && same(incoming.rho, state.rho) &&
-         same(incoming.gamma, state.gamma) && same(incoming.Z, state.Z);
+  return same(incoming.x, state.x) && same(incoming.v, state.v) && same(incoming.a, state.a) &&
+         same(incoming.w, state.w) && same(incoming.p, state.p) && same(incoming.z_f, state.z_f) &&
+         same(incoming.rho, state.rho) && same(incoming.gamma, state.gamma) && same(incoming.Z, state.Z);
 }
 
 std::size_t payload(const wire::PredictedInterface& m) {
-  return bytes_of(m.x, m.v, m.w, m.p, m.z_f, m.rho, m.gamma, m.Z, m.fixed, m.modal.S.row, m.modal.S.column,
-                  m.modal.S.value, m.modal.N.row, m.modal.N.column, m.modal.N.value, m.modal.g,
-                  m.modal.q_dot);
+  return bytes_of(m.x, m.v, m.a, m.w, m.p, m.z_f, m.rho, m.gamma, m.Z, m.fixed, m.modal.S.row,
+                  m.modal.S.column, m.modal.S.value, m.modal.N.row, m.modal.N.column, m.modal.N.value,
+                  m.modal.g, m.modal.q_dot);
 }
 
 std::size_t payload(const wire::ProjectedInterface& m) {

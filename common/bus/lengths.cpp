@@ -77,6 +77,7 @@ void check_lengths(const wire::PredictedInterface& m, InterfaceSize size) {
   const std::size_t vectors = size.dimension * size.points;
   lengths.check("x", m.x, vectors);
   lengths.check("v", m.v, vectors);
+  lengths.check("a", m.a, vectors);
   lengths.check("w", m.w, vectors);
   lengths.check("p", m.p, size.points);
   lengths.check("z_f", m.z_f, size.points);

@@ -12,7 +12,7 @@
 
 namespace fsi::wire {
 
-inline constexpr std::uint32_t protocol_version = 13;
+inline constexpr std::uint32_t protocol_version = 14;
 
 /// Where one program meets the gas or a solid.
 struct InterfaceInfo {
@@ -84,6 +84,7 @@ struct PredictedInterface {
   std::string dt_reason;      ///< what limits it, for people
   std::vector<double> x;      ///< solid: x_bar + u; gas: its grid's interface, n_d * n
   std::vector<double> v;      ///< velocity, n_d * n
+  std::vector<double> a;      ///< solid, at step 0: acceleration of the initial state, n_d * n; empty: none
   std::vector<double> w;      ///< solid: traction eta n0^T P per current area, n_d * n
   std::vector<double> p;      ///< gas: pressure, n
   std::vector<double> z_f;    ///< gas: impedance rho a, n

@@ -84,6 +84,7 @@ void InterfaceExchange::check_solid(const Moment& moment, const wire::PredictedI
   const std::size_t n = transfer_ && !pair_.coarser->is_gas ? transfer_->coarse_points() : curve_.n;
   check_values(moment, solid, "the position", solid.x, 2 * n, n);
   check_values(moment, solid, "the velocity", solid.v, 2 * n, n);
+  if (!solid.a.empty()) check_values(moment, solid, "the acceleration", solid.a, 2 * n, n);
   if (!solid.fixed.empty() && solid.fixed.size() != n) {
     throw PeerLost(fmt::format("\"{}\" sent {} marks of fixed points for interface \"{}\", not {}",
                                solid.from, solid.fixed.size(), pair_.name, n));
@@ -239,7 +240,11 @@ void InterfaceExchange::remember(const Moment& moment, const wire::PredictedInte
     v_[k] = solid.v[k] + correction * n_[k];
     v_[n + k] = solid.v[n + k] + correction * n_[n + k];
   }
-  motion_.take(v_, moment.dt);
+  if (moment.dt > 0) {
+    motion_.take(v_, moment.dt);
+  } else {
+    motion_.start(v_, solid.a);
+  }
   std::ranges::copy(motion_.a(), a_.begin());
   if (!prescribed_) return;
   prescribed_->velocity(moment.t, v_);

@@ -56,6 +56,7 @@ const wire::PredictedInterface& InterfaceTransfer::bring(const wire::PredictedIn
   fill(difference(coarse.x, x_0_), brought_.x, &CurveInterpolation::cubic);
   for (std::size_t k = 0; k < 2 * m; ++k) brought_.x[k] += x_0_fine_[k];
   fill(coarse.v, brought_.v, &CurveInterpolation::cubic);
+  fill(coarse.a, brought_.a, &CurveInterpolation::cubic);
   fill(coarse.w, brought_.w, &CurveInterpolation::cubic);
   fill(coarse.p, brought_.p, &CurveInterpolation::cubic);
   bring_modes(coarse.modal);

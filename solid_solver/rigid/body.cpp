@@ -140,6 +140,14 @@ std::vector<double> RigidBody::velocities(std::span<const double> x) const {
   return v;
 }
 
+std::vector<double> RigidBody::centripetal_accelerations(std::span<const double> x) const {
+  const std::size_t n = x.size() / 2;
+  const double omega = velocity()[2];
+  std::vector<double> a(2 * n);
+  for (std::size_t i = 0; i < 2 * n; ++i) a[i] = -omega * omega * (x[i] - pose_.centre[i < n ? 0 : 1]);
+  return a;
+}
+
 double RigidBody::angular_momentum() const {
   const Vec3 v = velocity();
   return dynamics_.mass * turned(pose_.centre).dot(v.head<2>()) + dynamics_.moment_of_inertia * v[2];

@@ -77,6 +77,8 @@ class RigidBody {
   /// The same for a whole outline, 2 n.
   std::vector<double> positions(std::size_t outline = 0) const;
   std::vector<double> velocities(std::span<const double> x) const;
+  /// Of points at x: accelerations towards the centre of mass, -omega^2 r, 2 n.
+  std::vector<double> centripetal_accelerations(std::span<const double> x) const;
 
   double kinetic_energy() const { return 0.5 * s_.dot(mass_matrix() * s_); }
   Vec2 momentum() const { return dynamics_.mass * velocity().head<2>(); }

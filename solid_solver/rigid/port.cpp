@@ -48,6 +48,9 @@ ProposedTimeStep RigidParticipant::compute_time_step() const {
 void RigidParticipant::fill(std::size_t k, wire::PredictedInterface& predicted) const {
   predicted.x = body_.positions(k);
   predicted.v = body_.velocities(predicted.x);
+  predicted.a.clear();
+  if (predicted.step == 0 && body_.velocity()[2] != 0)
+    predicted.a = body_.centripetal_accelerations(predicted.x);
   if (spec_.fixed) {  // one mode that moves no point
     predicted.modal = {
         .modes = 1, .S = {.row = {0}, .column = {0}, .value = {1}}, .g = {0}, .N = {}, .q_dot = {0}};

@@ -26,6 +26,7 @@ while (($# > 0)); do
 done
 ((${#suites[@]} > 0)) || suites=(bookworm trixie)
 [[ $(id -u) == 0 ]] || { echo "$0: must be run as root" >&2; exit 2; }
+command -v debootstrap >/dev/null || { echo "$0: takes debootstrap: apt-get install debootstrap" >&2; exit 2; }
 
 # The first mirror of this machine that is no archive of security updates; nothing where there is none.
 apt_mirror() {
@@ -46,7 +47,7 @@ trap unmount EXIT
 make_chroot() {  # make_chroot SUITE DIR LOG
   if [[ ! -e $2/etc/fsi-complete ]]; then
     rm -rf "$2"
-    debootstrap --variant=minbase --include=git,ca-certificates "$1" "$2" "$mirror" >"$3" 2>&1
+    debootstrap --variant=minbase --include=git,ca-certificates "$1" "$2" "$mirror" >"$3" 2>&1 || { tail -n 3 "$3" >&2; return 1; }
     touch "$2/etc/fsi-complete"
   fi
   cp -L /etc/resolv.conf "$2/etc/resolv.conf"

@@ -37,6 +37,7 @@ TEST(Convert, PredictedStateKeepsEveryField) {
                                      .dt_reason = "why",
                                      .x = {1, 2},
                                      .v = {3},
+                                     .a = {3.5},
                                      .w = {4},
                                      .p = {5},
                                      .z_f = {6},
@@ -57,9 +58,9 @@ TEST(Convert, PredictedStateKeepsEveryField) {
   const wire::PredictedInterface in = carried(out);
   EXPECT_EQ(std::tie(in.run, in.from, in.interface, in.step, in.t, in.proposed_dt, in.dt_reason),
             std::tie(out.run, out.from, out.interface, out.step, out.t, out.proposed_dt, out.dt_reason));
-  EXPECT_EQ(
-      std::tie(in.x, in.v, in.w, in.p, in.z_f, in.rho, in.gamma, in.Z, in.z_p, in.fixed, in.p_e),
-      std::tie(out.x, out.v, out.w, out.p, out.z_f, out.rho, out.gamma, out.Z, out.z_p, out.fixed, out.p_e));
+  EXPECT_EQ(std::tie(in.x, in.v, in.a, in.w, in.p, in.z_f, in.rho, in.gamma, in.Z, in.z_p, in.fixed, in.p_e),
+            std::tie(out.x, out.v, out.a, out.w, out.p, out.z_f, out.rho, out.gamma, out.Z, out.z_p,
+                     out.fixed, out.p_e));
   EXPECT_EQ(std::tie(in.modal.modes, in.modal.g, in.modal.q_dot),
             std::tie(out.modal.modes, out.modal.g, out.modal.q_dot));
   for (const auto matrix : {&wire::ModalResponse::S, &wire::ModalResponse::N}) {

@@ -231,7 +231,7 @@ TEST(InterfaceMotion, PredictsAnAcceleratedPathToThirdOrderPerStep) {
   const auto path = [](double t) { return std::sin(t); };
   const auto error = [&](double dt) {
     InterfaceMotion motion(1);
-    motion.take(std::vector<double>{std::cos(0.5 - dt), 0.0}, 0);
+    motion.start(std::vector<double>{std::cos(0.5 - dt), 0.0}, {});
     motion.take(std::vector<double>{std::cos(0.5), 0.0}, dt);
     std::vector<double> next(2);
     motion.command(std::vector<double>{path(0.5), 0.0}, dt, next);
@@ -241,14 +241,24 @@ TEST(InterfaceMotion, PredictsAnAcceleratedPathToThirdOrderPerStep) {
   EXPECT_GE(std::log2(error(0.02) / error(0.01)), 2.9);
 }
 
+TEST(InterfaceMotion, FirstStepOfABodyThatSaysHowItAcceleratesIsOfThirdOrderToo) {
+  const auto error = [](double dt) {  // a point that goes round
+    InterfaceMotion motion(1);
+    motion.start(std::vector<double>{0.0, 2.0}, std::vector<double>{-4.0, 0.0});
+    std::vector<double> next(2);
+    motion.command(std::vector<double>{1.0, 0.0}, dt, next);
+    return std::hypot(next[0] - std::cos(2 * dt), next[1] - std::sin(2 * dt));
+  };
+  EXPECT_LE(error(0.01), 2e-6);
+  EXPECT_GE(std::log2(error(0.02) / error(0.01)), 2.9);
+}
+
 TEST(InterfaceMotion, AccelerationIsExactWhenItGrowsLinearlyWhateverTheSteps) {
   InterfaceMotion motion(1);
-  const auto take = [&](double t, double dt) {
-    motion.take(std::vector<double>{0.3 * t + 0.7 * t * t, -t * t}, dt);
-  };
-  take(1.0, 0);
-  take(1.1, 0.1);
-  take(1.35, 0.25);
+  const auto velocity = [](double t) { return std::vector<double>{0.3 * t + 0.7 * t * t, -t * t}; };
+  motion.start(velocity(1.0), {});
+  motion.take(velocity(1.1), 0.1);
+  motion.take(velocity(1.35), 0.25);
   EXPECT_NEAR(motion.a()[0], 0.3 + 1.4 * 1.35, 1e-13);
   EXPECT_NEAR(motion.a()[1], -2 * 1.35, 1e-13);
 }
@@ -256,7 +266,7 @@ TEST(InterfaceMotion, AccelerationIsExactWhenItGrowsLinearlyWhateverTheSteps) {
 TEST(InterfaceMotion, UniformMotionStartsWithoutAcceleration) {
   InterfaceMotion motion(2);
   const std::vector<double> v{0.5, 0.5, -0.25, -0.25};
-  motion.take(v, 0);
+  motion.start(v, {});
   EXPECT_TRUE(std::ranges::all_of(motion.a(), [](double a) { return a == 0; }));
   motion.take(v, 0.1);
   EXPECT_TRUE(std::ranges::all_of(motion.a(), [](double a) { return a == 0; }));
