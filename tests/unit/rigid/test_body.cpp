@@ -208,6 +208,16 @@ TEST(RigidBody, AnAlmostMasslessBodyForgetsAStepLoadInAFewSteps) {
   EXPECT_LE(run.body().velocity().norm(), 1e-6 * loaded);
 }
 
+TEST(RigidBody, PointsThatGoRoundAccelerateTowardsTheCentre) {
+  RigidBody body = disk(0.7, {0.4, -0.3, 2});
+  const std::vector<double> x = body.positions(), v = body.velocities(x);
+  const std::vector<double> a = body.centripetal_accelerations(x);
+  const double dt = 1e-5;
+  body.advance(dt);  // without a load
+  const std::vector<double> later = body.velocities(body.positions());
+  for (std::size_t i = 0; i < x.size(); ++i) EXPECT_NEAR(a[i], (later[i] - v[i]) / dt, 1e-4) << i;
+}
+
 TEST(RigidBody, ItsOutlineKeepsItsShape) {
   InGas run(ellipse(0.1, 81, 0.8), [](const Vec2& x, double) { return p_e + (x.x() + 1) * (x.x() + 1); });
   const std::vector<double> before = run.body().positions();
