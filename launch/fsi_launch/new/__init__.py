@@ -105,6 +105,23 @@ def _rounded(problem, path):
             f"({corner[0]:.4g}, {corner[1]:.4g}); with a smaller `radius` in {path} less is, and an elastic body takes finer grids")
 
 
+def _of_edges(problem, file):
+    """What is said where straight edges in the place of a smooth curve, or the reverse, may be meant, or ""."""
+    if not problem.outline.points:
+        return ""
+    angle, most = outline.corners(problem.outline)[0], outline.largest_turn(problem.outline)
+    if problem.straight:
+        return "" if problem.on_wall or angle is not None or most > WIDE else (
+            f"the points of {file} turn by {most:.0f} degrees at most: if these are no corners, leave out --straight; "
+            "a smooth curve takes larger cells and fewer steps")
+    if angle is not None and not text.keeps_corners(problem):
+        return f"the points of {file} turn by more than {angle} degrees: if these are corners, add --straight for edges between the points"
+    if angle is None and most > WIDE:
+        return (f"a smooth curve goes through the points of {file}, which turn by up to {most:.0f} degrees: if they are corners, add "
+                "--straight for edges between them")
+    return ""
+
+
 def main(options):
     """Writes NAME.yaml, and its outline where that had to be scaled; checks what it wrote."""
     path, points = _paths(options)
@@ -122,12 +139,8 @@ def main(options):
     problem = _settled(problem, path)
     file = points.name if own_points else problem.outline.path and os.path.relpath(problem.outline.path, path.parent)
     _write(path, text.write(problem, str(path), file))
-    angle = None if problem.straight or not problem.outline.points else outline.corners(problem.outline)[0]
-    if angle is not None and not text.keeps_corners(problem):
-        print(f"the points of {options.outline} turn by more than {angle} degrees: if these are corners, add --straight for edges between the points")
-    elif problem.outline.points and not problem.straight and angle is None and (most := outline.largest_turn(problem.outline)) > WIDE:
-        print(f"a smooth curve goes through the points of {options.outline}, which turn by up to {most:.0f} degrees: if they are corners, add "
-              "--straight for edges between them")
+    if words := _of_edges(problem, options.outline):
+        print(words)
     if words := _rounded(problem, path):
         print(words)
     try:

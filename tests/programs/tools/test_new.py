@@ -80,6 +80,16 @@ class New(InFolder):
         self.assertLess(steps, float(re.search(r"about (\d+) steps", rounded)[1]))
         self.complete("wedge.yaml", "--set", "time.end=2e-5", "--no-progress")
 
+    def test_edges_that_hardly_turn_are_told_that_a_smooth_curve_takes_fewer_steps(self):
+        angles = np.arange(60) * np.pi / 30
+        np.savetxt(self.folder / "round.csv", np.column_stack((0.5 * np.cos(angles), 0.2 * np.sin(angles))), delimiter=",")
+        edges, smooth = (self.fsi("new", "round", "--outline", "round.csv", "--law", "rigid", "--defaults", "--overwrite", *given).stdout
+                         for given in (["--straight"], []))
+        self.assertIn("if these are no corners, leave out --straight", edges)
+        self.assertNotIn("--straight", smooth)
+        few, many = (int(re.search(r"about (\d+) steps", said)[1]) for said in (smooth, edges))
+        self.assertLess(2 * few, many)
+
     def test_thin_rigid_plates_stay_sharp_and_take_few_steps(self):
         for name, points in (("plate", "0,0\n1,.2\n.995,.22\n-.005,.02\n"), ("angle", "0,0\n1,0\n1,.03\n.03,.03\n.03,1\n0,1\n")):
             (self.folder / f"{name}.csv").write_text(points)
