@@ -18,14 +18,14 @@ GasExpressions Reader::gas_state(const Node& node, const std::string& path) cons
   return {expression(rho), v.c1, v.c2, p != nullptr ? expression(*p) : pressure_from_T()};
 }
 
-bool Reader::from_reference(const Node& node, const std::string& path) const {
+bool Reader::from_reference(const Node& node, const std::string& path, std::string_view otherwise) const {
   if (!node.is_scalar()) return false;
   const Node* reference = root_.find("reference");
   const Node* kind = reference == nullptr ? nullptr : reference->find("kind");
   if (kind == nullptr || kind->text == "none") {
-    config::fail(
-        node.place, path,
-        "takes its data from `reference`, but the case has no reference solution; give the data here");
+    config::fail(node.place, path,
+                 fmt::format("takes its data from `reference`, but the case has no reference solution; {}",
+                             otherwise));
   }
   return true;
 }

@@ -2,6 +2,7 @@
 /// Reads values from nodes that `validate` has passed.
 
 #include <string>
+#include <string_view>
 
 #include "common/case/case.hpp"
 #include "common/case/document/scope.hpp"
@@ -48,8 +49,10 @@ class Reader {
   }
   /// State with p given, or T and then p = rho T. @throws UserMistake where both or none are there
   GasExpressions gas_state(const config::Node& node, const std::string& path) const;
-  /// True where the data of `node` is the word `reference`. @throws UserMistake where the case has none
-  bool from_reference(const config::Node& node, const std::string& path) const;
+  /// True where the data of `node` is the word `reference`. @throws UserMistake where the case has none, which says
+  /// what to do `otherwise`
+  bool from_reference(const config::Node& node, const std::string& path,
+                      std::string_view otherwise = "give the data here") const;
 
  private:
   const config::Node& root_;

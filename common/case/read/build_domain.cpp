@@ -64,6 +64,26 @@ void read_points(const Node& node, const std::string& path, GridSpec& grid) {
   grid.n2 = static_cast<int>(n2);
 }
 
+/// A state of the gas on one line, as the file has it.
+std::string as_written(const Node& state) {
+  const auto formula = [](const Node& node) {
+    return node.text.find_first_of(",:") == std::string::npos ? node.text : fmt::format("\"{}\"", node.text);
+  };
+  const Node &v = *state.find("v"), *p = state.find("p");
+  const Node& p_or_T = p != nullptr ? *p : *state.find("T");
+  return fmt::format("{{rho: {}, v: [{}, {}], {}: {}}}", formula(*state.find("rho")), formula(v.items[0]),
+                     formula(v.items[1]), p != nullptr ? "p" : "T", formula(p_or_T));
+}
+
+/// What a side of this kind takes where there is no reference solution.
+std::string data_for(const Owner& owner, const std::string& kind) {
+  const Node* initial = owner.is_gas ? owner.node.find("initial") : nullptr;
+  if (initial == nullptr || (initial->find("p") == nullptr) == (initial->find("T") == nullptr))
+    return "give the data here";
+  return fmt::format("write {{kind: {}, state: {}}} for the gas that is there at the start", kind,
+                     as_written(*initial));
+}
+
 BoundarySpec boundary_from_word(const Reader& reader, const Owner& owner, const Node& node,
                                 const std::string& path) {
   BoundarySpec result;
@@ -75,7 +95,7 @@ BoundarySpec boundary_from_word(const Reader& reader, const Owner& owner, const 
   }
   result.kind = named<BoundaryKind>(node.text).value();
   if (std::ranges::any_of(keys_of(owner, result.kind), schema::takes_reference))
-    result.from_reference = reader.from_reference(node, path);
+    result.from_reference = reader.from_reference(node, path, data_for(owner, node.text));
   if (result.kind == BoundaryKind::interface && owner.is_gas) {
     if (owner.partner.empty())
       fail(node.place, path, "write {kind: interface, solid: NAME}: the case has not one solid");

@@ -290,7 +290,8 @@ const Mistake partners[] = {
      "case.yaml:11:5: fluid.boundary: right is periodic and left is not; write both"},
     {"DataFromNoReference", "right: outflow", "right: dirichlet",
      "case.yaml:12:12: fluid.boundary.right: takes its data from `reference`, but the case has no reference "
-     "solution; give the data here"},
+     "solution; write {kind: dirichlet, state: {rho: 1, v: [0, 0], p: 1}} for the gas that is there at the "
+     "start"},
     {"SolidThatStartsFromAReferenceWithoutIt", "      top: symmetry\noutput:",
      "      top: symmetry\n    initial: reference\nreference: {kind: expressions, fluid: {rho: 1, v: [0, 0], "
      "p: "
