@@ -327,8 +327,8 @@ void inline_points(Node& shape, const std::string& owner, const std::string& fol
     const std::vector<Vec2> points = grid::points_from_csv(file.text, path);
     if (points.size() > config::most_items) {
       fail(entry.value.place, owner + ".file",
-           fmt::format("{} has {} points; at most {} are possible", in_ticks(path), points.size(),
-                       config::most_items));
+           fmt::format("{} has {} points; at most {} are possible: keep one in {}", in_ticks(path),
+                       points.size(), config::most_items, (points.size() - 1) / config::most_items + 1));
     }
     for (const Vec2& point : points) {
       Node pair{.kind = Node::Kind::list, .place = entry.value.place, .entries = {}};

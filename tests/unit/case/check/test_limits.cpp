@@ -171,8 +171,8 @@ TEST(CaseLimits, FilesOfPointsThatAreNoneOrEndlessAreRefusedWhereTheyAreNamed) {
   expect("pipe.csv", "is a pipe");
   expect("loop.csv", "is a link that leads nowhere");
   expect(".", "is a folder");
-  expect("many.csv", "has 30000 points; at most 20000 are possible");
-  expect("million.csv", "has 1000000 points; at most 20000 are possible");
+  expect("many.csv", "has 30000 points; at most 20000 are possible: keep one in 2");
+  expect("million.csv", "has 1000000 points; at most 20000 are possible: keep one in 50");
 }
 
 TEST(CaseMemory, IsRefusedByNameWithWhatWouldFit) {
