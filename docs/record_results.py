@@ -609,7 +609,9 @@ def check(words):
 def recorded_with():
     """The line that says which programs gave a section."""
     said = subprocess.run(["./launch/fsi", "--version"], cwd=ROOT, capture_output=True, text=True, check=True).stdout
-    return f"Recorded with{said.splitlines()[0].partition(',')[2]}.\n\n"
+    version = said.splitlines()[0].partition(",")[2]    # of the build; nothing where there is none, as in a clone that only other clones are made of
+    head = subprocess.run(["git", "rev-parse", "--short=12", "HEAD"], cwd=ROOT, capture_output=True, text=True, check=True).stdout.strip()
+    return f"Recorded with{version or f' commit {head}'}.\n\n"
 
 
 TIMES = re.compile(r"(?:^\|[^\n]*(?:updates/s|ms/step|processor time)[^\n]*\n(?:^\|[^\n]*\n)+)", re.MULTILINE)   # a table of times
