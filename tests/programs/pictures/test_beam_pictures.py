@@ -117,6 +117,11 @@ class Centrelines(unittest.TestCase):
         self.assertEqual([axes.get_title(loc="left") for axes in beams.picture(runs).axes[:3]],
                          ["cfl = 0.5, full", "cfl = 0.9, full", "cfl = 0.9, simplified"])
 
+    def test_panels_are_named_by_what_was_set_and_not_by_what_follows(self):
+        case = "grid:\n  factor: 8\nparameters:\n  mach: {m}\n  v_1: {v}    # formula: 2 * mach\n"
+        runs = [beams.run_of([beam(101)], case.format(m=m, v=2 * m)) for m in (1.1, 1.3)]
+        self.assertEqual([beams._label(run, runs) for run in runs], ["mach = 1.1", "mach = 1.3"])
+
     def test_a_beam_that_stays_straight_has_no_scale_of_round_off(self):
         one = beams.of([beam(101)])[0]
         for line in one.lines.values():

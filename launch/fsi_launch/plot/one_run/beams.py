@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib import pyplot
 from matplotlib.tri import LinearTriInterpolator
 
+from fsi_launch.case import formulas
 from fsi_launch.plot.look import style, units
 from fsi_launch.plot.reading import mesh, scales
 from fsi_launch.plot.several_runs import several
@@ -110,8 +111,8 @@ def of(series):
 
 
 def run_of(series, case):
-    """A run for comparison; `case`: the text of its case file."""
-    entries = several.entries(case)
+    """A run for comparison; `case`: the text of its case file. Parameters with one formula differ only because others do."""
+    entries = several.entries(case) | {f"parameters.{name}": formula for name, formula in formulas(case).items()}
     factor = float(entries.get("grid.factor", 0))
     found = of(series)
     unsaid = {key: value for key, value in several.UNSAID.items() if key not in entries}

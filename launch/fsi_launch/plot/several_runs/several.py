@@ -6,6 +6,8 @@ from pathlib import Path
 
 import numpy as np
 
+from fsi_launch.case import FORMULA, formulas
+from fsi_launch.plot.look import caption, units
 from fsi_launch.plot.reading import data
 from fsi_launch.results import whole_file
 from fsi_launch.telling import readable
@@ -24,17 +26,25 @@ def entries(case):
             continue
         depth = (len(line) - len(line.lstrip())) // 2
         path = path[:depth] + [key]
-        if value.strip():
-            result[".".join(path)] = value.strip()
+        if value := value.partition(FORMULA)[0].strip():
+            result[".".join(path)] = value
     return result
+
+
+def _rounded(value):
+    """A number as people read it; other words as they are."""
+    try:
+        return f"{float(value):.6g}"
+    except ValueError:
+        return value
 
 
 def short(key, value, solids):
     """One entry in few words, with its solid's name where a run has several. `solids`: the names of all."""
     *_, owner, last = ("", *key.split("."))
     if key == "grid.factor":
-        return f"h = 1/{10 * float(value):g}"
-    said = value.replace("_", " ") if last in ("law", "projection") else f"{last} = {value}"
+        return caption.spacing(float(value), units.symbol("length"))
+    said = value.replace("_", " ") if last in ("law", "projection") else f"{last} = {_rounded(value)}"
     return f"{owner}: {said}" if len(solids) > 1 and owner in solids else said
 
 
@@ -43,10 +53,16 @@ def different(cases):
     return [key for key in dict.fromkeys(key for one in cases for key in one) if len({one.get(key) for one in cases}) > 1]
 
 
+def derived(cases):
+    """Keys of the parameters that have one formula in all cases: they differ because others do. `cases`: texts of case files."""
+    found = [formulas(case) for case in cases]
+    return {f"parameters.{name}" for name, formula in found[0].items() if all(one.get(name) == formula for one in found)}
+
+
 def labels(cases, names):
-    """What is different about each run, in few words; else the names of the folders. `cases`: texts of case files."""
-    found = [UNSAID | entries(case) for case in cases]
-    keys = [key for key in different(found) if key.startswith("parameters.") or key.rsplit(".", 1)[-1] in TELLING]
+    """What was written or set differently for each run, in few words; else the names of the folders. `cases`: texts of case files."""
+    found, follow = [UNSAID | entries(case) for case in cases], derived(cases)
+    keys = [key for key in different(found) if key not in follow and (key.startswith("parameters.") or key.rsplit(".", 1)[-1] in TELLING)]
     solids = {key.split(".")[1] for one in found for key in one if key.startswith("solids.")}
     result = [", ".join(short(key, one[key], solids) for key in keys if key in one) for one in found]
     return result if len(set(result)) == len(result) else list(names)
@@ -81,6 +97,7 @@ def few(times):
 
 
 def write_table(heading, rows, path):
+    path.parent.mkdir(parents=True, exist_ok=True)
     with whole_file.writing(path, newline="") as file:
         writer = csv.writer(file)
         writer.writerow(heading)
