@@ -19,13 +19,12 @@ def _folder(name):
     return directory
 
 
-def _one(directory, out, options):
+def _one(directory, options):
     """(name, figure or a function that makes it) of everything the results of one run hold."""
     from fsi_launch.plot.one_run import beams, curves, disk, fields, grids, schlieren, streamlines
     from fsi_launch.plot.reading import data, scales
     from fsi_launch.plot.several_runs import convergence, study
     if varied := data.study(directory):
-        out.mkdir(parents=True, exist_ok=True)
         return study.pictures(varied)
     table = data.convergence(directory)
     directory = directory if table else data.finest_level(directory)  # of a study that did not come to its end
@@ -33,7 +32,6 @@ def _one(directory, out, options):
     last = data.last_state(directory)
     if not (series or last or tables or table):
         raise UserMistake(f"'{directory}' holds no results: no fluid.h5, solid_*.h5, tables or converge.json")
-    out.mkdir(parents=True, exist_ok=True)
     size = scales.of_run(series or last)
     look = fields.Look(size, options.contours)
     series = data.at_times(series, options.at)
@@ -108,9 +106,11 @@ def main(options):
     out = Path(options.out) if options.out else directories[0] / "plots"
     style.use()
     _take_words(directories)
-    pictures = _one(directories[0], out, options) if len(directories) == 1 else _several(directories, out, options)
+    pictures = _one(directories[0], options) if len(directories) == 1 else _several(directories, out, options)
     from fsi_launch.plot.look import drawing
     pictures = [(out / f"{name}.{options.format}", figure) for name, figure in pictures]
+    if pictures:
+        out.mkdir(parents=True, exist_ok=True)
     if len(directories) == 1 and pictures and not options.out and not options.at:
         _remove_others(out, [path for path, _ in pictures])
     drawing.draw(pictures, lambda path: print(path, flush=True))

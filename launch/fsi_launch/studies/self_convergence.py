@@ -76,12 +76,12 @@ def lacks():
 
 
 def _outlines(directory):
-    """{solid: {t: outline}}; nothing where h5py or matplotlib is missing."""
+    """{solid: {t: closed outline}}; nothing where h5py or matplotlib is missing."""
     if lacks():
         return {}
     from fsi_launch.plot.reading import data
     from fsi_launch.plot.several_runs import outlines
-    return {body.name: body.outlines for body in outlines.of(data.all_series(Path(directory)))}
+    return {body.name: body.outlines for body in outlines.of(data.all_series(Path(directory)), outlines.ring)}
 
 
 def _speed_of_gas(directory):

@@ -288,7 +288,7 @@ class Studies(unittest.TestCase):
                 (directory / row["folder"]).mkdir()
                 (directory / row["folder"] / "case.yaml").write_text("name: piston\nunits: SI\n", encoding="utf-8")
             plot._take_words([directory])
-            [(_, figure)] = plot._one(directory, directory, None)
+            [(_, figure)] = plot._one(directory, None)
         self.assertEqual([axes.get_title(loc="left") for axes in figure.axes[:2]], ["errors.v1 [m/s]", "forces_body.force1:max [N/m]"])
         units.use("none")
         [(_, figure)] = study.pictures(self.result())

@@ -12,8 +12,7 @@ def _case_of(directory):
     return path.read_text(**AS_NAMED) if path.is_file() else ""
 
 
-def _beams(series, cases, out):
-    runs = [beams.run_of(one, case) for one, case in zip(series, cases)]
+def _beams(runs, out):
     runs = [run for run in runs if run.beams]
     if not runs:
         return
@@ -26,13 +25,15 @@ def _beams(series, cases, out):
 
 def pictures(directories, out, times=()):
     """(name, figure) for each kind of thing at least one of the runs holds, at `times` alone where some are given."""
-    out.mkdir(parents=True, exist_ok=True)
     series, cases = [data.at_times(data.all_series(one), times) for one in directories], [_case_of(one) for one in directories]
     told = several.labels(cases, several.names(directories))
     same = len({several.entries(case).get("name") for case in cases}) == 1
-    parts = [*_beams(series, cases, out), *outlines.pictures(series, told, out), *lines.pictures(series, told),
+    runs = [beams.run_of(one, case) for one, case in zip(series, cases)]
+    slender = {beam.name for run in runs for beam in run.beams}
+    along_a_line = list(lines.pictures(series, told))      # where the solids' outlines say nothing more
+    parts = [*_beams(runs, out), *(() if along_a_line else outlines.pictures(series, told, out, slender)), *along_a_line,
              *(side_by_side.pictures(series, told) if same else ())]
     if not parts:
         raise UserMistake("the runs hold nothing that can be compared: several runs are for beams, outlines of solids, fields "
-                          "along a line and, of one case, gas with shocks")
+                          "along a line and, of one case, gas with shocks, at output times that all of them have")
     yield from parts
