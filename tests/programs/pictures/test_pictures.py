@@ -99,6 +99,24 @@ class Shading(unittest.TestCase):
             self.assertEqual(panel.one_scale(), shared)
             self.assertAlmostEqual(panel.solid_range[1] if not shared else panel.gas_range[1], speed * OUTER if not shared else 0.7 * np.sqrt(2), places=6)
 
+    def test_a_body_without_stress_is_plain_beside_one_that_has_some(self):
+        gas, rigid = self.moving(1.0)
+        elastic = self.moving(1.0)[1]
+        for output in elastic.outputs:
+            output.grids[0].fields["P11"] = 2 + output.grids[0].x1
+        look = fields.Look(scales.of_run([gas, rigid, elastic]))
+        for solids, plain in (([rigid, elastic], {0}), ([elastic, rigid], {1}), ([elastic], set())):
+            plan = fields._plan([gas, *solids], look)
+            stress, speed = (next(one for one in plan.panels if one.title.startswith(word)) for word in ("pressure", "speed"))
+            self.assertEqual((stress.plain, speed.plain), (plain, set()))
+            self.assertGreater(stress.solid_range[0], 1)       # without the zeros of the rigid one
+            figure = fields._field_picture(plan, 1)
+            self.addCleanup(pyplot.close, figure)
+            axes = next(one for one in figure.axes if one.get_title(loc="left").startswith("pressure"))
+            self.assertEqual(sum(isinstance(one, TriMesh) and one.get_cmap().name == style.SOLID_MAP for one in axes.collections), 1)
+        alone = next(one for one in fields._plan([gas, rigid], look).panels if one.title.startswith("pressure"))
+        self.assertIsNone(alone.of_solid)
+
 
 class Captions(unittest.TestCase):
     def test_wide_spacings_are_no_fractions(self):

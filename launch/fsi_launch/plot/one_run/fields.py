@@ -1,5 +1,6 @@
 """Pictures of the fields at the output times, solids in deformed position (the paper's figure 10)."""
 
+import itertools
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
@@ -138,13 +139,14 @@ def _range(outputs, quantities, floor):
 @dataclass
 class Panel:
     """One panel of the pictures of all times, each with the same colours. Where gas and solids show the same, what is continuous across
-    their interface, they have one scale: both ranges are the same object."""
+    their interface, they have one scale: both ranges are the same object. `plain`: numbers of the solids that have nothing to show here."""
 
     title: str
     of_gas: Quantity | None
     of_solid: Quantity | None
     gas_range: tuple | None = None
     solid_range: tuple | None = None
+    plain: frozenset = frozenset()
 
     def one_scale(self):
         return self.gas_range is self.solid_range
@@ -190,7 +192,7 @@ def _draw(figure, axes, gas, solids, panel, look):
     """One panel."""
     if solids and panel.of_solid:  # the bar drawn first is the one further out
         colours = style.GAS_MAP if panel.one_scale() else style.SOLID_MAP
-        drawn = _colour(axes, solids, panel.of_solid, colours, panel.solid_range, look)
+        drawn = _colour(axes, [solid for k, solid in enumerate(solids) if k not in panel.plain], panel.of_solid, colours, panel.solid_range, look)
         if not panel.one_scale():
             beside = style.above_bar("gas", *panel.gas_range) if gas else ()
             style.bar(figure, axes, drawn, "solid" if gas else "", panel.solid_range[2], beside)
@@ -198,8 +200,8 @@ def _draw(figure, axes, gas, solids, panel, look):
         _ground(axes)
         drawn = _colour(axes, [gas], panel.of_gas, style.GAS_MAP, panel.gas_range, look)
         style.bar(figure, axes, drawn, "gas" if solids and not panel.one_scale() else "", panel.gas_range[2])
-    for solid in solids:
-        if not panel.of_solid:
+    for k, solid in enumerate(solids):
+        if not panel.of_solid or k in panel.plain:
             fill(axes, solid.grids)
         outline(axes, solid.grids)
     axes.set_title(units.label(panel.title, (panel.of_gas or panel.of_solid).unit), loc="left")
@@ -227,18 +229,21 @@ def comparable(*speeds):
 
 
 def _panels_of(gas, solids, look):
-    """The panels for all these outputs of the gas and of the solids."""
+    """The panels for all these outputs of the gas and of each solid."""
     found = []
     of_gas_alone = {quantity: title for title, quantity, _ in GAS_PANELS}
-    for title, of_gas, of_solid in _kinds_of_panels(gas, solids, look.scales.floor(SPEED.unit)):
+    for title, of_gas, of_solid in _kinds_of_panels(gas, list(itertools.chain(*solids)), look.scales.floor(SPEED.unit)):
         floor = look.scales.floor((of_gas or of_solid).unit)
         gas_range = _range((gas, []), (of_gas, None), floor) if of_gas else None
-        solid_range = _range(([], solids), (None, of_solid), floor) if of_solid else None
-        if of_gas and solid_range and solid_range[2] == 0:    # a rigid body has no stress, a held one no speed: plain
-            title, of_solid, solid_range = of_gas_alone[of_gas], None, None
+        plain = frozenset(k for k, one in enumerate(solids)    # a rigid body has no stress, a held one no speed
+                          if of_gas and of_solid and _range(([], one), (None, of_solid), floor)[2] == 0)
+        coloured = [output for k, one in enumerate(solids) if k not in plain for output in one]
+        if of_gas and of_solid and not coloured:
+            title, of_solid = of_gas_alone[of_gas], None
+        solid_range = _range(([], coloured), (None, of_solid), floor) if of_solid else None
         if of_gas is of_solid and comparable(_size(gas_range), _size(solid_range)):
-            gas_range = solid_range = _range((gas, solids), (of_gas, of_solid), floor)
-        found.append(Panel(title, of_gas, of_solid, gas_range, solid_range))
+            gas_range = solid_range = _range((gas, coloured), (of_gas, of_solid), floor)
+        found.append(Panel(title, of_gas, of_solid, gas_range, solid_range, plain))
     return found
 
 
@@ -256,7 +261,7 @@ class _Plan:
 def _plan(series, look):
     gas, solids = data.gas_of(series), [one for one in series if not one.is_gas()]
     box = box_around([grid for one in series for output in one.outputs for grid in output.grids])
-    return _Plan(gas, solids, box, _panels_of(gas.outputs if gas else [], [output for one in solids for output in one.outputs], look), look)
+    return _Plan(gas, solids, box, _panels_of(gas.outputs if gas else [], [one.outputs for one in solids], look), look)
 
 
 def _field_picture(plan, index):
