@@ -38,8 +38,8 @@ def _outline(options):
         return outline.Outline(radius=0.5 * (options.size or SIZE))
     found = outline.read(options.outline, options.straight)
     found = outline.scaled(found, options.size) if options.size else outline.in_metres(found)
-    if found.title or found.headings > 1:
-        found = replace(found, path=None)       # the programs read no titles: they get the points
+    if found.title or found.headings > 1 or found.changed:
+        found = replace(found, path=None)       # the programs read plain points alone: they get these
     return outline.from_its_foot(found) if options.on_wall and options.straight else found
 
 

@@ -30,6 +30,7 @@ class Outline:
     unit: str = ""      # that the heading of its file names
     title: str = ""     # of its file: what is said about it
     headings: int = 0   # lines before its points that are no comments
+    changed: bool = False   # are the points other ones than the lines of its file say
 
     def box(self):
         """(x low, x high, y low, y high)"""
@@ -44,8 +45,19 @@ class Outline:
         return max(x_high - x_low, y_high - y_low)
 
 
+DECIMAL = r"[+-]?\d+,\d+(?:[eE][+-]?\d+)?"      # a number with a decimal comma
+
+
+def _decimal_commas(line):
+    """The two parts of a line whose numbers have decimal commas, or None: only between them is another sign, `;` or a tab."""
+    parts = [part.strip() for part in re.split(r"[;\t]", line) if part.strip()]
+    numbers = len(parts) == 2 and all(re.fullmatch(DECIMAL, part) or _is_number(part) for part in parts)
+    return [part.replace(",", ".") for part in parts] if numbers and "," in "".join(parts) else None
+
+
 def _numbers(line):
-    return tuple(float(word) for word in re.split(r"[,;\s]+", line.strip()) if word)
+    words = _decimal_commas(line) or re.split(r"[,;\s]+", line.strip())
+    return tuple(float(word) for word in words if word)
 
 
 def _is_number(word):
@@ -99,33 +111,67 @@ def _check_order(heading, place):
         raise UserMistake(f"{place}: '{heading[:30]}' has y before x; write x first")
 
 
-def _point(text, place):
+def _row(text, place, before):
+    """The numbers of a line, two or three; `before`: those of the line before. Throws UserMistake."""
     try:
-        x, y = _numbers(text)
-        if math.isfinite(x) and math.isfinite(y):
-            return x, y
+        found = _numbers(text)
     except ValueError:
-        pass
-    raise UserMistake(f"{place}: '{text[:30]}' is no point: write two finite numbers, x, y")
+        found = ()
+    two = len(words := text.split()) == 2 and not _decimal_commas(text) and any(re.fullmatch(DECIMAL, word) for word in words)
+    if two or len(found) not in (2, 3) or not all(map(math.isfinite, found)):
+        commas = "; with decimal commas put ; or a tab between x and y, as in 0,5; 1,0" if two or len(found) == 4 and text.count(",") > 1 else ""
+        raise UserMistake(f"{place}: '{text[:30]}' is no point: write two finite numbers, x, y{commas}")
+    if before and len(found) != len(before):
+        raise UserMistake(f"{place}: '{text[:30]}' has {len(found)} numbers, the line before it {len(before)}; write two on each, x, y")
+    return found
+
+
+def _in_a_plane(rows, path):
+    """Points x, y; a third number on each line has to be the same on all. Throws UserMistake."""
+    third = {row[2] for row in rows if len(row) > 2}
+    if len(third) > 1:
+        raise UserMistake(f"{path}: it has three numbers on each line, and the third is no constant: it goes from {min(third):g} to {max(third):g}; "
+                          "an outline lies in a plane, write two, x, y")
+    return [row[:2] for row in rows]
+
+
+NEAR = 0.05     # part of the extent of an airfoil that its two sides begin apart at most
+
+
+def _once_around(points):
+    """The points of an airfoil given as two sides from nose to tail, after a line with how many each has; None of other files."""
+    upper, lower = (int(number) if number.is_integer() else 0 for number in points[0]) if points else (0, 0)
+    if min(upper, lower) < FEWEST_CORNERS or len(points) != 1 + upper + lower:
+        return None
+    sides = points[1:1 + upper], points[1 + upper:]
+    extent = max(math.dist(sides[0][0], point) for side in sides for point in side)
+    return sides[0][::-1] + sides[1] if math.dist(sides[0][0], sides[1][0]) <= NEAR * extent else None
+
+
+def _without_repeated(points):
+    """Each point once where it stands several times in turn, the first one also at the end."""
+    kept = [point for point, before in zip(points, [None, *points]) if point != before]
+    return kept[:-1] if len(kept) > 1 and kept[0] == kept[-1] else kept
 
 
 def read(path, straight=False):
     """The Outline in a file with x, y on each line; comments begin with #. The first line may be a title; it, or a comment before
-    the points, may name the columns. `straight`: with edges between the points. Throws UserMistake with file:line."""
+    the points, may name the columns. An airfoil may be given by its two sides. `straight`: with edges between the points. Throws UserMistake with
+    file:line."""
     path = Path(path)
     try:
         lines = path.read_text(encoding="utf-8-sig").splitlines()    # some editors begin a text with a byte-order mark
     except (OSError, UnicodeDecodeError) as error:
         raise UserMistake(f"--outline {path}: cannot be read ({getattr(error, 'strerror', None) or 'it is no UTF-8 text'})") from None
-    points, unit, title, headings, first = [], "", "", 0, True
+    rows, unit, title, headings, first, changed = [], "", "", 0, True, False
     for number, line in enumerate(lines, 1):
         text, _, comment = (part.strip() for part in line.partition("#"))
         if not text:
-            if not points and _speaks_of_columns(comment):
+            if not rows and _speaks_of_columns(comment):
                 unit = unit or _unit(comment, f"{path}:{number}")
             continue
         is_first, first = first, False
-        named = not points and _names_columns(text)
+        named = not rows and _names_columns(text)
         here = _unit(text, f"{path}:{number}") if named else ""
         unit = unit or here
         if is_first and _is_title(text) and not re.search(OF_COLUMN, text.lower()) and not {"x", "y"} <= set(_words(text)):
@@ -133,16 +179,19 @@ def read(path, straight=False):
         elif named:
             _check_order(text, f"{path}:{number}")
         else:
-            points.append(_point(text, f"{path}:{number}"))
+            rows.append(_row(text, f"{path}:{number}", rows[-1] if rows else ()))
+            changed = changed or len(rows[-1]) > 2 or bool(_decimal_commas(text))
             continue
         headings += 1
-    if len(points) > 1 and points[0] == points[-1]:
-        points.pop()
+    plane = _in_a_plane(rows, path)
+    if sides := _once_around(plane):
+        title = f"{f'{title}; ' if title else ''}it has the points of two sides, {plane[0][0]:g} and {plane[0][1]:g}"
+    points = _without_repeated(sides or plane)
     fewest = FEWEST_CORNERS if straight else FEWEST
     if len(points) < fewest:
         raise UserMistake(f"{path}: an outline needs {fewest} points or more, x, y on each line; there are {len(points)}"
                           + ("" if straight else f" (--straight: {FEWEST_CORNERS} or more, as corners)"))
-    outline = Outline(path, tuple(points), unit=unit, title=title, headings=headings)
+    outline = Outline(path, tuple(points), unit=unit, title=title, headings=headings, changed=bool(changed or sides or len(points) < len(plane) - (plane[0] == plane[-1])))
     if straight:
         outline = _without_points_within_edges(outline)
     if outline.size() <= 0:
@@ -234,6 +283,16 @@ def _without_points_within_edges(outline):
     """The corners alone; an outline of fewer than three stays."""
     kept = tuple(point for turn, point in zip(turns(outline), outline.points) if turn > 1e-6)
     return replace(outline, points=kept) if len(kept) >= FEWEST_CORNERS else outline
+
+
+ROUND = 90              # [degree] in all, by SEVERAL points that turn by CLEAR at most: between its corners an outline is a smooth curve
+SEVERAL = 6
+
+
+def is_round(outline):
+    """Is it a smooth curve between its corners, if it has any?"""
+    slight = [turn for turn in turns(outline) if 1e-6 < turn <= math.radians(CLEAR)]
+    return len(slight) >= SEVERAL and sum(slight) > math.radians(ROUND)
 
 
 def shortest_edge(outline):
