@@ -3,6 +3,7 @@
 import math
 import os
 import re
+import shlex
 import sys
 from dataclasses import replace
 from pathlib import Path
@@ -23,6 +24,8 @@ EXAMPLES = {"size": "0.08", "mach": "1.3", "density": "1.225", "pressure": "1013
 def _paths(options):
     """(path of the case, path of the outline a new one is written to)"""
     path = Path(options.name)
+    if path.name in ("", "..") or options.name.endswith("/"):
+        raise UserMistake(f"new: '{options.name}' is no name of a case but of a folder; write one like {path / 'mycase'}")
     path = path if path.suffix == ".yaml" else path.with_name(path.name + ".yaml")
     if not re.fullmatch(r"[A-Za-z0-9_.-]+", path.stem):
         raise UserMistake(f"new: '{path.stem}' is no name of a case: letters, digits, _ . -")
@@ -83,8 +86,9 @@ def _settled(problem, path):
     try:
         cases.check(str(path), [], [])
         return problem
-    except UserMistake:
-        print("corners are rounded: with sharp ones (`radius: 0`) the case is not valid")
+    except UserMistake as mistake:
+        reason = re.sub(r"^:\d+:\d+: ", "", str(mistake).removeprefix(str(path))).replace("\n", " ")     # its place is written over
+        print(f"corners are rounded: with sharp ones (`radius: 0`) the case is not valid: {reason}")
         return replace(problem, sharp=False)
 
 
@@ -147,5 +151,6 @@ def main(options):
         print(cases.check(str(path), [], []))
     except UserMistake as mistake:
         raise UserMistake(f"{mistake}\n{path} stays: change it there, or write it anew with other options and --overwrite") from None
-    print(f"next: {paths.COMMAND} check {path} --plot, {paths.COMMAND} run {path}")
+    typed = shlex.quote(str(path))
+    print(f"next: {paths.COMMAND} check {typed} --plot, {paths.COMMAND} run {typed}")
     return DONE

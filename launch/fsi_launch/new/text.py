@@ -1,5 +1,6 @@
 """The text of a new case: commented, with nothing in it that the programs choose well by themselves."""
 
+import shlex
 from dataclasses import replace
 
 from fsi_launch.new.outline import corners, is_block, largest_radius, shortest_edge
@@ -171,7 +172,7 @@ def write(problem, file, path):
     factor = f"{0.1 / h:g}"
     every = f"{end / OUTPUTS:.3g}"
     numbers = {
-        "title": f"A body of {material.name} in a {kind}", "file": file, "fine": 0.2 / h, "gamma": exact(problem.gamma), "rho": exact(problem.rho),
+        "title": f"A body of {material.name} in a {kind}", "file": shlex.quote(file), "fine": 0.2 / h, "gamma": exact(problem.gamma), "rho": exact(problem.rho),
         "p": exact(problem.p), "sound": problem.sound(), "mach": exact(problem.mach), "shock": problem.shock(), "material": material,
         "note": f" ({material.note})" if material.note else "", "factor": 0.1 / h, "h": h, "space": " " * max(1, 9 - len(factor)),
         "cells": round(problem.outline.size() / h), "end": exact(end), "x_low": x_low, "x_high": x_high,

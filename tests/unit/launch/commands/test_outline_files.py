@@ -78,5 +78,12 @@ class Files(InScratch):
             self.assertEqual(outline.is_round(outline.Outline(points=tuple(points))), is_round)
 
 
+class Names(unittest.TestCase):
+    def test_folders_are_no_names_of_cases(self):
+        for name in (".", "..", "/", "", "there/"):
+            with self.subTest(name), self.assertRaisesRegex(UserMistake, "no name of a case but of a folder"):
+                new._paths(type("Options", (), {"name": name}))
+
+
 if __name__ == "__main__":
     unittest.main()
