@@ -118,6 +118,10 @@ def _of_edges(problem, file):
         return "" if problem.on_wall or angle is not None or most > WIDE else (
             f"the points of {file} turn by {most:.0f} degrees at most: if these are no corners, leave out --straight; "
             "a smooth curve takes larger cells and fewer steps")
+    if outline.is_round(problem.outline):       # edges between all of its points would take small cells at each
+        return "" if angle is None or problem.law == "rigid" else (
+            f"the points of {file} turn by more than {angle} degrees at a corner: an elastic body bends sharply there, which takes fine grids; "
+            "--law rigid keeps it")
     if angle is not None and not text.keeps_corners(problem):
         return f"the points of {file} turn by more than {angle} degrees: if these are corners, add --straight for edges between the points"
     if angle is None and most > WIDE:

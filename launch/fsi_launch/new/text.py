@@ -3,7 +3,7 @@
 import shlex
 from dataclasses import replace
 
-from fsi_launch.new.outline import corners, is_block, largest_radius, shortest_edge
+from fsi_launch.new.outline import corners, is_block, is_round, largest_radius, shortest_edge
 from fsi_launch.new.problem import OUTPUTS
 from fsi_launch.new.questions import LAWS
 
@@ -140,12 +140,13 @@ def _spline(problem, path):
     """The entry of a curve through points. Around a rigid body grids go on behind sharp corners: such a body gets them. A hollow corner
     folds them, and an elastic body can have none but those of a block: these stay smooth."""
     angle, _ = corners(problem.outline)
+    edges = "" if is_round(problem.outline) else " (edges between them: fsi new --straight)"
     if angle is None:
         return f" {{kind: spline, file: {path}}}    # a smooth curve through the points"
     if keeps_corners(problem):
-        return (f"\n      kind: spline\n      file: {path}    # a smooth curve through the points (edges between them: fsi new --straight)"
+        return (f"\n      kind: spline\n      file: {path}    # a smooth curve through the points{edges}"
                 f"\n      corner_angle: {angle}    # with corners where it turns by more [degree]; leave it out for an elastic body")
-    return f" {{kind: spline, file: {path}}}    # a smooth curve through the points (edges between them: fsi new --straight)"
+    return f" {{kind: spline, file: {path}}}    # a smooth curve through the points{edges}"
 
 
 def _shape(problem, path):

@@ -103,7 +103,7 @@ class New(InFolder):
     def test_a_rigid_body_whose_sharp_corners_have_no_grids_is_rounded_and_that_is_said(self):
         (self.folder / "dart.csv").write_text("0,0\n1,.4\n.35,0\n1,-.4\n")
         said = self.fsi("new", "dart", "--outline", "dart.csv", "--straight", "--size", "0.1", "--law", "rigid", "--defaults").stdout
-        self.assertIn("with sharp ones (`radius: 0`) the case is not valid", said)
+        self.assertRegex(said, r"(?m)^corners are rounded: with sharp ones \(`radius: 0`\) the case is not valid: fluid\.body_fitted: .*folded.*$")
         self.assertGreater(self.shape("dart")["radius"], 0)
 
     def test_a_rigid_fin_with_a_sharp_tail(self):
@@ -112,6 +112,22 @@ class New(InFolder):
         said = self.fsi("new", "fin", "--outline", "fin.csv", "--size", "0.1", "--law", "rigid", "--defaults").stdout
         self.assertIn("is cut off where its sides are so far apart", said)
         self.assertNotIn("--straight", said)    # it has its corner
+
+    def test_what_to_type_next_can_be_pasted_whatever_the_folder_is_called(self):
+        (self.folder / "my own").mkdir()
+        said = self.fsi("new", "my own/it", "--defaults").stdout
+        self.assertIn(" check 'my own/it.yaml' --plot", said)
+        self.assertIn(" run 'my own/it.yaml'\n", said)
+        self.assertIn(" run 'my own/it.yaml' ", (self.folder / "my own" / "it.yaml").read_text(encoding="utf-8"))
+
+    def test_an_airfoil_is_not_told_to_have_edges_at_all_of_its_points(self):
+        points = [(0.5 + 0.5 * np.cos(a), 0.1 * np.sin(a) * (1 - np.cos(a)) / 2) for a in np.arange(24) * np.pi / 12]
+        np.savetxt(self.folder / "fin.csv", points, delimiter=",")
+        words = ["new", "fin", "--outline", "fin.csv", "--size", "0.1", "--defaults", "--overwrite"]
+        said = subprocess.run([str(FSI), *words], env=os.environ | {"FSI_BIN": str(BIN)}, cwd=self.folder, text=True, stdin=subprocess.DEVNULL,
+                              capture_output=True, timeout=WATCHDOG, check=False).stdout     # its grids would be too fine
+        self.assertIn("--law rigid keeps it", said)
+        self.assertNotIn("--straight", said + (self.folder / "fin.yaml").read_text(encoding="utf-8"))
 
     def test_straight_edges_fixed_in_a_stream(self):
         self.begin("--outline", "corners.csv", "--straight", "--flow", "stream", "--mach", "2", "--law", "rigid", "--fixed")
