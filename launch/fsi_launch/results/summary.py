@@ -244,14 +244,16 @@ def noise_in_words(summary):
 
 
 MISSED_MOMENTUM = 0.05  # part of the momentum that the gas gave a solid
+ROUND_OFF = 1e-12       # part of pressure x speed x time^2: what the gas presses in the run on a side as long as its way
 
 
 def momentum_lines(summary):
     """A line for each solid that has not the momentum that the gas gave it."""
-    lines = []
+    lines, interface = [], summary.get("interface", {})
+    floor = ROUND_OFF * (interface.get("traction_scale") or 0) * (interface.get("velocity_scale") or 0) * (summary.get("t") or 0) ** 2
     for name, totals in summary.get("conservation", {}).items():
         missed = math.hypot(totals.get("momentum1_defect") or 0, totals.get("momentum2_defect") or 0)
-        if (scale := totals.get("momentum_scale") or 0) and missed > MISSED_MOMENTUM * scale:
+        if (scale := totals.get("momentum_scale") or 0) and missed > max(MISSED_MOMENTUM * scale, floor):
             lines.append(f"  warning: the momentum of {name} is off by {percent(missed / scale)} of what the gas gave it; a finer grid brings it nearer "
                          "(docs/output.md, budgets)")
     return lines

@@ -147,6 +147,16 @@ class Summary(InScratch):
         self.assertEqual(said(momentum1_defect=None, momentum2_defect=None, momentum_scale=None), "")
         self.assertEqual(summary.momentum_lines({}), [])
 
+    def test_momentum_that_is_round_off_of_the_pressure_is_not_missed(self):
+        """Of a cylinder of steel, 0.1 m thick, in air at rest, where forces, and what they are compared with, are nothing but round-off."""
+        at_rest = {"momentum1_defect": 1.2573806728197344e-16, "momentum2_defect": 9.323307014525841e-17, "momentum_scale": 1.0924635452382367e-15}
+        run = {"t": 0.0012, "interface": {"traction_scale": 101325, "velocity_scale": 340.3}}
+        self.assertEqual(summary.momentum_lines(run | {"conservation": {"body": at_rest}}), [])
+        self.assertEqual(len(summary.momentum_lines(run | {"t": 0.0, "conservation": {"body": at_rest}})), 1)     # what it would say
+        for size in (1e-6, 1e3):                    # far above it
+            moved = {key: value / at_rest["momentum_scale"] * size for key, value in at_rest.items()}
+            self.assertEqual(len(summary.momentum_lines(run | {"conservation": {"body": moved}})), 1)
+
     def test_jumps_are_said_to_be_before_the_projection_and_have_a_scale(self):
         self.part("coupler", interface={"max_velocity_jump": 67.3, "max_traction_jump": 7.3e6, "max_gap": 1e-6,
                                         "velocity_scale": 673.0, "traction_scale": 1e7})
