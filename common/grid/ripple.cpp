@@ -67,44 +67,42 @@ double TurnCounter::next(double value) {
 }
 
 RippleWatch::RippleWatch(std::vector<WatchedQuantity> quantities, std::vector<std::string> grids)
-    : quantities_(std::move(quantities)), grids_(std::move(grids)), ranges_(quantities_.size()) {
-  for (const WatchedQuantity& quantity : quantities_) {
-    components_.insert(components_.end(), quantity.components.begin(), quantity.components.end());
-  }
+    : Watch(std::move(quantities), std::move(grids)) {
+  for (const WatchedQuantity& quantity : this->quantities()) ranges_.push_back(quantity.floor);
 }
 
 void RippleWatch::look(std::span<const WatchedGrid> grids, double t) {
-  now_ = {};
-  int component = 0;
-  for (std::size_t k = 0; k < quantities_.size(); ++k) {
-    const auto planes = static_cast<int>(quantities_[k].components.size());
-    for (int c = 0; c < planes; ++c) {
+  begin();
+  for (std::size_t k = 0; k < quantities().size(); ++k) {
+    for (int c = 0; c < quantities()[k].planes(); ++c) {
       Range range;
-      for (const WatchedGrid& grid : grids) widen(range, grid, quantities_[k].first + c);
+      for (const WatchedGrid& grid : grids) widen(range, grid, quantities()[k].first + c);
       ranges_[k] = std::max(ranges_[k], range.high - range.low);
     }
-    for (int c = 0; c < planes; ++c, ++component) {
+  }
+  int component = 0;
+  for (std::size_t k = 0; k < quantities().size(); ++k) {
+    for (int c = 0; c < quantities()[k].planes(); ++c, ++component) {
       for (std::size_t g = 0; g < grids.size(); ++g) {
         const Place at = {.on = grids[g],
-                          .plane = quantities_[k].first + c,
-                          .range = std::max(ranges_[k], quantities_[k].floor),
+                          .plane = quantities()[k].first + c,
+                          .range = ranges_[k],
                           .found = {.component = component, .grid = static_cast<int>(g), .t = t}};
         look_along_rows(at);
         look_along_columns(at);
       }
     }
   }
-  if (now_.size > worst_.size) worst_ = now_;
 }
 
 void RippleWatch::note(const Place& at, double amplitude, int i, int j) {
-  const double size = amplitude / at.range;
-  if (!(size > now_.size) || size < faintest) return;
-  now_ = at.found;
-  now_.size = size;
-  now_.i = i;
-  now_.j = j;
-  now_.place = {at.on.x(0, i, j), at.on.x(1, i, j)};
+  Finding found = at.found;
+  found.size = amplitude / at.range;
+  if (!(found.size >= faintest)) return;
+  found.i = i;
+  found.j = j;
+  found.place = {at.on.x(0, i, j), at.on.x(1, i, j)};
+  keep(found);
 }
 
 void RippleWatch::look_along_rows(const Place& at) {
@@ -149,15 +147,7 @@ void RippleWatch::look_along_columns(const Place& at) {
   }
 }
 
-const std::string& RippleWatch::component_of(const Ripple& ripple) const {
-  return components_[static_cast<std::size_t>(ripple.component)];
-}
-
-const std::string& RippleWatch::grid_of(const Ripple& ripple) const {
-  return grids_[static_cast<std::size_t>(ripple.grid)];
-}
-
-std::string RippleWatch::in_words(const Ripple& ripple) const {
+std::string RippleWatch::in_words(const Finding& ripple) const {
   return fmt::format(R"({} ripples by {:.2g} % on grid "{}", point ({}, {}) at ({:.4g}, {:.4g}), t = {:.4g})",
                      component_of(ripple), 100 * ripple.size, grid_of(ripple), ripple.i, ripple.j,
                      ripple.place.x(), ripple.place.y(), ripple.t);
@@ -165,17 +155,7 @@ std::string RippleWatch::in_words(const Ripple& ripple) const {
 
 void RippleWatch::archive(Archive& archive) {
   archive.values("ranges", ranges_);
-  for (auto& [name, ripple] : {std::pair<const char*, Ripple&>("now", now_), {"worst", worst_}}) {
-    archive.inside(name, [&archive, &ripple = ripple] {
-      archive.number("size", ripple.size);
-      archive.number("component", ripple.component);
-      archive.number("grid", ripple.grid);
-      archive.number("i", ripple.i);
-      archive.number("j", ripple.j);
-      archive.values("place", {ripple.place.data(), 2});
-      archive.number("t", ripple.t);
-    });
-  }
+  archive_findings(archive);
 }
 
 }  // namespace fsi::grid

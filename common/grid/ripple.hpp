@@ -16,35 +16,12 @@
 #include <vector>
 
 #include "common/core/archive.hpp"
-#include "common/core/field.hpp"
-#include "common/core/types.hpp"
-#include "common/grid/intervals.hpp"
+#include "common/grid/watch.hpp"
 
 namespace fsi::grid {
 
-/// A quantity whose components are the planes first, first + 1, ... of a field.
-struct WatchedQuantity {
-  std::vector<std::string> components;  ///< their names
-  int first = 0;
-  double floor = 0;  ///< ranges below this are round-off [unit of the quantity]
-};
-
-/// The fields on a component grid.
-struct WatchedGrid {
-  ConstFieldView q;
-  ConstFieldView x;                 ///< positions
-  const RowSets* points = nullptr;  ///< those that have a value
-};
-
-struct Ripple {
-  double size = 0;  ///< a part of the quantity's range; 0 below RippleWatch::faintest [-]
-  int component = 0, grid = 0, i = 0, j = 0;
-  Vec2 place = Vec2::Zero();
-  double t = 0;  ///< [time]
-};
-
 /// Above this size a program says so.
-inline constexpr double noisy = 0.03;  ///< [-]
+inline constexpr double noisy = 0.03;  ///< amplitude over range [-]
 
 /// Maxima and minima of a row of values that come one by one.
 class TurnCounter {
@@ -68,9 +45,9 @@ class TurnCounter {
   std::array<double, 5> swings_{};
 };
 
-class RippleWatch {
+class RippleWatch final : public Watch {
  public:
-  static constexpr double faintest = 1e-3;  ///< [-]
+  static constexpr double faintest = 1e-3;  ///< smaller ripples are none [-]
   /// Steps between two looks: together they cost less than a hundredth of a run.
   static constexpr int every = 100;
 
@@ -79,14 +56,10 @@ class RippleWatch {
   /// Looks at all fields of all grids at time t. The range of a quantity is the largest it had since the
   /// start: noise that is left when all waves are gone does not count as more than it was.
   void look(std::span<const WatchedGrid> grids, double t);
-  /// Of the last look.
-  const Ripple& now() const { return now_; }
-  /// The largest since the start.
-  const Ripple& worst() const { return worst_; }
-  const std::string& component_of(const Ripple& ripple) const;
-  const std::string& grid_of(const Ripple& ripple) const;
+  /// Range of each quantity, at least its floor [unit of the quantity].
+  std::span<const double> ranges() const { return ranges_; }
   /// `v1 ripples by 4.1 % on grid "solid", point (12, 3) at (0.1, 0.2), t = 6.2`
-  std::string in_words(const Ripple& ripple) const;
+  std::string in_words(const Finding& ripple) const override;
   void archive(Archive& archive);
 
  private:
@@ -94,19 +67,16 @@ class RippleWatch {
   struct Place {
     const WatchedGrid& on;
     int plane;
-    double range;  ///< [unit of the quantity]
-    Ripple found;  ///< without its size and point
+    double range;   ///< [unit of the quantity]
+    Finding found;  ///< without its size and point
   };
   void look_along_rows(const Place& at);
   void look_along_columns(const Place& at);
   void note(const Place& at, double amplitude, int i, int j);
 
-  std::vector<WatchedQuantity> quantities_;
-  std::vector<std::string> grids_, components_;
   std::vector<double> ranges_;        ///< of the quantities
   std::vector<TurnCounter> columns_;  ///< work memory: a counter per column,
   std::vector<int> column_rows_;      ///< and the row it saw last
-  Ripple now_, worst_;
 };
 
 }  // namespace fsi::grid

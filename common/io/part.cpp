@@ -22,6 +22,12 @@ nlohmann::ordered_json overlap_json(const Overlap& overlap) {
   return json;
 }
 
+/// `much`: what its flag is called.
+nlohmann::ordered_json finding_json(const Finding& found, const char* much) {
+  return {{"value", found.size},  {much, found.much},     {"field", found.field}, {"grid", found.grid},
+          {"point", found.point}, {"place", found.place}, {"t", found.t}};
+}
+
 nlohmann::ordered_json failure_json(const FailureRecord& failure) {
   nlohmann::ordered_json json = to_json(failure.place);
   json["what"] = failure.what;
@@ -68,11 +74,8 @@ std::string to_json(const Part& part) {
   }
   if (part.failure) json["failure"] = failure_json(*part.failure);
   if (part.overlap) json["overlap"] = overlap_json(*part.overlap);
-  if (const auto& noise = part.noise) {
-    json["noise"] = {{"value", noise->size}, {"noisy", noise->noisy}, {"field", noise->field},
-                     {"grid", noise->grid},  {"point", noise->point}, {"place", noise->place},
-                     {"t", noise->t}};
-  }
+  if (part.noise) json["noise"] = finding_json(*part.noise, "noisy");
+  if (part.disagreement) json["disagreement"] = finding_json(*part.disagreement, "large");
   constexpr int indent = 2;
   return json.dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }

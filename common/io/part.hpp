@@ -29,10 +29,11 @@ struct InterfaceExtremes {
   double traction_scale = 0;  ///< largest pressure of the gas at an interface [pressure]
 };
 
-/// A ripple of the grid's scale: a row of maxima and minima along a grid line (common/grid/ripple.hpp).
-struct Noise {
-  double size = 0;     ///< amplitude over the range of the field [-]
-  bool noisy = false;  ///< so large that somebody should know
+/// The worst that was found in the fields: a ripple of the grid's scale (common/grid/ripple.hpp), or a difference
+/// of two grids where both compute (common/grid/overlap/disagreement.hpp).
+struct Finding {
+  double size = 0;    ///< over the range of the field [-]
+  bool much = false;  ///< so large that somebody should know
   std::string field, grid;
   std::array<int, 2> point = {};
   std::array<double, 2> place = {};  ///< reference position in a solid
@@ -82,7 +83,8 @@ struct Part {
   std::map<std::string, double> conservation;         ///< drifts of mass, energy, momentum, angular momentum
   std::optional<InterfaceExtremes> interface;         ///< coupler only
   std::optional<Overlap> overlap;                     ///< of programs with overlapping grids
-  std::optional<Noise> noise;                         ///< the worst since the start, of programs with fields
+  std::optional<Finding> noise;                       ///< the worst since the start, of programs with fields
+  std::optional<Finding> disagreement;  ///< the worst since the start, of a gas with several grids
 };
 
 /// The part as JSON text; a number that is not finite becomes null.

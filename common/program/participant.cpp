@@ -6,6 +6,8 @@
 #include <optional>
 #include <vector>
 
+#include "common/grid/overlap/disagreement.hpp"
+#include "common/grid/ripple.hpp"
 #include "common/program/build_id.hpp"
 #include "common/program/picture.hpp"
 #include "common/program/run/driver.hpp"
@@ -37,7 +39,11 @@ wire::Telemetry telemetry_of(const Setup& setup, const io::Part& part, const Par
   telemetry.compute_s = part.compute_s;
   telemetry.wait_s = part.wait_s;
   telemetry.health = solver.health();
-  if (part.noise && part.noise->noisy) telemetry.noise = part.noise->words;
+  for (const auto& found : {part.noise, part.disagreement}) {
+    if (!found || !found->much) continue;
+    if (!telemetry.noise.empty()) telemetry.noise += "; ";
+    telemetry.noise += found->words;
+  }
   const double updates = static_cast<double>(part.points) * static_cast<double>(part.substeps);
   telemetry.point_updates_per_s = part.compute_s > 0 ? updates / part.compute_s : 0;
   return telemetry;
@@ -60,23 +66,28 @@ bus::Draw draw_of(const io::Part& part, Participant& solver, const io::Standing&
   };
 }
 
+/// What a watch has found since the start goes into the part; the log says when it becomes too much.
+void note(std::optional<io::Finding>& known, const grid::Watch* watch, double much, const std::string& what) {
+  if (watch == nullptr) return;
+  const grid::Finding& worst = watch->worst();
+  if (known && known->size == worst.size) return;
+  const bool said = known && known->much;
+  known = {.size = worst.size,
+           .much = worst.size > much,
+           .field = watch->component_of(worst),
+           .grid = watch->grid_of(worst),
+           .point = {worst.i, worst.j},
+           .place = {worst.place.x(), worst.place.y()},
+           .t = worst.t,
+           .words = watch->in_words(worst)};
+  if (known->much && !said) log_warning(fmt::format("{}: {}", what, known->words));
+}
+
 void watch_noise(io::Part& part, Participant& solver, const io::Standing& at, bool now) {
   if (at.step == 0 || (!now && at.step % grid::RippleWatch::every != 0)) return;
   solver.look_for_noise(at.t);
-  const grid::RippleWatch* watch = solver.noise();
-  if (watch == nullptr) return;
-  const grid::Ripple& worst = watch->worst();
-  const bool known = part.noise && part.noise->noisy, noisy = worst.size > grid::noisy;
-  if (part.noise && part.noise->size == worst.size) return;
-  part.noise = {.size = worst.size,
-                .noisy = noisy,
-                .field = watch->component_of(worst),
-                .grid = watch->grid_of(worst),
-                .point = {worst.i, worst.j},
-                .place = {worst.place.x(), worst.place.y()},
-                .t = worst.t,
-                .words = watch->in_words(worst)};
-  if (noisy && !known) log_warning(fmt::format("noise of the grid's scale: {}", part.noise->words));
+  note(part.noise, solver.noise(), grid::noisy, "noise of the grid's scale");
+  note(part.disagreement, solver.disagreement(), grid::torn, "grids disagree where they overlap");
 }
 
 void participate(const Setup& setup, io::Part& part, Participant& solver) {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "common/core/archive.hpp"
-#include "common/grid/ripple.hpp"
+#include "common/grid/watch.hpp"
 #include "common/io/grid_writer.hpp"
 #include "common/io/part.hpp"
 #include "common/program/program.hpp"
@@ -63,12 +63,15 @@ class Participant {
   virtual void write_last_state(double /*t*/, std::uint64_t /*step*/) {}
   /// By default that of a body that does not deform.
   virtual wire::Health health() const { return {.min_det_F = 1}; }
-  /// Looks for noise in the fields at t; once in a while, at output times and at the end.
+  /// Looks for noise in the fields at t, and compares grids that overlap; once in a while, at output times and at the
+  /// end.
   virtual void look_for_noise(double /*t*/) {}
   /// What to change in the case where the solution diverged: one thing, the likeliest.
   virtual std::string remedy() const { return {}; }
   /// What was found; null for a solver without fields.
-  virtual const grid::RippleWatch* noise() const { return nullptr; }
+  virtual const grid::Watch* noise() const { return nullptr; }
+  /// Where its grids disagree; null for a solver without grids that overlap.
+  virtual const grid::Watch* disagreement() const { return nullptr; }
   /// Errors, counters and budgets at the end of the run.
   virtual void report(double /*t*/, io::Part& /*part*/) const {}
 

@@ -193,7 +193,8 @@ struct Telemetry {
   double compute_s = 0, wait_s = 0;  ///< [s]
   double point_updates_per_s = 0;    ///< [1/s]
   Health health;
-  std::string noise;  ///< ripples of the grid's scale in its fields, in words; empty: none to speak of
+  std::string
+      noise;  ///< what makes its fields doubtful, in words: ripples, grids that disagree; empty: nothing
   std::uint64_t messages = 0;  ///< received and sent
   std::uint64_t bytes = 0;
   double round_trip_p50_us = 0, round_trip_p99_us = 0;  ///< [us]

@@ -54,7 +54,7 @@ FluidParticipant::FluidParticipant(const Setup& setup)
   chosen_ = is_chosen(setup.problem, reference_);
   initial_totals_ = solver_.totals();
   open_budget();
-  watch_ripples();
+  watch_fields();
 
   std::vector<std::string> columns{"t [time]"};
   for (const ProbeSpec& probe : setup.problem.output.probes) {
@@ -212,6 +212,7 @@ void FluidParticipant::archive(Archive& archive) {
   archive.inside("fields", [&] { fields_.archive(archive); });
   if (probe_table_) archive.inside("probes", [&] { probe_table_->archive(archive); });
   archive.inside("ripples", [&] { ripples_->archive(archive); });
+  if (disagreement_) archive.inside("disagreement", [&] { disagreement_->archive(archive); });
   if (budget_) archive.inside("budget", [&] { budget_->archive(archive); });
   if (budget_table_) archive.inside("budget_table", [&] { budget_table_->archive(archive); });
 }
@@ -263,17 +264,21 @@ void FluidParticipant::write_tables(double t, double dt, ProjectedStates project
 }
 
 /// Changes below a millionth of the initial state are round-off.
-void FluidParticipant::watch_ripples() {
+void FluidParticipant::watch_fields() {
   constexpr double small = 1e-6;
   const Health start = solver_.health();
   const double sound = std::sqrt(spec_.gamma * start.min_p / start.min_rho);
   std::vector<std::string> names;
   for (int k = 0; k < solver_.grids(); ++k) names.push_back(solver_.grid(k).name());
-  ripples_.emplace(
-      std::vector<grid::WatchedQuantity>{{.components = {"rho"}, .first = 0, .floor = small * start.min_rho},
-                                         {.components = {"v1", "v2"}, .first = 1, .floor = small * sound},
-                                         {.components = {"p"}, .first = 3, .floor = small * start.min_p}},
-      std::move(names));
+  const std::vector<grid::WatchedQuantity> quantities{
+      {.components = {"rho"}, .first = 0, .floor = small * start.min_rho},
+      {.components = {"v1", "v2"}, .first = 1, .floor = small * sound},
+      {.components = {"p"}, .first = 3, .floor = small * start.min_p}};
+  ripples_.emplace(quantities, names);
+  if (const grid::CompositeGrid* composite = solver_.composite()) {
+    names.resize(static_cast<std::size_t>(composite->grids()));
+    disagreement_.emplace(quantities, std::move(names));
+  }
 }
 
 void FluidParticipant::look_for_noise(double t) {
@@ -282,6 +287,12 @@ void FluidParticipant::look_for_noise(double t) {
   for (int k = 0; k < solver_.grids(); ++k)
     watched_.push_back({.q = solver_.state(k), .x = solver_.grid(k).x(), .points = &solver_.valid(k)});
   ripples_->look(watched_, t);
+  if (!disagreement_) return;
+  const grid::CompositeGrid& composite = *solver_.composite();
+  watched_.resize(static_cast<std::size_t>(composite.grids()));
+  for (int k = 0; k < composite.grids(); ++k)
+    watched_[static_cast<std::size_t>(k)].points = &solver_.discretised(k);
+  disagreement_->look(composite.background(), watched_, ripples_->ranges(), t);
 }
 
 wire::Health FluidParticipant::health() const {

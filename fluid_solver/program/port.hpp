@@ -9,6 +9,8 @@
 
 #include "common/case/case.hpp"
 #include "common/exact/solution.hpp"
+#include "common/grid/overlap/disagreement.hpp"
+#include "common/grid/ripple.hpp"
 #include "common/io/csv_writer.hpp"
 #include "common/io/grid_writer.hpp"
 #include "common/program/participant.hpp"
@@ -35,7 +37,8 @@ class FluidParticipant final : public Participant {
   void archive(Archive& archive) override;
   wire::Health health() const override;
   void look_for_noise(double t) override;
-  const grid::RippleWatch* noise() const override { return &*ripples_; }
+  const grid::Watch* noise() const override { return &*ripples_; }
+  const grid::Watch* disagreement() const override { return disagreement_ ? &*disagreement_ : nullptr; }
   void report(double t, io::Part& part) const override;
 
  private:
@@ -72,11 +75,12 @@ class FluidParticipant final : public Participant {
   std::optional<Budget> budget_;  ///< of a gas around closed bodies
   std::optional<io::CsvWriter> budget_table_;
   std::optional<grid::RippleWatch> ripples_;
-  std::vector<grid::WatchedGrid> watched_;  ///< work memory
+  std::optional<grid::DisagreementWatch> disagreement_;  ///< of grids that overlap
+  std::vector<grid::WatchedGrid> watched_;               ///< work memory
 
   void open_budget();
   std::vector<Strip> strips_of_tables() const;
-  void watch_ripples();
+  void watch_fields();
 };
 
 }  // namespace fsi::fluid

@@ -196,7 +196,7 @@ class Painter {
     }
     for (const auto& [name, program] : state_.programs()) {
       if (program.noise.empty() || row_ >= frame_.extent().rows - 1) continue;
-      frame_.put(0, row_++, fmt::format("NOISE in {}: {}", name, program.noise), Style::warning);
+      frame_.put(0, row_++, fmt::format("WARNING, {}: {}", name, program.noise), Style::warning);
     }
   }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/core/time/time_integral.hpp"
+#include "common/grid/ripple.hpp"
 #include "common/io/csv_writer.hpp"
 #include "common/io/grid_writer.hpp"
 #include "common/program/participant.hpp"
@@ -35,7 +36,7 @@ class SolidParticipant final : public Participant {
   wire::Health health() const override;
   void look_for_noise(double t) override;
   std::string remedy() const override;
-  const grid::RippleWatch* noise() const override { return &*ripples_; }
+  const grid::Watch* noise() const override { return &*ripples_; }
   void report(double t, io::Part& part) const override;
 
  private:

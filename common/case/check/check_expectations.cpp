@@ -20,9 +20,10 @@ using config::Node;
 using std::string_view;
 
 // What summary.json has (docs/output.md).
-constexpr std::array<string_view, 16> quantities{
-    "status",       "reason", "case",           "t",         "t_end",    "steps", "dt",      "wall_s",
-    "participants", "errors", "errors_missing", "interface", "counters", "noise", "overlap", "conservation"};
+constexpr std::array<string_view, 17> quantities{
+    "status",   "reason", "case",         "t",       "t_end",          "steps",
+    "dt",       "wall_s", "participants", "errors",  "errors_missing", "interface",
+    "counters", "noise",  "disagreement", "overlap", "conservation"};
 constexpr std::array<string_view, 5> errors_of_gas{"rho", "v1", "v2", "T", "rho_mean"};
 constexpr std::array<string_view, 3> errors_of_solid{"u_bar", "v_bar", "P_bar"};
 constexpr std::array<string_view, 10> counters{"floors",
@@ -40,6 +41,8 @@ constexpr std::array<string_view, 5> of_interface{"max_velocity_jump", "max_trac
 constexpr std::array<string_view, 3> of_step{"min", "max", "limited_by"};
 constexpr std::array<string_view, 8> of_noise{"value", "noisy", "field", "grid",
                                               "point", "place", "t",     "participant"};
+constexpr std::array<string_view, 8> of_disagreement{"value", "large", "field", "grid",
+                                                     "point", "place", "t",     "participant"};
 constexpr std::array<string_view, 10> of_program{"program",        "role",     "status",
                                                  "points",         "substeps", "compute_s",
                                                  "wait_s",         "time_s",   "point_updates_per_s",
@@ -141,6 +144,7 @@ void check_quantity(const Expected& expected) {
   if (first == "counters") expected.require(1, counters);
   if (first == "dt") expected.require(1, of_step);
   if (first == "noise") expected.require(1, of_noise);
+  if (first == "disagreement") expected.require(1, of_disagreement);
   if (first != "interface") return;
   expected.require(1, of_interface);
   if (!is_coupled(expected.problem))

@@ -23,8 +23,8 @@ wire::Telemetry telemetry_of(const Setup& setup, const io::Part& part, const Par
 /// Draws the solver's present state, that of `at`.
 bus::Draw draw_of(const io::Part& part, Participant& solver, const io::Standing& at);
 
-/// Looks for noise every so many steps, and always `now`; what is worst goes into the part, and the log says
-/// when it is too much.
+/// Looks for noise and for grids that disagree every so many steps, and always `now`; what is worst goes into the
+/// part, and the log says when it is too much.
 void watch_noise(io::Part& part, Participant& solver, const io::Standing& at, bool now);
 
 /// The last time at which a solver's boundary conditions held.

@@ -48,11 +48,10 @@ def _ordered(errors):
     return {name: errors[name] for name in known + sorted(errors.keys() - set(known))}
 
 
-def _noise(parts):
-    """The worst ripple of the grid's scale in any program's fields, or None."""
-    found = [{"value": noise["value"], "participant": name} | noise
-             for name, part in parts.items() if (noise := part.get("noise"))]
-    return max(found, key=lambda noise: noise["value"] or 0, default=None)
+def _worst(parts, key):
+    """The worst that any program found in its fields, with its name, or None: ripples (`noise`), grids that differ (`disagreement`)."""
+    found = [{"value": one["value"], "participant": name} | one for name, part in parts.items() if (one := part.get(key))]
+    return max(found, key=lambda one: one["value"] or 0, default=None)
 
 
 def _last_line(directory):
@@ -92,8 +91,9 @@ def merge(parts, case, status, reason, wall_s, known=None, done=()):
         part = parts.get(name, {"status": "completed" if name in done and status != "failed" else "lost"})
         summary["participants"][name] = {"program": program} | {
             key: part[key] for key in PARTICIPANT_KEYS if key in part}
-    if noise := _noise(parts):
-        summary["noise"] = noise
+    for key in ("noise", "disagreement"):
+        if found := _worst(parts, key):
+            summary[key] = found
     if overlap := {name: part["overlap"] for name, part in parts.items() if part.get("overlap")}:
         summary["overlap"] = overlap
     conservation = {name: part["conservation"] for name, part in parts.items() if part.get("conservation")}
@@ -243,6 +243,17 @@ def noise_in_words(summary):
             f"its range, grid \"{noise['grid']}\", point ({point}) at ({place}), t = {noise['t']:.4g}")
 
 
+def disagreement_in_words(summary):
+    """One line where two grids have different solutions at one place, or ""."""
+    found = summary.get("disagreement") or {}
+    if not found.get("large"):
+        return ""
+    point, place = (", ".join(f"{value:.4g}" for value in found[key]) for key in ("point", "place"))
+    return (f"grids disagree where they overlap: {found['field']} of {found['participant']} differs by {percent(found['value'])} of its range "
+            f"between grid \"{found['grid']}\", point ({point}) at ({place}), and the background, t = {found['t']:.4g}; "
+            "do not trust the flow there: a finer grid resolves it (docs/output.md, disagreement)")
+
+
 MISSED_MOMENTUM = 0.05  # part of the momentum that the gas gave a solid
 ROUND_OFF = 1e-12       # part of pressure x speed x time^2: what the gas presses in the run on a side as long as its way
 
@@ -323,8 +334,7 @@ def describe(summary, directory, width=None):
     if counted := {key: value for key, value in summary["counters"].items() if value and key not in ROUTINE}:
         lines.append("  counters: " + ", ".join(f"{key.replace('_', ' ')} {value:g}" for key, value in counted.items()))
     lines += overlap_lines(summary) + momentum_lines(summary)
-    if noise := noise_in_words(summary):
-        lines.append(f"  warning: {noise}")
+    lines += [f"  warning: {said}" for said in (noise_in_words(summary), disagreement_in_words(summary)) if said]
     if summary.get("expectations"):
         met = sum(entry["met"] for entry in summary["expectations"])
         lines.append(f"  expectations: {met} of {len(summary['expectations'])} met")

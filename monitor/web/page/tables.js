@@ -23,7 +23,7 @@ function meter(share) {
 }
 
 function health(program) {
-  const h = program.health, noise = program.noise ? `, NOISE: ${program.noise}` : "";
+  const h = program.health, noise = program.noise ? `, WARNING: ${program.noise}` : "";
   if (program.role === "fluid") return `min \u03c1 ${short(h.min_rho)}, min p ${short(h.min_p)}, cells ${short(h.min_cell_quality)}, first order ${h.first_order_fallbacks}, floors ${h.floors}${noise}`;
   return program.role === "solid" ? `min det F ${short(h.min_det_F)}${noise}` : "";
 }

@@ -33,7 +33,7 @@ class Ripples : public testing::Test {
       for (int i = 0; i < n1; ++i) q_(plane, i, j) = formula(i, j);
     }
   }
-  const Ripple& look(double t = 0) {
+  const Finding& look(double t = 0) {
     const WatchedGrid grids[] = {{.q = q_.view(), .x = x_.view(), .points = &points_}};
     watch_.look(grids, t);
     return watch_.now();
@@ -54,7 +54,7 @@ TEST_F(Ripples, AreFoundWithTheirSizeFieldAndPlace) {
   set(0, [](int i, int j) { return std::sin(0.1 * i) + std::cos(0.1 * j); });
   set(1, [](int i, int) { return 2.0 * i / n1; });
   set(2, [](int i, int j) { return i >= 20 && i < 31 && j == 7 ? 0.1 * sawtooth(i) : 0; });
-  const Ripple& found = look(1.5);
+  const Finding& found = look(1.5);
   EXPECT_NEAR(found.size, 0.1 / (2.0 * (n1 - 1) / n1), 1e-12);  // of the range of both components
   EXPECT_EQ(watch_.component_of(found), "v2");
   EXPECT_EQ(watch_.grid_of(found), "square");

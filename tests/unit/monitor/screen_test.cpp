@@ -72,12 +72,12 @@ TEST(Screen, ShowsEverythingOnEightyByTwentyFour) {
 
 TEST(Screen, ShowsWhichProgramIsRippledByTheGridAndWhere) {
   RunState state = coupled();
-  EXPECT_FALSE(shows(screen(state, 2, {}, {.columns = 100, .rows = 30}), "NOISE"));
+  EXPECT_FALSE(shows(screen(state, 2, {}, {.columns = 100, .rows = 30}), "WARNING"));
   auto solid = telemetry("solid", "beam", 8, 1);
   solid.noise = "v1 ripples by 4.1 % on grid \"ring\"";
   state.hear(solid, 2);
   EXPECT_TRUE(shows(screen(state, 2, {}, {.columns = 100, .rows = 30}),
-                    "NOISE in beam: v1 ripples by 4.1 % on grid \"ring\""));
+                    "WARNING, beam: v1 ripples by 4.1 % on grid \"ring\""));
 }
 
 TEST(Screen, FitsAnyTerminalWhateverTheRunSays) {

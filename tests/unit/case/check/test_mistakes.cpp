@@ -198,7 +198,8 @@ const Mistake values[] = {
      "negative"},
     {"ExpectedQuantityThatDoesNotExist", "status: completed", "eror.rho: {max: 1}",
      "case.yaml:29:20: expect: summary.json has no `eror.rho` (status, reason, case, t, t_end, steps, dt, "
-     "wall_s, participants, errors, errors_missing, interface, counters, noise, overlap, conservation); did "
+     "wall_s, participants, errors, errors_missing, interface, counters, noise, disagreement, overlap, "
+     "conservation); did "
      "you mean `errors`?"},
     {"ExpectedCounterThatDoesNotExist", "status: completed", "counters.flors: {max: 0}",
      "case.yaml:29:26: expect: summary.json has no `counters.flors` (floors, positive_fluxes, "

@@ -124,6 +124,16 @@ class Summary(InScratch):
         self.assertIn('warning: noise of the grid\'s scale: v1 of solid ripples by 4.1 % of its range, grid "outline", point (3, 40)'
                       ' at (0.25, 1.5), t = 6.5', summary.describe(merged, self.folder))
 
+    def test_grids_that_disagree_are_told_with_their_place_where_they_do_much(self):
+        place = {"field": "v1", "grid": "ring", "point": [20, 3], "place": [0.25, 1.5], "t": 6.5}
+        self.part("fluid", disagreement={"value": 0.19, "large": False} | place)
+        self.assertNotIn("warning", summary.describe(self.merged(), self.folder))
+        self.part("fluid", disagreement={"value": 0.52, "large": True} | place)
+        merged = self.merged()
+        self.assertEqual(merged["disagreement"], {"value": 0.52, "participant": "fluid", "large": True} | place)
+        self.assertIn('warning: grids disagree where they overlap: v1 of fluid differs by 52 % of its range between grid "ring", point (20, 3)'
+                      " at (0.25, 1.5), and the background, t = 6.5", summary.describe(merged, self.folder))
+
     def test_overlap_is_told_where_it_was_poor_and_only_there(self):
         sound = {"amplification": 2.9, "implicit": 40, "narrowed": 0, "lines_left_out": 0,
                  "grid": "ring", "point": [3, 6], "place": [0.25, 1.5], "t": 0.5}

@@ -1,0 +1,65 @@
+#!/usr/bin/python3
+"""A wake that is too coarse stands in two grids of the gas with two solutions: the run says so, and no longer on a finer grid."""
+
+import json
+import os
+import subprocess
+import tempfile
+import unittest
+from pathlib import Path
+
+ROOT = Path(os.environ.get("FSI_ROOT") or Path(__file__).resolve().parents[3])
+
+# A wedge of 11 degrees in a stream of Mach 2; its base is 0.04 high. p and rho of the stream are 1.
+CASE = """
+parameters: {v: 2 * sqrt(1.4)}
+grid: {factor: 10}
+time: {end: 0.17}
+fluid:
+  gamma: 1.4
+  p_e: 1
+  grid: {name: background, x: [-0.3, 0.7], y: [-0.35, 0.35]}
+  boundary:
+    left: {kind: far_field, state: {rho: 1, v: [v, 0], p: 1}}
+    right: outflow
+    bottom: outflow
+    top: outflow
+  initial: {rho: 1, v: [v, 0], p: 1}
+solids:
+  wedge:
+    law: rigid
+    rho: 1000
+    motion: fixed
+    shape: {kind: polygon, corners: [[0, 0], [0.2, -0.02], [0.2, 0.02]], radius: 0}
+"""
+
+
+class Wake(unittest.TestCase):
+    def setUp(self):
+        scratch = tempfile.TemporaryDirectory(prefix="fsi-wake-")
+        self.addCleanup(scratch.cleanup)
+        self.folder = Path(scratch.name)
+        (self.folder / "wake.yaml").write_text(CASE, encoding="utf-8")
+
+    def run_with(self, factor):
+        """What the run says, and its summary."""
+        answer = subprocess.run([ROOT / "launch" / "fsi", "run", self.folder / "wake.yaml", "--no-progress", f"--set=grid.factor={factor}", "--out",
+                                 self.folder / str(factor)], stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
+        self.assertEqual(answer.returncode, 0, answer.stderr)
+        return answer.stdout, json.loads((self.folder / str(factor) / "summary.json").read_text(encoding="utf-8"))
+
+    def test_disagreement_is_said_with_its_place_and_a_finer_grid_resolves_it(self):
+        said, summary = self.run_with(10)
+        found = summary["disagreement"]
+        self.assertTrue(found["large"])
+        x, y = found["place"]
+        self.assertTrue(0.2 < x < 0.3 and abs(y) < 0.02, found)  # behind the base
+        self.assertIn("grids disagree where they overlap", said)
+        self.assertIn("grids disagree where they overlap", (self.folder / "10" / "log" / "fluid.log").read_text(encoding="utf-8"))
+        said, summary = self.run_with(20)
+        self.assertFalse(summary["disagreement"]["large"], summary["disagreement"])
+        self.assertNotIn("grids disagree", said)
+
+
+if __name__ == "__main__":
+    unittest.main()
