@@ -140,7 +140,8 @@ void SolidParticipant::flush_tables() {
 
 std::string SolidParticipant::remedy() const {
   return remedy_for(spec_.name, spec_.scheme, spec_.lambda / spec_.mu, law_.softens, squeeze_.by_load(),
-                    pressure_over_stiffness(setup_.problem, spec_));
+                    pressure_over_stiffness(setup_.problem, spec_),
+                    stagnation_over_stiffness(setup_.problem, spec_));
 }
 
 wire::Health SolidParticipant::health() const {

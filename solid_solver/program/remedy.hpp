@@ -41,8 +41,9 @@ class Squeeze {
 ///                  put in: what it does to the traction of loaded sides is in proportion to lambda (docs/theory_solid.md)
 /// @param softens   the law carries no waves beyond some strain, and another one does
 /// @param pressed   pressure_over_stiffness
+/// @param stopped   stagnation_over_stiffness
 inline std::string remedy_for(const std::string& solid, const SolidScheme& scheme, double stiffness,
-                              bool softens, double squeezed = 1, double pressed = 0) {
+                              bool softens, double squeezed = 1, double pressed = 0, double stopped = 0) {
   if (pressed > crushing)
     return fmt::format(
         "a stiffer solids.{} or a weaker load: the pressure of the gas differs from p_e by up to "
@@ -65,6 +66,12 @@ inline std::string remedy_for(const std::string& solid, const SolidScheme& schem
       return fmt::format("{} without `{}`, whose default damps what no wave carries", path, key);
   }
   if (softens) return fmt::format("--solid {}=neo_hookean, unless the strains are small", solid);
+  if (stopped > heavy)
+    return fmt::format(
+        "a stiffer solids.{} or a weaker load: where it brings the gas to rest, that presses it with about "
+        "{:.2g} "
+        "times its lambda + 2 mu",
+        solid, stopped);
   if (nearly_incompressible && !is_zero(scheme.relaxation))
     return fmt::format("{}.relaxation: {{scaled: 0}}, for lambda is {:.3g} mu", path, stiffness);
   if (!nearly_incompressible && scheme.relaxation.scaled < 0.5) return path + ".relaxation: {scaled: 0.5}";

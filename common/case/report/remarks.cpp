@@ -12,10 +12,16 @@ namespace fsi {
 
 namespace {
 
-double largest_load(const FluidSpec& fluid) {
+/// Largest |p - p_e| of a gas at t = 0 and outside its sides, or with rho v^2 added to it [pressure].
+double largest_load(const FluidSpec& fluid, bool brought_to_rest) {
   double load = 0;
   const auto look = [&](const GasExpressions& state, const std::vector<Vec2>& points) {
-    for (const Vec2& x : points) load = std::max(load, std::abs(state.p(x[0], x[1], 0) - fluid.p_e));
+    for (const Vec2& at : points) {
+      const double x = at[0], y = at[1];
+      const double v1 = state.v1(x, y, 0), v2 = state.v2(x, y, 0);
+      const double ram = brought_to_rest ? state.rho(x, y, 0) * (v1 * v1 + v2 * v2) : 0;
+      load = std::max(load, std::abs(state.p(x, y, 0) - fluid.p_e) + ram);
+    }
   };
   if (fluid.initial) look(*fluid.initial, sample_points(fluid));
   for (const Side side : all_sides) {
@@ -25,13 +31,21 @@ double largest_load(const FluidSpec& fluid) {
   return load;
 }
 
+double over_stiffness(const Case& problem, const SolidSpec& solid, bool brought_to_rest) {
+  if (!is_continuum(solid.law)) return 0;
+  double load = 0;
+  for (const FluidSpec& fluid : problem.fluids) load = std::max(load, largest_load(fluid, brought_to_rest));
+  return load / (solid.lambda + 2 * solid.mu);
+}
+
 }  // namespace
 
 double pressure_over_stiffness(const Case& problem, const SolidSpec& solid) {
-  if (!is_continuum(solid.law)) return 0;
-  double load = 0;
-  for (const FluidSpec& fluid : problem.fluids) load = std::max(load, largest_load(fluid));
-  return load / (solid.lambda + 2 * solid.mu);
+  return over_stiffness(problem, solid, false);
+}
+
+double stagnation_over_stiffness(const Case& problem, const SolidSpec& solid) {
+  return over_stiffness(problem, solid, true);
 }
 
 std::vector<std::string> remarks_on(const Case& problem) {

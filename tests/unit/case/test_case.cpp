@@ -207,6 +207,19 @@ TEST(Summary, NamesParametersThatNothingNeeds) {
   EXPECT_TRUE(load_case("shock_ellipse").unused.empty());
 }
 
+// At Mach 1.3, p / p_0 - 1 = 7/6 (M^2 - 1), rho v^2 = rho_1 v_1^2 of Rankine and Hugoniot; lambda + 2 mu = 3 stiffness.
+TEST(RemarksOnACase, WhatAStreamThatIsBroughtToRestPressesWith) {
+  const Case problem = load_case(FSI_ROOT "/configs/shock_ellipse.yaml", {"parameters.stiffness=2"});
+  const SolidSpec& solid = problem.solids.front();
+  const GasExpressions& behind = *problem.fluids.front().boundary.front().state;
+  const double p = behind.p(0, 0, 0) - problem.fluids.front().p_e, rho = behind.rho(0, 0, 0),
+               v = behind.v1(0, 0, 0);
+  EXPECT_NEAR(pressure_over_stiffness(problem, solid), p / 6, 1e-12);
+  EXPECT_NEAR(stagnation_over_stiffness(problem, solid), (p + rho * v * v) / 6, 1e-12);
+  const Case rigid = load_case(FSI_ROOT "/configs/rigid_piston.yaml");
+  EXPECT_EQ(stagnation_over_stiffness(rigid, rigid.solids.front()), 0);
+}
+
 TEST(RemarksOnACase, OfASolidThatTheGasSqueezesToNothing) {
   const auto remarks = [](const std::string& stiffness) {
     return remarks_on(

@@ -78,5 +78,22 @@ TEST(Remedy, NamesTheLoadOfASolidThatIsMuchTooSoftBeforeAllElse) {
   EXPECT_EQ(remedy_for("bar", scheme, 1, false, 1, 0.5), remedy_of({.scaled = 0.2}, 1));
 }
 
+// A scheme bears no load that the material does not; but a missing limiter, or a law that softens, is said first.
+TEST(Remedy, NamesTheLoadOfAStreamThatIsAsStrongAsTheSolidBeforeRelaxationAndLimiters) {
+  SolidScheme scheme = relaxed({.scaled = 0.2});
+  for (const double stiffness : {1.0, 49.0}) {
+    EXPECT_NE(remedy_for("bar", scheme, stiffness, false, 1, 0.4, 3.31)
+                  .find("a weaker load: where it brings the gas "
+                        "to rest, that presses it with about 3.3"),
+              std::string::npos);
+    EXPECT_EQ(remedy_for("bar", scheme, stiffness, false, 1, 0.1, 0.4),
+              remedy_of({.scaled = 0.2}, stiffness));
+  }
+  EXPECT_EQ(remedy_for("bar", scheme, 1, true, 1, 0.4, 3.3),
+            "--solid bar=neo_hookean, unless the strains are small");
+  scheme.limiter = SolidLimiter::none;
+  EXPECT_EQ(remedy_for("bar", scheme, 1, false, 1, 0.4, 3.3), "solids.bar.scheme.limiter: minmod, for jumps");
+}
+
 }  // namespace
 }  // namespace fsi::solid
