@@ -27,18 +27,39 @@ std::string while_moving(double t) {
   return t > 0 ? "; write a larger grid.factor, whose grids are thinner, or let the run end before" : "";
 }
 
-/// Ends one of the ends of a curve on the side of a rectangle that is nearest to a position?
-bool stands_on_rim(const std::vector<double>& curve, const CartesianGrid& rim, const Vec2& x) {
+/// How a curve is related to the side of a rectangle that is nearest to a position.
+struct Standing {
+  bool on_rim = false;  ///< one of its ends is on that side
+  double foot = 0;      ///< distance of the nearest of these ends to the position [length]
+};
+
+Standing standing_of(const std::vector<double>& curve, const CartesianGrid& rim, const Vec2& x) {
   const std::size_t n = curve.size() / 2;
   const std::array distances{x[0] - rim.x_a, rim.x_b - x[0], x[1] - rim.y_a, rim.y_b - x[1]};
   const auto side = std::ranges::min_element(distances) - distances.begin();
   constexpr double close = 1e-6;
   const double tolerance = close * std::max(rim.dx(), rim.dy());
-  return std::ranges::any_of(std::array<std::size_t, 2>{0, n - 1}, [&](std::size_t k) {
+  Standing standing;
+  for (const std::size_t k : {std::size_t{0}, n - 1}) {
     const std::array of_end{curve[k] - rim.x_a, rim.x_b - curve[k], curve[n + k] - rim.y_a,
                             rim.y_b - curve[n + k]};
-    return std::abs(of_end[static_cast<std::size_t>(side)]) < tolerance;
-  });
+    if (std::abs(of_end[static_cast<std::size_t>(side)]) >= tolerance) continue;
+    const double distance = std::hypot(curve[k] - x[0], curve[n + k] - x[1]);
+    standing.foot = standing.on_rim ? std::min(standing.foot, distance) : distance;
+    standing.on_rim = true;
+  }
+  return standing;
+}
+
+/// What to do where a body that stands on a side comes near that side.
+std::string remedy_at_foot(const Standing& standing, double cell) {
+  constexpr double close = 6;  // cells
+  if (standing.foot < close * cell)
+    return "it stands on that side and folds over at its foot, the sooner the finer the grid is: a stiffer "
+           "body, a weaker "
+           "load or a foot that widens towards its wall keeps it up; or let the run end before";
+  return "it stands on that side: let the run end before, or write a larger grid.factor, with which it may "
+         "come nearer";
 }
 
 /// Smaller is better.
@@ -269,13 +290,11 @@ std::string CompositeGrid::nearest_curves(const Vec2& x, double t) const {
           "them takes; ",
           name_of_body(bodies_[a]), (order[0].first + std::max(to_rim, 0.0)) / cell, background_.name,
           fewest_cells);
-      if (stands_on_rim(curves[a], background_, x))
-        return what +
-               "it stands on that side: let the run end before, or write a larger grid.factor, with which it "
-               "may come nearer";
+      if (const Standing standing = standing_of(curves[a], background_, x); standing.on_rim)
+        return what + remedy_at_foot(standing, cell);
       return what +
-             "give that side a grid along it in fluid.body_fitted (docs/troubleshooting.md), let the run end "
-             "before, or the body not come so near";
+             "let the rectangle reach farther; if that side is a wall, give it a grid along it in "
+             "fluid.body_fitted (docs/troubleshooting.md); or let the run end before";
     }
     if (t > 0 && to_rim < order[0].first)
       return fmt::format(

@@ -151,6 +151,18 @@ TEST(CaseGeometry, AnOutlineThatCrossesItselfIsSaidBeforeGridsAreChosenForIt) {
       << message;
 }
 
+// The arc in the notch ends above the bottom that its corner lies below.
+TEST(CaseGeometry, CornersWhoseLinesCrossAreRefusedThoughTheirArcsCutThatOff) {
+  const TwoBodies bodies{
+      .left =
+          "{kind: polygon, radius: 0.01, corners: [[-1.4, -0.4], [-0.6, -0.4], [-0.6, 0.4], "
+          "[-0.9, 0.4], [-1, -0.404], [-1.1, 0.4], [-1.4, 0.4]]}"};
+  expect_mistake(
+      bodies, shape_a + "solids.a.shape: ",
+      "where the line from its point 1 (-1.4, -0.4) to 2 (-0.6, -0.4) meets that from its point 4 (-0.9, "
+      "0.4) to 5 (-1, -0.404)");
+}
+
 TEST(CaseGeometry, TooCoarseACoreIsToldTheSpacingThatConnects) {
   TwoBodies bodies{.box = "{x: [-1.5, -0.5], y: [-0.5, 0.5], spacing: h}",
                    .fitted = "{lines: 6, spacing: 0.25 * h}"};
