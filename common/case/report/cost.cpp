@@ -262,6 +262,13 @@ RunCost cost_of(const Case& problem) {
     program.usual_dt *= problem.time.cfl;
   }
   take_steps(cost, problem.time, problem.time.multirate);
+  cost.h = 0.1 / problem.grid_factor;
+  for (std::size_t k = 0; k < cost.programs.size() && cost.seconds > 0; ++k) {
+    RunCost other = cost;
+    other.programs[k].dt = other.programs[k].usual_dt;
+    take_steps(other, problem.time, problem.time.multirate);
+    cost.programs[k].saved = 1 - other.seconds / cost.seconds;
+  }
   if (may_have_substeps(problem)) {
     RunCost other = cost;
     take_steps(other, problem.time, true);
@@ -333,6 +340,22 @@ std::string multirate_text(const RunCost& cost) {
       time_text(cost.multirate_seconds));
 }
 
+/// A solid that takes most of the time since its outline asks for cells much smaller than h; "" without one.
+std::string fine_solid_text(const RunCost& cost) {
+  constexpr double minute = 60, much_smaller = 0.2;
+  const StepCost& slowest = *std::ranges::max_element(
+      cost.programs, {}, [&](const StepCost& program) { return cost.seconds_of(program); });
+  const double cell = std::max(slowest.cell[0], slowest.cell[1]);
+  if (slowest.is_gas || !std::isfinite(slowest.dt) || slowest.has_corners || cost.seconds < minute ||
+      cell > much_smaller * cost.h)
+    return "";
+  return fmt::format(
+      "  {}: takes most of the time: its sharpest bend and thinnest place ask for cells {:.2g} times as "
+      "small as h = "
+      "{:.2g}; make the outline thicker, round it more there, or not at all (`radius: 0` of a polygon)\n",
+      slowest.program, cost.h / cell, cost.h);
+}
+
 }  // namespace
 
 std::string cost_text(const RunCost& cost) {
@@ -345,8 +368,8 @@ std::string cost_text(const RunCost& cost) {
         "  {}: dt about {:.2g}, set by cells {:.2g} x {:.2g} of grid \"{}\" near ({:.3g}, {:.3g}){}\n",
         program.program, program.dt, program.cell[0], program.cell[1], program.grid, program.x[0],
         program.x[1], substeps > 1 ? fmt::format("; {} substeps in a step", substeps) : "");
-    constexpr double few = 1.5;
-    if (program.usual_dt > few * program.dt)
+    constexpr double much = 1.0 / 3;
+    if (program.saved > much)
       warning += fmt::format(
           "  {}: a twentieth of the cells, near that place, makes the step {:.2g} times smaller than "
           "the others need: {}write a greater `spacing` or fewer `points` for that grid\n",
@@ -355,7 +378,7 @@ std::string cost_text(const RunCost& cost) {
               ? ""
               : "round the outline more there, or not at all (`radius: 0` of a polygon), or ");
   }
-  warning += multirate_text(cost);
+  warning += fine_solid_text(cost) + multirate_text(cost);
   const bool levels =
       std::ranges::any_of(cost.programs, [](const StepCost& program) { return program.levels > 1; });
   constexpr double countable = 1e9;  // no run takes more: the digits of such a number say nothing

@@ -25,6 +25,7 @@ struct StepCost {
   bool has_corners = false;  ///< that grid is fitted to an outline with sharp corners
   double usual_dt =
       0;  ///< with the worst twentieth of all cells left out: much greater where a few set the step
+  double saved = 0;  ///< part of the run's time that a step of usual_dt would save [-]
 };
 
 struct RunCost {
@@ -32,6 +33,7 @@ struct RunCost {
   double dt = 0;                   ///< of a step that all take together, safety factor included [time]
   double steps = 0;                ///< to time.end [-]
   double seconds = 0;              ///< about, each program on a core of its own [s]
+  double h = 0;                    ///< of the case's `grid` [length]
   /// The same with `time.multirate`, of a case that could have it and does not; else 0.
   double multirate_steps = 0, multirate_seconds = 0;
   /// Of a program within a step: 1, or more with `time.multirate`.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -13,6 +14,19 @@ namespace {
 double between(ConstFieldView q, int plane, int i, int j, double r, double s) {
   const double *low = q.row(plane, j) + i, *high = q.row(plane, j + 1) + i;
   return (1 - s) * ((1 - r) * low[0] + r * low[1]) + s * ((1 - r) * high[0] + r * high[1]);
+}
+
+/// Are the cells around a point of a grid about as long and as wide as those of the background?
+bool alike(const CartesianGrid& background, ConstFieldView x, int i, int j) {
+  constexpr double most = 3;  // the ratio of their sides
+  const double longest = most * std::min(background.dx(), background.dy()),
+               shortest = std::max(background.dx(), background.dy()) / most;
+  const int along = i > 0 ? -1 : 1, away = j > 0 ? -1 : 1;
+  for (const auto& [m, n] : {std::pair(i + along, j), {i, j + away}}) {
+    const double side = std::hypot(x(0, m, n) - x(0, i, j), x(1, m, n) - x(1, i, j));
+    if (side < shortest || side > longest) return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -47,7 +61,8 @@ void DisagreementWatch::compare(const CartesianGrid& background, std::span<const
   const double s = (at.place.y() - background.y_a) / background.dy();
   const int i = static_cast<int>(std::floor(r)), j = static_cast<int>(std::floor(s));
   const WatchedGrid &beside = grids.front(), &fitted = grids[static_cast<std::size_t>(at.grid)];
-  if (!beside.points->contains(Interval{i, i + 2}, j) || !beside.points->contains(Interval{i, i + 2}, j + 1))
+  if (!beside.points->contains(Interval{i, i + 2}, j) ||
+      !beside.points->contains(Interval{i, i + 2}, j + 1) || !alike(background, fitted.x, at.i, at.j))
     return;
   at.component = 0;
   for (std::size_t k = 0; k < quantities().size(); ++k) {

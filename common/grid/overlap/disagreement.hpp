@@ -28,7 +28,8 @@ class DisagreementWatch final : public Watch {
   DisagreementWatch(std::vector<WatchedQuantity> quantities, std::vector<std::string> grids);
 
   /// Compares all points that grids 1, 2, ... advance with the background, grid 0, wherever that advances all
-  /// corners of the cell around them. `ranges`: of each quantity [unit of the quantity].
+  /// corners of the cell around them and the cells of both are of about the same size: coarse cells draw a shock out
+  /// over what fine ones beside them see as two constant states. `ranges`: of each quantity [unit of the quantity].
   void look(const CartesianGrid& background, std::span<const WatchedGrid> grids,
             std::span<const double> ranges, double t);
   /// `v1 differs by 54 % of its range between grid "ring", point (20, 3) at (0.24, 0), and grid "background",

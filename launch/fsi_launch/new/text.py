@@ -106,8 +106,10 @@ TOO_SMALL = 0.5     # radius that is not worth its grids, in h
 
 def may_be_sharp(problem):
     """Straight edges of a rigid body with a point of the grid at each corner: if its grids are valid nothing is rounded away. At edges
-    shorter than h arcs take by far smaller cells than sharp corners do."""
-    return problem.straight and problem.law == "rigid" and problem.sharp
+    shorter than h arcs take by far smaller cells than sharp corners do: there a block of an elastic law, which is one grid, keeps its own."""
+    if not problem.straight or not problem.sharp:
+        return False
+    return problem.law == "rigid" or is_block(problem.outline) and OF_AN_EDGE * shortest_edge(problem.outline) < TOO_SMALL * problem.spacing()
 
 
 def radius_of_corners(problem):

@@ -196,6 +196,25 @@ TEST(CaseShape, WhoHasSharpCornersIsNotToldToRoundThemMore) {
   EXPECT_EQ(advice(", radius: 0").find("round the outline"), std::string::npos) << advice(", radius: 0");
 }
 
+// The gas could take larger steps without a few cells of its own, but the solid would take as many.
+TEST(CaseShape, AThinSolidThatTakesMostOfTheTimeIsNamedAndNotTheGas) {
+  const auto advice = [](const std::string& corners, const std::string& end) {
+    return cost_text(
+        cost_of(load_text(flap_case("law: neo_hookean\n    rho: 1\n    lambda: 100\n    mu: 100\n    "
+                                    "boundary: {left: free, right: free, bottom: clamped, top: free}",
+                                    0.01, corners),
+                          {"time.end=" + end, "time.multirate=true"})));
+  };
+  const std::string round = advice(", radius: 0.001", "20");
+  EXPECT_NE(round.find("flap: takes most of the time: its sharpest bend and thinnest place ask for cells "),
+            std::string::npos)
+      << round;
+  EXPECT_EQ(round.find("the others need"), std::string::npos) << round;
+  EXPECT_EQ(advice(", radius: 0", "20").find("takes most of the time"), std::string::npos);
+  EXPECT_EQ(advice(", radius: 0.001", "1e-3").find("takes most of the time"),
+            std::string::npos);  // of a second
+}
+
 struct ShapeMistake {
   std::string text, part;
 };

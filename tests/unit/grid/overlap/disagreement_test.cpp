@@ -111,6 +111,21 @@ TEST_F(Disagreements, AreLookedForOnlyWhereBothAreAdvanced) {
   }
 }
 
+// Where one sees a shock as a jump, the other one as a slope.
+TEST_F(Disagreements, OfGridsOfWhichOneIsMuchFinerAreNone) {
+  for (const auto& [along, away] : {std::pair(0.4, 1.0), {1.0, 0.4}, {4.0, 1.0}, {1.0, 5.0}, {1.0, 1.0}}) {
+    for (int j = 0; j < 6; ++j) {
+      for (int i = 0; i < 15; ++i) {
+        strip_x_(0, i, j) = 0.081 * along * (i - 7) + 0.01;
+        strip_x_(1, i, j) = 0.07 * away * (j - 3) + 0.02;
+      }
+    }
+    for (const int plane : {0, 1, 2}) set(plane, bilinear, bilinear);
+    strip_q_(0, 7, 3) += 1;
+    EXPECT_NEAR(look().size, along == away ? 0.5 : 0, 1e-14) << along << " " << away;
+  }
+}
+
 TEST_F(Disagreements, OutsideTheBackgroundAreNone) {
   for (const int plane : {0, 1, 2}) set(plane, bilinear, bilinear);
   for (int i = 0; i < 15; ++i) strip_x_(0, i, 5) += 1.5;
