@@ -132,6 +132,7 @@ void put_name(Node& root, const std::string& path) {
 /// Of what was written, and what the command line says.
 Case case_from(Node root, const std::string& file, double available) {
   const std::vector<std::string> unused = unused_parameters(root);
+  const std::map<std::string, std::string> formulas = formulas_of_parameters(root);
   const Scope scope = evaluate_scope(root);
   refuse_points_of_no_rectangle(root);
   validate(root, schema::case_file, scope);
@@ -143,6 +144,7 @@ Case case_from(Node root, const std::string& file, double available) {
   result.path = file;
   result.chosen = chosen;
   result.unused = unused;
+  result.formulas = formulas;
   result.resolved = config::emit(root);
   result.digest = digest_of(result.resolved);
   result.restart_digest = digest_of(config::emit(fixed_part(root)));

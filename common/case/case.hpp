@@ -236,7 +236,8 @@ struct Case {
   std::vector<std::string> chosen;  ///< keys that the file left open, with the values chosen for them
   std::vector<std::string> unused;  ///< parameters that nothing in the file needs
   std::map<std::string, double> parameters;
-  double grid_factor = 1;  ///< j of h = 1 / (10 j) [-]
+  std::map<std::string, std::string> formulas;  ///< of the parameters that others give
+  double grid_factor = 1;                       ///< j of h = 1 / (10 j) [-]
   TimeSpec time;
   InterfaceSpec interface;
   std::vector<FluidSpec> fluids;  ///< one from `fluid`, or all of `fluids`

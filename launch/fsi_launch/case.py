@@ -40,53 +40,34 @@ class Case:
 
 # --- formulas of parameters
 
-FORMULA = "    # formula: "      # between a parameter's number and the formula that gave it, in a resolved case
-PARAMETERS = r"^parameters:[ \t]*(?:#.*)?\n((?:[ \t]+.*\n|[ \t]*\n|#.*\n)*)"      # the section, an entry on each line
-
-
-def _is_number(text):
-    try:
-        float(text)
-    except ValueError:
-        return False
-    return True
-
-
-def _entries_of(section):
-    """[(name, value, formula that a resolved case has behind it)] of the lines of a section of parameters."""
-    found = []
-    for line in section.splitlines():
-        if entry := re.fullmatch(r"\s+([A-Za-z_]\w*):\s+(.+)", line):
-            value, _, formula = entry[2].partition(FORMULA)
-            found.append((entry[1], value.split(" #")[0].strip().strip("\"'"), formula.strip()))
-    return found
+FORMULA = "    # formula: "      # in the text of a resolved case, between the number of a parameter and the formula of others that gave it
+PARAMETER = re.compile(rf"^  (\w+): \S+{FORMULA}(.*)$", flags=re.MULTILINE)
 
 
 def formulas(text):
     """{parameter: its formula} of a resolved case."""
-    section = re.search(PARAMETERS, text, flags=re.MULTILINE)
-    return {name: formula for name, _, formula in _entries_of(section[1] if section else "") if formula}
+    return dict(PARAMETER.findall(text))
 
 
 def without_formulas(text):
-    return re.sub(f"{re.escape(FORMULA)}.*", "", text)
+    return PARAMETER.sub(lambda line: line[0].partition(FORMULA)[0], text)
 
 
-def with_formulas(resolved, written, overrides):
-    """A resolved case with the formulas behind the numbers that they gave; `written`: the text of the case it was made from. Where that is
-    itself resolved, its formulas hold no more when a parameter is set: numbers do not follow."""
-    section = re.search(PARAMETERS, f"{written}\n", flags=re.MULTILINE)
-    given = dict(pair.partition("=")[::2] for pair in overrides)
-    same = not any(key.split(".")[0] == "parameters" for key in given)
-    known = {name: value if not _is_number(value) else formula if same else "" for name, value, formula in _entries_of(section[1] if section else "")}
-    known |= {key.removeprefix("parameters."): "" if _is_number(value) else value.strip() for key, value in given.items() if key.startswith("parameters.")}
-    if "parameters" in given or not (target := re.search(PARAMETERS, resolved, flags=re.MULTILINE)):
-        return resolved
+def with_formulas(resolved, known):
+    """The text of a resolved case with the formulas {parameter: formula} behind the numbers that they gave."""
+    section, told = False, []
+    for line in resolved.splitlines():
+        section = line == "parameters:" or section and line.startswith(" ")
+        formula = known.get(line.strip().partition(":")[0]) if section else None
+        told.append(f"{line}{FORMULA}{formula}" if formula else line)
+    return "\n".join([*told, ""])
 
-    def told(line):
-        name, _, value = line.strip().partition(": ")
-        return f"{line}{FORMULA}{known[name]}" if known.get(name) and _is_number(value) else line
-    return resolved[:target.start(1)] + "".join(f"{told(line)}\n" for line in target[1].splitlines()) + resolved[target.end(1):]
+
+def _kept(path, overrides):
+    """The formulas that a case has which was resolved before: none where a parameter is set now, since its numbers do not follow."""
+    if not path.is_file() or any(one.startswith("parameters") for one in overrides):
+        return {}
+    return formulas(path.read_text(**AS_NAMED))
 
 
 # --- the programs' answers
@@ -111,9 +92,8 @@ def resolve(case, overrides, laws, former=None):
     """The checked Case. `former`: the case of a run that it must be able to go on with. Throws UserMistake with
     file:line:column."""
     answer = json.loads(_ask("resolve", case, overrides, laws, *([f"--restart={former}"] if former else [])))
-    written = Path(answer.get("path", ""))
-    text = with_formulas(answer["resolved"], written.read_text(**AS_NAMED), overrides) if written.is_file() else answer["resolved"]
-    return Case(name=answer["name"], text=text,
+    known = answer["formulas"] or _kept(Path(answer["path"]), overrides)
+    return Case(name=answer["name"], text=with_formulas(answer["resolved"], known),
                 programs={entry["name"]: entry["executable"] for entry in answer["participants"]},
                 reference=answer["reference"]["kind"], expect=answer["expect"],
                 end=answer["time"]["end"], times=tuple(answer["output_times"]),

@@ -174,6 +174,16 @@ std::vector<std::string> unused_parameters(const Node& root) {
   return unused;
 }
 
+std::map<std::string, std::string> formulas_of_parameters(const Node& root) {
+  const Node* parameters = root.find("parameters");
+  if (parameters == nullptr || !parameters->is_map()) return {};
+  std::map<std::string, std::string> formulas;
+  for (const config::Entry& entry : parameters->entries) {
+    if (!names_in(entry.value.text).empty()) formulas[entry.key] = entry.value.text;
+  }
+  return formulas;
+}
+
 Scope evaluate_scope(Node& root) {
   Scope scope;
   Node* parameters = root.find("parameters");

@@ -27,4 +27,7 @@ Scope evaluate_scope(config::Node& root);
 /// evaluated.
 std::vector<std::string> unused_parameters(const config::Node& root);
 
+/// Parameters that are written by others, {name: formula}. To be asked at the same time.
+std::map<std::string, std::string> formulas_of_parameters(const config::Node& root);
+
 }  // namespace fsi

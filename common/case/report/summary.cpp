@@ -164,6 +164,7 @@ std::string summary_as_json(const Case& problem) {
       {"unused", problem.unused},
       {"remarks", remarks_on(problem)},
       {"parameters", problem.parameters},
+      {"formulas", problem.formulas},
       {"grid_factor", problem.grid_factor},
       {"time", time_json(problem.time)},
       {"projection", name_of(problem.interface.projection)},

@@ -208,6 +208,15 @@ TEST(Summary, NamesParametersThatNothingNeeds) {
 }
 
 // At Mach 1.3, p / p_0 - 1 = 7/6 (M^2 - 1), rho v^2 = rho_1 v_1^2 of Rankine and Hugoniot; lambda + 2 mu = 3 stiffness.
+TEST(Summary, HasTheFormulasOfParametersThatOthersGive) {
+  const Case problem =
+      load_case("sod_tube", {"parameters={gamma: 1.4, x_0: 0.5 * other, other: 1 + 2, half: 'other / 2'}"});
+  EXPECT_EQ(problem.parameters.at("x_0"), 1.5);
+  EXPECT_EQ(nlohmann::json::parse(summary_as_json(problem))["formulas"],
+            nlohmann::json({{"x_0", "0.5 * other"}, {"half", "other / 2"}}));
+  EXPECT_TRUE(load_text(problem.resolved).formulas.empty());
+}
+
 TEST(RemarksOnACase, WhatAStreamThatIsBroughtToRestPressesWith) {
   const Case problem = load_case(FSI_ROOT "/configs/shock_ellipse.yaml", {"parameters.stiffness=2"});
   const SolidSpec& solid = problem.solids.front();
