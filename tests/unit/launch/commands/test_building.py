@@ -51,7 +51,7 @@ APT_GET = """#!/bin/bash
 echo "apt-get $*" >>"$CALLS"
 """
 CASE = """#!/bin/bash
-echo '{"name": "piston", "resolved": "", "participants": [{"name": "fluid", "executable": "fluid_solver"},
+echo '{"name": "piston", "resolved": "", "formulas": {}, "path": "", "participants": [{"name": "fluid", "executable": "fluid_solver"},
   {"name": "solid", "executable": "/bin/true"}, {"name": "coupler", "executable": "coupler"}],
   "reference": {"kind": "piston_1d"}, "expect": [], "time": {"end": 1}, "output_times": [], "projection": "full",
   "unused": [], "remarks": [], "restart_digest": "", "cost": {"programs": []}}'
