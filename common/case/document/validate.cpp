@@ -68,16 +68,29 @@ class Validator {
       if (known == keys.end()) unknown_key(entry, keys, description, path);
       value(entry.value, **known, join(path, entry.key));
     }
-    for (const Key* key : keys) {
-      if (key->required && node.find(key->name) == nullptr) {
-        fail(node.place, path,
-             fmt::format("`{}` is missing ({}{})", key->name, key->meaning, unit_text(*key)));
-      }
-    }
+    require_all(node, keys, path);
   }
 
  private:
   const Scope& scope_;
+
+  /// The first key that is missing is explained, the others are named.
+  static void require_all(const Node& node, const std::vector<const Key*>& keys, const std::string& path) {
+    const Key* first = nullptr;
+    std::vector<std::string> others;
+    for (const Key* key : keys) {
+      if (!key->required || node.find(key->name) != nullptr) continue;
+      if (first == nullptr) {
+        first = key;
+      } else {
+        others.push_back(fmt::format("`{}`", key->name));
+      }
+    }
+    if (first == nullptr) return;
+    fail(node.place, path,
+         fmt::format("`{}` is missing ({}{}){}", first->name, first->meaning, unit_text(*first),
+                     others.empty() ? "" : fmt::format("; {} too", fmt::join(others, ", "))));
+  }
 
   static std::string join(const std::string& path, const std::string& key) {
     return path.empty() ? shown(key) : path + "." + shown(key);

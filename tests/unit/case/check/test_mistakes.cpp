@@ -93,6 +93,9 @@ const Mistake keys[] = {
     {"MissingSide", "    right: outflow\n", "",
      "case.yaml:11:5: fluid.boundary: `right` is missing (a side of the gas; a bare word is its kind, with "
      "data from the reference solution)"},
+    {"MissingSides", "    right: outflow\n    bottom: symmetry\n    top: symmetry\n", "",
+     "case.yaml:11:5: fluid.boundary: `right` is missing (a side of the gas; a bare word is its kind, with "
+     "data from the reference solution); `bottom`, `top` too"},
     {"NameThatLeavesTheFolder", "parameters:", "name: ../above\nparameters:",
      "case.yaml:1:7: name: `../above` cannot name files; use letters, digits, _, - and ., these two not "
      "first"},
