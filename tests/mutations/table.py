@@ -289,4 +289,10 @@ MUTATIONS = [
     ("hyperbolic marching: closing of the lines", "common/grid/marching/line_solver.cpp",
      "row.below * seam_[last - 1] + row.above * seam_[0]", "row.below * seam_[last - 1] - row.above * seam_[0]",
      "test_hyperbolic", "LineSolver*"),
+    ("grids that disagree: the corners of the cell", "common/grid/overlap/disagreement.cpp",
+     "s * ((1 - r) * high[0] + r * high[1])", "s * ((1 - r) * high[1] + r * high[0])", "test_watches", "Disagreements*"),
+    ("grids that disagree: where the background advances nothing", "common/grid/overlap/disagreement.cpp",
+     "contains(Interval{i, i + 2}, j + 1)", "contains(Interval{i, i + 1}, j + 1)", "test_watches", "Disagreements*"),
+    ("what a stream that is brought to rest presses with", "common/case/report/remarks.cpp",
+     "(v1 * v1 + v2 * v2)", "(v1 * v1 - v2 * v2)", "test_case", "RemarksOnACase*"),
 ]

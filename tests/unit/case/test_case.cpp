@@ -225,6 +225,9 @@ TEST(RemarksOnACase, WhatAStreamThatIsBroughtToRestPressesWith) {
                v = behind.v1(0, 0, 0);
   EXPECT_NEAR(pressure_over_stiffness(problem, solid), p / 6, 1e-12);
   EXPECT_NEAR(stagnation_over_stiffness(problem, solid), (p + rho * v * v) / 6, 1e-12);
+  const Case slanted = load_case(FSI_ROOT "/configs/shock_ellipse.yaml",
+                                 {"parameters.stiffness=2", "fluid.boundary.left.state.v=[3, 4]"});
+  EXPECT_NEAR(stagnation_over_stiffness(slanted, solid), (p + rho * 25) / 6, 1e-12);
   const Case rigid = load_case(FSI_ROOT "/configs/rigid_piston.yaml");
   EXPECT_EQ(stagnation_over_stiffness(rigid, rigid.solids.front()), 0);
 }
