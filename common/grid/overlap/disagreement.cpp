@@ -18,9 +18,8 @@ double between(ConstFieldView q, int plane, int i, int j, double r, double s) {
 
 /// Are the cells around a point of a grid about as long and as wide as those of the background?
 bool alike(const CartesianGrid& background, ConstFieldView x, int i, int j) {
-  constexpr double most = 3;  // the ratio of their sides
-  const double longest = most * std::min(background.dx(), background.dy()),
-               shortest = std::max(background.dx(), background.dy()) / most;
+  const double longest = unlike * std::min(background.dx(), background.dy()),
+               shortest = std::max(background.dx(), background.dy()) / unlike;
   const int along = i > 0 ? -1 : 1, away = j > 0 ? -1 : 1;
   for (const auto& [m, n] : {std::pair(i + along, j), {i, j + away}}) {
     const double side = std::hypot(x(0, m, n) - x(0, i, j), x(1, m, n) - x(1, i, j));

@@ -19,9 +19,12 @@
 
 namespace fsi::grid {
 
-/// Above this size a program says so. Shocks that pass where grids overlap reach half of it or two thirds, since
-/// each grid draws them out over cells of its own.
-inline constexpr double torn = 0.25;  ///< difference over range [-]
+/// Largest ratio of the sides of cells that are compared [-].
+inline constexpr double unlike = 3;
+
+/// Above this size a program says so. A shock that is a slope over W in the cells of one grid and over w in those of
+/// the other, its middle at the same place in both, makes a difference of (1 - w / W) / 2 of its jump.
+inline constexpr double torn = 0.5 * (1 - 1 / unlike);  ///< difference over range [-]
 
 class DisagreementWatch final : public Watch {
  public:
