@@ -57,6 +57,14 @@ struct WaveCurve {
   }
 };
 
+/// Of an ideal gas through the wave that changes its pressure so many times [-]: behind a shock by Rankine and Hugoniot,
+/// else at constant entropy.
+inline double density_ratio(double gamma, double pressure_ratio) {
+  const double k = (gamma - 1) / (gamma + 1);
+  if (pressure_ratio > 1) return (pressure_ratio + k) / (k * pressure_ratio + 1);
+  return std::pow(pressure_ratio, 1 / gamma);
+}
+
 /// The gas at one interface point.
 struct GasSide {
   NormalSide state;  ///< predicted, with z_f

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "common/core/failure.hpp"
+#include "common/interface/wave_curve.hpp"
 #include "fluid_solver/boundary/gas_side.hpp"
 
 namespace fsi::fluid {
@@ -82,12 +83,10 @@ struct Interface {
            "it";
   }
 
-  /// Of the gas through the wave that changes its pressure so many times: behind a shock by Rankine and
-  /// Hugoniot, else at constant entropy.
+  /// Of the gas through the wave that changes its pressure so many times.
   static double density_ratio(const GasOptions& options, double pressure_ratio) {
-    const double gamma = options.gamma, k = (gamma - 1) / (gamma + 1);
-    if (pressure_ratio > 1 && options.wave_curve) return (pressure_ratio + k) / (k * pressure_ratio + 1);
-    return std::pow(pressure_ratio, 1 / gamma);
+    return options.wave_curve ? fsi::density_ratio(options.gamma, pressure_ratio)
+                              : std::pow(pressure_ratio, 1 / options.gamma);
   }
 };
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "common/interface/wave_curve.hpp"
 #include "fluid_solver/boundary/gas_side.hpp"
 
 namespace fsi::fluid {
@@ -15,7 +16,8 @@ struct SlipWall {
 
   static SlipWall from(const BoundaryData& /*data*/) { return {}; }
 
-  /// n.v := that of the wall; pressure and density follow along the simple wave that makes this change of velocity. At
+  /// n.v := that of the wall; pressure and density follow along the wave that makes this change of velocity, a shock
+  /// where the wall stops gas that runs against it. At
   /// the foot of a body the velocity changes along the interface, whose own condition goes on holding: a change along
   /// the normal would break it, be undone with the next values of the interface, and pump pressure each time. The wave
   /// runs along the interface, too, where gas in a corner below a right angle has no other way, and off the wall in a
@@ -32,11 +34,13 @@ struct SlipWall {
     const double slant = normal.dot(along);
     const double of_wave = is_narrow(side, k, along) ? change / slant : change;
     const double a = std::sqrt(gamma * state[3] / state[0]);
-    const double ratio = 1 + 0.5 * (gamma - 1) * of_wave / a, a_ratio = std::max(ratio, least_sound);
-    side.bounded += ratio < least_sound && side.points.counts(k);
+    const WaveCurve curve{.z = state[0] * a, .rho = state[0], .gamma = gamma};
+    const WaveCurve::Point answer = curve.at(of_wave);
+    side.bounded += answer.vacuum && side.points.counts(k);
+    const double pressure_ratio = 1 + answer.dp / state[3];
     state.segment<2>(1) += change / slant * along;
-    state[0] *= std::pow(a_ratio, 2 / (gamma - 1));
-    state[3] *= std::pow(a_ratio, 2 * gamma / (gamma - 1));
+    state[0] *= density_ratio(gamma, pressure_ratio);
+    state[3] *= pressure_ratio;
     if (side.forcing != nullptr) bring_in(state, side, k);
     store(side.q, at, state);
   }

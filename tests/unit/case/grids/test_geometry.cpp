@@ -157,10 +157,9 @@ TEST(CaseGeometry, CornersWhoseLinesCrossAreRefusedThoughTheirArcsCutThatOff) {
       .left =
           "{kind: polygon, radius: 0.01, corners: [[-1.4, -0.4], [-0.6, -0.4], [-0.6, 0.4], "
           "[-0.9, 0.4], [-1, -0.404], [-1.1, 0.4], [-1.4, 0.4]]}"};
-  expect_mistake(
-      bodies, shape_a + "solids.a.shape: ",
-      "where the line from its point 1 (-1.4, -0.4) to 2 (-0.6, -0.4) meets that from its point 4 (-0.9, "
-      "0.4) to 5 (-1, -0.404)");
+  expect_mistake(bodies, shape_a + "solids.a.shape: ",
+                 "where the line from its point 1 (-1.4, -0.4) to 2 (-0.6, -0.4) meets that from its point 5 "
+                 "(-1, -0.404) to 6");
 }
 
 TEST(CaseGeometry, TooCoarseACoreIsToldTheSpacingThatConnects) {

@@ -206,7 +206,7 @@ TEST(Eq31SlipWall, ReflectsAShockAsTheJumpConditionsSay) {
 
 /// A stream against a wall, from the start: its mirror image comes from behind the wall, and a shock goes back.
 TEST(Eq31SlipWall, StopsAStreamOfAnySpeedByAShockThatLeaves) {
-  for (const double M : {0.5, 1.5, 2.0, 3.0, 5.0}) {
+  for (const double M : {0.5, 1.5, 2.0, 3.0, 5.0, 8.0, 20.0}) {
     const exact::TubeState stream{.rho = 1, .v = M * std::sqrt(gamma), .p = 1},
         mirrored{.rho = 1, .v = -stream.v, .p = 1};
     const exact::TubeState stopped = exact::Riemann(stream, mirrored, gamma).sample(-1e-9);
@@ -224,8 +224,7 @@ TEST(Eq31SlipWall, StopsAStreamOfAnySpeedByAShockThatLeaves) {
       EXPECT_NEAR(q(3, 30, 2), 1, 1e-9) << M;
       double mass = 0;
       for (int i = 0; i <= 100; ++i) mass += 0.01 * (i % 100 == 0 ? 0.5 : 1) * q(0, i, 2);
-      // At the start a simple wave makes the gas of the wall's half cell as dense as it would: 32 times at M = 5.
-      EXPECT_NEAR(mass, 1 + stream.v * 0.5 / speed, 0.06 * mass) << M;
+      EXPECT_NEAR(mass, 1 + stream.v * 0.5 / speed, 0.01 * mass) << M;
     }
   }
 }
