@@ -329,6 +329,7 @@ void FluidParticipant::report(double t, io::Part& part) const {
   part.conservation["angular_momentum"] = now.angular_momentum - initial_totals_.angular_momentum;
   if (budget_) {
     const Totals defect = budget_->defect(solver_);
+    part.conservation["mass_initial"] = initial_totals_.mass;
     part.conservation["mass_defect"] = defect.mass;
     part.conservation["momentum1_defect"] = defect.momentum1;
     part.conservation["momentum2_defect"] = defect.momentum2;

@@ -47,7 +47,8 @@ constexpr std::array<string_view, 10> of_program{"program",        "role",     "
                                                  "points",         "substeps", "compute_s",
                                                  "wait_s",         "time_s",   "point_updates_per_s",
                                                  "peak_memory_mib"};
-constexpr std::array<string_view, 16> of_budget{"mass",
+constexpr std::array<string_view, 17> of_budget{"mass",
+                                                "mass_initial",
                                                 "energy",
                                                 "energy_initial",
                                                 "momentum1",

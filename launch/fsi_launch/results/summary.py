@@ -254,8 +254,20 @@ def disagreement_in_words(summary):
             "do not trust the flow there: a finer grid resolves it (docs/output.md, disagreement)")
 
 
+MISSED_MASS = 0.05      # part of the mass that a gas had at the start
 MISSED_MOMENTUM = 0.05  # part of the momentum that the gas gave a solid
 ROUND_OFF = 1e-12       # part of pressure x speed x time^2: what the gas presses in the run on a side as long as its way
+
+
+def mass_lines(summary):
+    """A line for each gas that has lost mass, or won some, which no flux carried over its boundary."""
+    lines = []
+    for name, totals in summary.get("conservation", {}).items():
+        missed, mass = abs(totals.get("mass_defect") or 0), totals.get("mass_initial") or 0
+        if missed > MISSED_MASS * mass > 0:
+            lines.append(f"  warning: the mass of {name} is off by {percent(missed / mass)} of what it was at the start: its grid is too coarse for this flow, and "
+                         "forces may be wrong; take a larger grid.factor (docs/output.md, budgets)")
+    return lines
 
 
 def momentum_lines(summary):
@@ -333,7 +345,7 @@ def describe(summary, directory, width=None):
         lines += _interface_lines(interface)
     if counted := {key: value for key, value in summary["counters"].items() if value and key not in ROUTINE}:
         lines.append("  counters: " + ", ".join(f"{key.replace('_', ' ')} {value:g}" for key, value in counted.items()))
-    lines += overlap_lines(summary) + momentum_lines(summary)
+    lines += overlap_lines(summary) + mass_lines(summary) + momentum_lines(summary)
     lines += [f"  warning: {said}" for said in (noise_in_words(summary), disagreement_in_words(summary)) if said]
     if summary.get("expectations"):
         met = sum(entry["met"] for entry in summary["expectations"])

@@ -148,6 +148,16 @@ class Summary(InScratch):
         self.part("fluid", overlap=sound | {"amplification": None})
         self.assertIn("amplified errors", summary.describe(self.merged(), self.folder))
 
+    def test_a_gas_that_misses_mass_is_told_with_how_much(self):
+        def said(**totals):
+            return "\n".join(summary.mass_lines({"conservation": {"air": totals, "bar": {"mass": 0.0}}}))
+        self.assertIn("the mass of air is off by 52 % of what it was at the start", said(mass_defect=-0.26, mass_initial=0.5))
+        self.assertIn("the mass of air is off by 6 %", said(mass_defect=0.03, mass_initial=0.5))
+        for totals in ({"mass_defect": 0.02, "mass_initial": 0.5}, {"mass_defect": None, "mass_initial": None}, {"mass_defect": 1.0}, {}):
+            self.assertEqual(said(**totals), "")
+        self.part("fluid", conservation={"mass_defect": -1.0, "mass_initial": 2.0})
+        self.assertIn("warning: the mass of fluid is off by 50 %", summary.describe(self.merged(), self.folder))
+
     def test_solids_that_miss_momentum_are_told_with_how_much(self):
         def said(**totals):
             return "\n".join(summary.momentum_lines({"conservation": {"bar": totals, "fluid": {"momentum1_defect": 3, "momentum2_defect": 4}}}))
