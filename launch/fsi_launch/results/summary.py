@@ -233,14 +233,18 @@ def _folded(lines, width):
             (textwrap.wrap(line, width, subsequent_indent="    ", break_long_words=False, break_on_hyphens=False) if len(line) > width else [line])]
 
 
+def _place_in_words(found):
+    point, place = (", ".join(f"{value:.4g}" for value in found[key]) for key in ("point", "place"))
+    return f"grid \"{found['grid']}\", point ({point}) at ({place})"
+
+
 def noise_in_words(summary):
     """One line where the solution is rippled by the grid, or ""."""
     noise = summary.get("noise") or {}
     if not noise.get("noisy"):
         return ""
-    point, place = (", ".join(f"{value:.4g}" for value in noise[key]) for key in ("point", "place"))
     return (f"noise of the grid's scale: {noise['field']} of {noise['participant']} ripples by {percent(noise['value'])} of "
-            f"its range, grid \"{noise['grid']}\", point ({point}) at ({place}), t = {noise['t']:.4g}")
+            f"its range, {_place_in_words(noise)}, t = {noise['t']:.4g}")
 
 
 def disagreement_in_words(summary):
@@ -248,9 +252,8 @@ def disagreement_in_words(summary):
     found = summary.get("disagreement") or {}
     if not found.get("large"):
         return ""
-    point, place = (", ".join(f"{value:.4g}" for value in found[key]) for key in ("point", "place"))
     return (f"grids disagree where they overlap: {found['field']} of {found['participant']} differs by {percent(found['value'])} of its range "
-            f"between grid \"{found['grid']}\", point ({point}) at ({place}), and the background, t = {found['t']:.4g}; "
+            f"between {_place_in_words(found)}, and the background, t = {found['t']:.4g}; "
             "do not trust the flow there: a finer grid resolves it (docs/output.md, disagreement)")
 
 
@@ -316,9 +319,8 @@ def overlap_lines(summary):
     for name, overlap in summary.get("overlap", {}).items():
         said = []
         if (amplification := overlap.get("amplification")) is None or amplification > SOUND_AMPLIFICATION:
-            point, place = (", ".join(f"{value:.4g}" for value in overlap[key]) for key in ("point", "place"))
             said.append(f"interpolation amplified errors {_number(amplification, '{:.3g}')} times (sound: {SOUND_AMPLIFICATION:g}), "
-                        f"grid \"{overlap['grid']}\", point ({point}) at ({place}), t = {overlap['t']:.4g}")
+                        f"{_place_in_words(overlap)}, t = {overlap['t']:.4g}")
         if narrowed := overlap["narrowed"]:
             said.append(f"{narrowed} points with fewer donors")
         if left_out := overlap["lines_left_out"]:
