@@ -53,8 +53,13 @@ double pressure_slope(ConstFieldView q, ConstFieldView x, const SidePoints& side
 
 /// How much of `change`, by which the extrapolated density behind a wall differs from that of its mirror image, is left: all up to
 /// half of the density, then less and less, and not at all where it would be all of it. There a shock stands between the wall and the
-/// first line, which is its own mirror image: ghosts with the gas's density at the wall and its speed before the shock
-/// would push the wall's gas away as fast as it comes, and the shock would stay for ever.
+/// first line, which is its own mirror image, and the ghosts of smooth gas do not fit:
+///
+///     denser at the wall      a shock that leaves it. The reflected velocity would give the wall's dense gas a slope, at its face
+///                             half the speed of the gas before the shock: it would push the shock back, and where gas
+///                             can leave along the wall the shock would stay for ever. The wall's own state has no slope
+///     thinner at the wall     a shock that meets it. Ghosts with the density at the wall and the speed before the
+///                             shock would push the wall's gas away as fast as it comes. The mirror's density does not
 double part_of_change(double change, double inside) {
   return std::clamp(2 * (1 - std::fabs(change) / inside), 0.0, 1.0);
 }
@@ -80,13 +85,17 @@ std::uint64_t wall_ghosts(FieldView q, ConstFieldView x, const SidePoints& side,
       ghost[3] = inside[3] - std::clamp(change, -largest, largest);
       bounded |= beyond.bounded || std::fabs(change) > largest;
       if (limited) {  // odd reflection: the wall stays where it is when a shock meets it
-        const double change_of_density = ghost[0] - inside[0],
-                     part = part_of_change(change_of_density, inside[0]);
-        ghost[0] = inside[0] + part * change_of_density;
-        bounded |= part < 1;
         Vec2 v = ghost.segment<2>(1);
         v += (2 * v_n - n.dot(Vec2(inside.segment<2>(1))) - n.dot(v)) * n;
         ghost.segment<2>(1) = v;
+        const double change_of_density = ghost[0] - inside[0],
+                     part = part_of_change(change_of_density, inside[0]);
+        if (change_of_density > 0) {
+          ghost += (1 - part) * (load(q, side.at(k, 0)) - ghost);
+        } else {
+          ghost[0] = inside[0] + part * change_of_density;
+        }
+        bounded |= part < 1;
       }
       store(q, side.at(k, -m), ghost);
     }

@@ -229,6 +229,34 @@ TEST(Eq31SlipWall, StopsAStreamOfAnySpeedByAShockThatLeaves) {
   }
 }
 
+/// Pressure at the stagnation point of a cylinder of so many cells along its radius that is put into a stream of Mach M.
+double stagnation_pressure(double M, int cells) {
+  const StateField stream = [=](double, double, double) { return State{1, M * std::sqrt(gamma), 0, 1}; };
+  const grid::GridDescription front = {
+      .n1 = 3 * cells + 1, .n2 = 3 * cells + 1, .mapping = [](double r, double s, double) {
+        const double angle = pi * (1.5 - s), R = 4 - 3 * r;
+        return Vec2(R * std::cos(angle), R * std::sin(angle));
+      }};
+  GasSolver gas = test::solver(front, {}, {Imposed{stream}, SlipWall{}, Outflow{}, Outflow{}}, stream);
+  test::run(gas, 20 / M);
+  return gas.state()(3, 3 * cells, 3 * cells / 2);
+}
+
+/// Rayleigh's pitot formula: a shock, then at constant entropy to rest.
+double pitot_pressure(double M) {
+  const double jump = 1 + 2 * gamma / (gamma + 1) * (M * M - 1);
+  const double behind = (1 + 0.5 * (gamma - 1) * M * M) / (gamma * M * M - 0.5 * (gamma - 1));  // Mach^2
+  return jump * std::pow(1 + 0.5 * (gamma - 1) * behind, gamma / (gamma - 1));
+}
+
+/// Also where the layer behind the shock is two cells thick and gas could leave along the wall as fast as it comes.
+TEST(Eq31SlipWall, AStreamMakesABowShockBeforeACylinderOfAFewCells) {
+  for (const double M : {2.0, 3.0, 4.0, 6.0, 8.0}) {
+    for (const int cells : {4, 6, 10})
+      EXPECT_NEAR(stagnation_pressure(M, cells) / pitot_pressure(M), 1, 0.1) << M << " " << cells;
+  }
+}
+
 /// Points of sides that a bound held, of gas that is given its sides once, with a wall on the right of a stream of Mach M.
 std::uint64_t bounded_by_wall(double M, Limiter limiter) {
   const StateField stream = [M](double, double, double) { return State{1, M * std::sqrt(gamma), 0, 1}; };
