@@ -153,7 +153,7 @@ TimeStep GasSolver::compute_time_step() const {
   const double a = std::sqrt(options_.gamma * q.p / q.rho);
   return {.dt = options_.cfl / fastest.rate,
           .reason = fmt::format(
-              "gas: grid \"{}\", point ({}, {}) at ({:.4g}, {:.4g}), |v| = {:.3g}, a = {:.3g}",
+              "gas: grid \"{}\", point ({}, {}) at ({:.6g}, {:.6g}), |v| = {:.3g}, a = {:.3g}",
               slowest.name(), i, j, slowest.x()(0, i, j), slowest.x()(1, i, j), std::hypot(q.v1, q.v2), a)};
 }
 

@@ -5,8 +5,10 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <filesystem>
+#include <future>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -135,9 +137,16 @@ void replay(const Wishes& wishes) {
   show_again(wishes, source, source.run());
 }
 
+/// On a busy machine it takes seconds until the run knows who asks.
 void send(Request request, const RunEntry& run) {
-  constexpr double patience_s = 3;
-  bus::send_control(run.run, run.key, request, patience_s, run.network);
+  constexpr double patience_s = 30;
+  constexpr std::chrono::seconds silence(3);
+  auto answer = std::async(std::launch::async,
+                           [&] { bus::send_control(run.run, run.key, request, patience_s, run.network); });
+  if (answer.wait_for(silence) != std::future_status::ready) {
+    fmt::print(stderr, "{} has not answered yet; it has {} s\n", run.run, patience_s);
+  }
+  answer.get();
   fmt::print("{} has heard: {}\n", run.run, name_of(request));
   if (request == Request::checkpoint || request == Request::stop)
     fmt::print("the checkpoint goes to {}/checkpoints\n", run.dir);

@@ -148,7 +148,7 @@ void RippleWatch::look_along_columns(const Place& at) {
 }
 
 std::string RippleWatch::in_words(const Finding& ripple) const {
-  return fmt::format(R"({} ripples by {:.2g} % on grid "{}", point ({}, {}) at ({:.4g}, {:.4g}), t = {:.4g})",
+  return fmt::format(R"({} ripples by {:.2g} % on grid "{}", point ({}, {}) at ({:.6g}, {:.6g}), t = {:.4g})",
                      component_of(ripple), 100 * ripple.size, grid_of(ripple), ripple.i, ripple.j,
                      ripple.place.x(), ripple.place.y(), ripple.t);
 }

@@ -61,7 +61,7 @@ void extrapolate_line(double* ghost, std::ptrdiff_t inward, Along along, int n, 
 #pragma omp simd
   for (int k = 0; k < n; ++k) {
     double* to = ghost + k * along;
-    *to = extrapolated(to[inward], to[2 * inward], to[3 * inward], limiter);
+    *to = extrapolated(to[inward], to[2 * inward], to[3 * inward], to[4 * inward], limiter);
   }
 }
 

@@ -41,14 +41,24 @@ struct SideMetrics {
 };
 SideMetrics side_metrics(const ReferenceMetrics& metrics, const Layout& layout, Side side, int k);
 
-/// Value beyond q0 from q0, q1, q2 inward: third order; exact for constants to the last bit. With a limiter
-/// it turns into a constant where the second difference is not small against the first ones.
-inline double extrapolated(double q0, double q1, double q2, Limiter limiter) {
+/// How far two differences agree [-]: 1 where one is at most three times the other, 0 where they have different signs or one is
+/// zero.
+inline double agreement(double a, double b) {
+  const double apart = std::abs(a - b), both = std::abs(a) + std::abs(b);
+  const double beyond = 2.0 * (apart / both - 0.5), weight = 1.0 - (beyond < 1.0 ? beyond : 1.0);
+  return apart <= 0.5 * both ? 1.0 : weight;
+}
+
+/// Value beyond q0 from q0 .. q3 inward: third order; exact for constants to the last bit. With a limiter it turns into a constant
+/// where neither the first differences agree nor the second ones, as beside a jump. A parabola has its ghost points also where its
+/// top lies near the side: a body of four cells that is bent has one across it.
+inline double extrapolated(double q0, double q1, double q2, double q3, Limiter limiter) {
   const double third_order = q2 + 3.0 * (q0 - q1);
-  const double first = std::abs(q0 - q1) + std::abs(q1 - q2), second = std::abs((q0 - q1) - (q1 - q2));
-  const double beyond = 2.0 * (second / first - 0.5), weight = beyond < 1.0 ? beyond : 1.0;
-  const double limited = q0 + (1.0 - weight) * (third_order - q0);
-  return ((limiter == Limiter::none) | (second <= 0.5 * first)) ? third_order : limited;
+  const double a = q0 - q1, b = q1 - q2, c = q2 - q3;
+  const double by_slope = agreement(a, b), by_curvature = agreement(a - b, b - c);
+  const double weight = by_slope > by_curvature ? by_slope : by_curvature;
+  const double limited = q0 + weight * (third_order - q0);
+  return ((limiter == Limiter::none) | (weight == 1.0)) ? third_order : limited;
 }
 
 /// Planes first .. last of ghost line m < 0 by extrapolation from the three lines inside it, points k = begin

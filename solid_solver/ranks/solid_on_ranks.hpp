@@ -15,14 +15,14 @@
 
 namespace fsi::solid {
 
-/// Rows around a rank's own that it is brought after a prediction, and sets conditions in: two that the next sweep reads; one
-/// more, so that who reads a corner has the three points beside it that its stress is extrapolated from; and two from which
+/// Rows around a rank's own that it is brought after a prediction, and sets conditions in: two that the next sweep reads; two
+/// more, so that who reads a corner has the four points beside it that its stress is extrapolated from; and two from which
 /// conditions at a side of these are found, with what conditions beside them change.
-inline constexpr int rows_with_conditions = 5;
+inline constexpr int rows_with_conditions = 6;
 /// Those of them in which all values are right after the conditions.
-inline constexpr int rows_that_are_right = 3;
+inline constexpr int rows_that_are_right = 4;
 /// Lines of an interface from which its state is found.
-inline constexpr int lines_of_interface = 3;
+inline constexpr int lines_of_interface = 4;
 
 template <Law L>
 void SolidSolver<L>::share(std::shared_ptr<Ranks> ranks, const RecutOptions& options) {

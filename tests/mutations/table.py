@@ -162,6 +162,8 @@ MUTATIONS = [
     ("solid's upwinding under pressure: decay of the tractions of loads", f"{SOLID}/sweep/upwinding.hpp",
      "if (run.begin == 0 && loaded(Side::left))", "if (run.begin == 0 && loaded(Side::right))", "test_solid_kernels",
      "Eq36StressUpwinding*"),
+    ("ghost points of a solid: a parabola near its top", "solid_solver/boundary/ghost_lines.hpp",
+     "agreement(a - b, b - c)", "agreement(a - b, c - b)", "test_solid_convergence", "ClampedBeam*Limiter*"),
     ("interface: corners slide the wrong way", "solid_solver/boundary/matching/characteristics.hpp",
      "Vec2(*along * (along->dot(push) /", "Vec2(-*along * (along->dot(push) /", "test_solid_of_one_law", "Corners*"),
     ("corners of given loads: they follow the wrong way", "solid_solver/boundary/matching/characteristics.hpp",

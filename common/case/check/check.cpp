@@ -71,7 +71,7 @@ void check_grid(const GridSpec& grid, const Node& node, const std::string& path,
          "s, so that bottom and top change places, or 1 - r in that of r, so that left and right do");
   }
   fail(node.place, path,
-       fmt::format("the grid folds at point ({}, {}) at t = {:.4g}, near ({:.4g}, {:.4g}); change `map`{}",
+       fmt::format("the grid folds at point ({}, {}) at t = {:.4g}, near ({:.6g}, {:.6g}); change `map`{}",
                    wrong->i, wrong->j, t, wrong->x[0], wrong->x[1],
                    t > 0 ? ", or let time.end be smaller" : ""));
 }
@@ -85,7 +85,7 @@ void check_state(const GasExpressions& state, const std::vector<Vec2>& points, c
       if (std::isfinite(value) && (value > 0 || !must_be_positive)) return;
       const Node* own = node.find(name);
       fail(own == nullptr ? node.place : own->place, fmt::format("{}.{}", path, name),
-           fmt::format("is {} at ({:.4g}, {:.4g}), t = {:.4g}; must be {}", value, x[0], x[1], t,
+           fmt::format("is {} at ({:.6g}, {:.6g}), t = {:.4g}; must be {}", value, x[0], x[1], t,
                        must_be_positive ? "> 0" : "finite"));
     };
     check(state.rho, "rho", true);

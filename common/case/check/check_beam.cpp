@@ -47,7 +47,7 @@ double check_thickness(const SolidSpec& solid, const Node& beam) {
     largest = std::max(largest, d);
     if (d > 0 && std::isfinite(d)) continue;
     fail(beam.find("thickness")->place, fmt::format("solids.{}.beam.thickness", solid.name),
-         fmt::format("is {:.4g} at ({:.4g}, {:.4g}); let it be positive along the line [length]", d, x.x(),
+         fmt::format("is {:.4g} at ({:.6g}, {:.6g}); let it be positive along the line [length]", d, x.x(),
                      x.y()));
   }
   return largest;
@@ -149,8 +149,8 @@ void check_line(const SolidSpec& solid, const Node& beam, double thickness) {
   for (const Vec2& x : solid.beam->line) {
     if (box.exteriorDistance(x) <= thickness) continue;
     fail(beam.find("line")->place, fmt::format("solids.{}.beam.line", solid.name),
-         fmt::format("({:.4g}, {:.4g}) is not in the body, which lies in ({:.4g}, {:.4g}) .. ({:.4g}, "
-                     "{:.4g}); the line "
+         fmt::format("({:.6g}, {:.6g}) is not in the body, which lies in ({:.6g}, {:.6g}) .. ({:.6g}, "
+                     "{:.6g}); the line "
                      "goes along the middle of the body",
                      x.x(), x.y(), box.min().x(), box.min().y(), box.max().x(), box.max().y()));
   }
@@ -169,8 +169,8 @@ void check_between_feet(const SolidSpec& solid, const Node& beam, double thickne
   const Vec2& x = last ? solid.beam->line.back() : solid.beam->line.front();
   if ((x - middle).norm() <= thickness) return;
   fail(beam.find("line")->place, fmt::format("solids.{}.beam.line", solid.name),
-       fmt::format("its {} end ({:.4g}, {:.4g}) is {:.3g} away from the foot of the outline, more than the "
-                   "thickness, {:.3g}; let that end be ({:.4g}, {:.4g}), in the middle of the foot",
+       fmt::format("its {} end ({:.6g}, {:.6g}) is {:.3g} away from the foot of the outline, more than the "
+                   "thickness, {:.3g}; let that end be ({:.6g}, {:.6g}), in the middle of the foot",
                    last ? "last" : "first", x.x(), x.y(), (x - middle).norm(), thickness, middle.x(),
                    middle.y()));
 }
@@ -186,7 +186,7 @@ void check_foot(const SolidSpec& solid, const Node& beam, std::size_t end) {
   const Node* ends = beam.find("ends");
   fail(ends != nullptr ? ends->place : beam.place, fmt::format("solids.{}.beam.ends", solid.name),
        fmt::format(
-           "the outline ends at ({:.4g}, {:.4g}) on a wall, and the {} end of the line there is {}: the "
+           "the outline ends at ({:.6g}, {:.6g}) on a wall, and the {} end of the line there is {}: the "
            "section "
            "would {} and leave the wall, and the grid of the gas with it; write clamped, or guided (it moves "
            "across the line)",
@@ -209,7 +209,7 @@ void check_corner(const SolidSpec& solid, const FluidSpec& fluid, Side side, std
   fail(node.find("boundary")->find(name_of(beside))->place,
        fmt::format("solids.{}.boundary.{}", solid.name, name_of(beside)),
        fmt::format(
-           "the {} end of the beam is {} and stands at ({:.4g}, {:.4g}) on {}: its section would {} and "
+           "the {} end of the beam is {} and stands at ({:.6g}, {:.6g}) on {}: its section would {} and "
            "leave the wall, and the grid of the gas with it; write `{}: slip_wall` (it slides along the "
            "wall), or let that end be clamped or guided",
            last ? "last" : "first", name_of(kind), x.x(), x.y(), wall,

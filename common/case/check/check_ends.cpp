@@ -70,7 +70,7 @@ void check_end(const SolidSpec& solid, const FluidSpec& fluid, const BodyFittedS
   const bool rigid = solid.law == rigid_law;
   fail(boundary != nullptr ? boundary->place : node.place, fmt::format("solids.{}.boundary", solid.name),
        fmt::format(
-           "the outline ends at ({:.4g}, {:.4g}) on {}, but nothing holds it there: it would leave the wall, "
+           "the outline ends at ({:.6g}, {:.6g}) on {}, but nothing holds it there: it would leave the wall, "
            "and the grid of the gas with it; write {}`{}: slip_wall` (it slides along the wall){}",
            grid.curve.x[k], grid.curve.x[n + k], wall, rigid ? "`motion: fixed`, or " : "", side,
            rigid ? "" : fmt::format(" or `{}: clamped`", side)));
@@ -87,7 +87,7 @@ void check_end_of_side(const SolidSpec& solid, const FluidSpec& fluid, std::size
   const Node& node = *root.find("solids")->find(solid.name);
   const bool rigid = solid.law == rigid_law;
   fail(node.find("boundary")->find(beside)->place, fmt::format("solids.{}.boundary.{}", solid.name, beside),
-       fmt::format("the interface ends at ({:.4g}, {:.4g}) on {}, but nothing holds it there: it would leave "
+       fmt::format("the interface ends at ({:.6g}, {:.6g}) on {}, but nothing holds it there: it would leave "
                    "the wall, and the grid of the gas with it; write {}`{}: slip_wall` (it slides along the "
                    "wall){}",
                    x.x(), x.y(), wall, rigid ? "`motion: fixed`, or " : "", beside,

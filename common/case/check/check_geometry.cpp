@@ -142,14 +142,14 @@ void check_within_gas(const CheckedOutline& outline, const FluidSpec& fluid) {
     throw NoGridsFit(
         {.place = outline.node.place,
          .key = outline.path,
-         .cause = fmt::format("its corners are rounded so far that the outline reaches ({:.4g}, {:.4g}), "
+         .cause = fmt::format("its corners are rounded so far that the outline reaches ({:.6g}, {:.6g}), "
                               "{:.4g} beyond the {} side of {}.grid",
                               excess.x[0], excess.x[1], excess.distance, name_of(excess.side), fluid.path),
          .otherwise = "round them less with a `radius`",
          .owner = owner_of(outline)});
   }
   fail(outline.node.place, outline.path,
-       fmt::format("the outline of {} reaches ({:.4g}, {:.4g}), {:.4g} beyond the {} side of {}.grid, {} = "
+       fmt::format("the outline of {} reaches ({:.6g}, {:.6g}), {:.4g} beyond the {} side of {}.grid, {} = "
                    "{:.4g}; make it smaller, move it, or let the rectangle of {}.grid hold it",
                    outline.name, excess.x[0], excess.x[1], excess.distance, name_of(excess.side), fluid.path,
                    direction_of(excess.side) == 0 ? "x" : "y", end_of(gas, excess.side), fluid.path));
@@ -167,7 +167,7 @@ void check_ends(const CheckedOutline& outline, const FluidSpec& fluid) {
     if (distance <= tolerance(gas)) continue;
     fail(outline.node.place, outline.path,
          fmt::format(
-             "an end of the outline of {}, ({:.4g}, {:.4g}), is {:.4g} from the {} side of {}.grid, {} = "
+             "an end of the outline of {}, ({:.6g}, {:.6g}), is {:.4g} from the {} side of {}.grid, {} = "
              "{:.4g}, on which `walls` has it stand; let it end there, or write the "
              "name of the grid along the wall on which it stands",
              outline.name, x[0], x[1], distance, name_of(wall), fluid.path,
@@ -197,7 +197,7 @@ void check_core(const SolidSpec& solid, const Node& root) {
   const auto [y_a, y_b] = bounds(outline, 1);
   fail(
       grid.place, fmt::format("solids.{}.grid", solid.name),
-      fmt::format("this box does not hold the outline of the solid: `shape` reaches ({:.4g}, {:.4g}), {:.4g} "
+      fmt::format("this box does not hold the outline of the solid: `shape` reaches ({:.6g}, {:.6g}), {:.4g} "
                   "beyond its {} side; write at least x: [{:.4g}, {:.4g}], y: [{:.4g}, {:.4g}]",
                   excess.x[0], excess.x[1], excess.distance, name_of(excess.side), x_a, x_b, y_a, y_b));
 }
@@ -234,12 +234,12 @@ void check_apart(const CheckedOutline& outline, const CheckedOutline& other) {
     const Vec2 x = crossing ? crossing->x : outline.point(0);
     fail(outline.node.place, outline.path,
          fmt::format(
-             "the outline of {} is on that of {} at ({:.4g}, {:.4g}); move them apart, by the depth of the "
+             "the outline of {} is on that of {} at ({:.6g}, {:.6g}); move them apart, by the depth of the "
              "grids of the gas around them",
              outline.name, other.name, x[0], x[1]));
   }
   fail(outline.node.place, outline.path,
-       fmt::format("the outline of {} overlaps that of {} by {:.3g} at ({:.4g}, {:.4g}); move them apart, by "
+       fmt::format("the outline of {} overlaps that of {} by {:.3g} at ({:.6g}, {:.6g}); move them apart, by "
                    "this and the depth of the grids of the gas around them",
                    outline.name, other.name, overlap.distance, overlap.x[0], overlap.x[1]));
 }
@@ -274,7 +274,7 @@ void check_corners_inside(const CheckedOutline& outline) {
       .place = outline.node.place,
       .key = outline.path,
       .cause =
-          fmt::format("the outline has a sharp corner at ({:.4g}, {:.4g}), around which no grid inside an "
+          fmt::format("the outline has a sharp corner at ({:.6g}, {:.6g}), around which no grid inside an "
                       "elastic body can be laid{}",
                       x[0], x[1], why_no_block(outline)),
       .otherwise = "round the outline there",

@@ -37,7 +37,7 @@ void check_mirror(const std::vector<Vec2>& first, const std::vector<Vec2>& now, 
     const double off = std::abs(along[0] * from[1] - along[1] * from[0]);
     if (off <= same * length) continue;
     fail(node.place, path,
-         fmt::format("a mirror is straight and moves along itself only; ({:.4g}, {:.4g}), t = {:.4g}, lies "
+         fmt::format("a mirror is straight and moves along itself only; ({:.6g}, {:.6g}), t = {:.4g}, lies "
                      "{:.3g} off the line through its ends at t = 0; write slip_wall",
                      x[0], x[1], t, off));
   }
@@ -57,8 +57,8 @@ void check_pair(const GridSpec& grid, const Pair& pair, double t, const Node& no
     const Vec2 here = high[k] - low[k];
     if ((here - period).norm() <= same * length_of(start)) continue;
     fail(node.place, path,
-         fmt::format("two periodic sides lie all the time as far from each other, in one direction: ({:.4g}, "
-                     "{:.4g}) at their first points, but ({:.4g}, {:.4g}) at ({:.4g}, {:.4g}), t = {:.4g}; "
+         fmt::format("two periodic sides lie all the time as far from each other, in one direction: ({:.6g}, "
+                     "{:.6g}) at their first points, but ({:.6g}, {:.6g}) at ({:.6g}, {:.6g}), t = {:.4g}; "
                      "write another map, or another kind of side",
                      period[0], period[1], here[0], here[1], low[k][0], low[k][1], t));
   }

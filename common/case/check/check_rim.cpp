@@ -75,8 +75,8 @@ void check_curve(const Case& problem, const FluidSpec& fluid, std::size_t k, con
     const std::string room = farther(fluid.grid, side);
     fail(node.place, fmt::format("{}.body_fitted[{}]", fluid.path, k),
          fmt::format(
-             "the curve of grid `{}` lies along the {} side of {}.grid from ({:.4g}, {:.4g}) to ({:.4g}, "
-             "{:.4g}), which has a condition of its own; {}",
+             "the curve of grid `{}` lies along the {} side of {}.grid from ({:.6g}, {:.6g}) to ({:.6g}, "
+             "{:.6g}), which has a condition of its own; {}",
              fitted.name, name_of(side), fluid.path, a[0], a[1], b[0], b[1],
              goes ? fmt::format("let the rectangle reach as far as the curve goes and some cells more, as {}",
                                 room)

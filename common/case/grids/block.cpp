@@ -47,7 +47,7 @@ std::string kink_between(const CurveSpec& outline, int first, int last) {
   for (int k = first + 1; k < last; ++k) {
     const Vec2 x = point_at(outline, k % count) - a;
     if (std::abs(along[0] * x[1] - along[1] * x[0]) <= straight * (b - a).norm()) continue;
-    return fmt::format("its side from ({:.4g}, {:.4g}) to ({:.4g}, {:.4g}) is not straight", a[0], a[1], b[0],
+    return fmt::format("its side from ({:.6g}, {:.6g}) to ({:.6g}, {:.6g}) is not straight", a[0], a[1], b[0],
                        b[1]);
   }
   return "";
@@ -58,7 +58,7 @@ std::string hollow_among(const std::array<Vec2, 4>& x) {
   for (std::size_t k = 0; k < 4; ++k) {
     const Vec2 in = x[k] - x[(k + 3) % 4], out = x[(k + 1) % 4] - x[k];
     if (in[0] * out[1] - in[1] * out[0] <= 0)
-      return fmt::format("it is hollow at ({:.4g}, {:.4g})", x[k][0], x[k][1]);
+      return fmt::format("it is hollow at ({:.6g}, {:.6g})", x[k][0], x[k][1]);
   }
   return "";
 }

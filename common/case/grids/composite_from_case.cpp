@@ -57,13 +57,13 @@ std::optional<std::string> trouble_behind(const BodyFittedSpec& spec, ConstField
   if (!corner) corner = grid::most_crowded_bend(x, spec.side, spec.curve.corners);
   if (const auto sharp = crowded_at_corners(spec, x); sharp && sharp->part < 1) corner = sharp;
   if (corner && corner->part < 1) {
-    return fmt::format("its curve turns too sharply at ({:.4g}, {:.4g}) for the distance of its lines",
+    return fmt::format("its curve turns too sharply at ({:.6g}, {:.6g}) for the distance of its lines",
                        corner->x[0], corner->x[1]);
   }
   const grid::SlantedLine line = grid::most_slanted_line(x, spec.side);
   if (line.slant <= grid::largest_slant) return std::nullopt;
   return fmt::format(
-      "at ({:.4g}, {:.4g}) its curve is too flat on the wall for the distance of its lines, "
+      "at ({:.6g}, {:.6g}) its curve is too flat on the wall for the distance of its lines, "
       "{:.2g} times that of its points",
       line.x[0], line.x[1], line.slant);
 }
@@ -116,7 +116,7 @@ void check_foot(const BodyFittedSpec& spec, const CurveSpec& wall, ConstFieldVie
                                : "";
   throw NoGridsFit(
       {.cause = fmt::format(
-           "grid \"{}\" reaches ({:.4g}, {:.4g}) along the wall of grid \"{}\", which bends before",
+           "grid \"{}\" reaches ({:.6g}, {:.6g}) along the wall of grid \"{}\", which bends before",
            spec.name, end[0], end[1], spec.curve.on),
        .otherwise = "let the body stand farther from the bend" + less});
 }

@@ -104,7 +104,7 @@ std::optional<Advice> almost_touching(const OverlapCheck& check, const Node& lis
                     .path = fmt::format("{}.body_fitted[{}]", check.path, k),
                     .text = fmt::format("move them {:.3g} apart, {} of a cell of {}.grid", margin * least,
                                         grid::NearCurves::fewest_cells, check.path),
-                    .fact = fmt::format("{} and {} are {:.3g} apart at ({:.4g}, {:.4g})", name_of_curve(a),
+                    .fact = fmt::format("{} and {} are {:.3g} apart at ({:.6g}, {:.6g})", name_of_curve(a),
                                         name_of_curve(b), gap.distance, x[0], x[1]),
                     .missing = least - gap.distance};
     }
@@ -130,7 +130,7 @@ std::optional<Advice> too_near(const OverlapCheck& check, const Node& list) {
           .node = list.items[k],
           .path = fmt::format("{}.body_fitted[{}]", check.path, k),
           .text = fmt::format("move them {:.3g} apart", needed),
-          .fact = fmt::format("{} and {} are {:.3g} apart at ({:.4g}, {:.4g}), and their grids are {:.3g} "
+          .fact = fmt::format("{} and {} are {:.3g} apart at ({:.6g}, {:.6g}), and their grids are {:.3g} "
                               "and {:.3g} deep",
                               name_of_curve(a), name_of_curve(b), gap.distance, x[0], x[1], depth_of(a),
                               depth_of(b)),
@@ -161,7 +161,7 @@ std::optional<Advice> too_near_to_side(const OverlapCheck& check, const Node& li
                   .path = fmt::format("{}.body_fitted[{}]", check.path, k),
                   .text = fmt::format("leave {:.3g} between them", depth_of(spec) + 2 * h),
                   .fact = fmt::format(
-                      "{} is {:.3g} from the rim of {}.grid at ({:.4g}, {:.4g}), and its grid is {:.3g} deep",
+                      "{} is {:.3g} from the rim of {}.grid at ({:.6g}, {:.6g}), and its grid is {:.3g} deep",
                       name_of_curve(spec), distance, check.path, x[0], x[1], depth_of(spec)),
                   .missing = depth_of(spec) + 2 * h - distance};
   }
@@ -180,7 +180,7 @@ std::optional<Advice> too_sharp(const OverlapCheck& check, const Node& place, co
                       "(lines - 1) * spacing = {:.2g}, or round the curve more",
                       depth_by_radius, depth_by_radius * bend.radius),
                   .fact = fmt::format("grid `{}` is {:.3g} deep, and its curve bends with a radius of {:.3g} "
-                                      "at ({:.4g}, {:.4g})",
+                                      "at ({:.6g}, {:.6g})",
                                       spec.name, depth_of(spec), bend.radius, bend.x[0], bend.x[1])};
   }
   return std::nullopt;

@@ -37,7 +37,7 @@ std::string lines_that_cross(const std::vector<double>& x, const grid::Intersect
   const std::size_t n = x.size() / 2, count = n - (closed ? 1 : 0);
   const auto line = [&](std::size_t k) {
     const std::size_t next = (k + 1) % count;
-    return fmt::format("from its point {} ({:.4g}, {:.4g}) to {} ({:.4g}, {:.4g})", k + 1, x[k], x[n + k],
+    return fmt::format("from its point {} ({:.6g}, {:.6g}) to {} ({:.6g}, {:.6g})", k + 1, x[k], x[n + k],
                        next + 1, x[next], x[n + next]);
   };
   return fmt::format(", where the line {} meets that {}", line(crossing.a), line(crossing.b));
@@ -57,7 +57,7 @@ void refuse_own_crossing(const CurveSpec& curve, const Node& shape, const std::s
   constexpr double unit = 1e-9;  // round-off is not shown
   const Vec2 x = (unit * (crossing->x / unit).array().round() + 0.0).matrix();
   config::fail(shape.place, path,
-               fmt::format("the outline crosses itself near ({:.4g}, {:.4g}){}; list the points in their "
+               fmt::format("the outline crosses itself near ({:.6g}, {:.6g}){}; list the points in their "
                            "order along the outline, once around",
                            x[0], x[1], of_lines ? lines_that_cross(listed, *of_lines, curve.closed()) : ""));
 }

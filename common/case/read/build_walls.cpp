@@ -180,7 +180,7 @@ void stand_on_wall(const Reader& reader, const Node& shape, const std::string& p
   if (const auto bend = bend_between(wall, feet)) {
     fail(walls.place, where,
          fmt::format(
-             "the wall of grid {} bends at ({:.4g}, {:.4g}), between the ends of the outline; let the body "
+             "the wall of grid {} bends at ({:.6g}, {:.6g}), between the ends of the outline; let the body "
              "stand on a straight part of it, or draw wall and body as one outline",
              in_ticks(curve.on), (*bend)[0], (*bend)[1]));
   }

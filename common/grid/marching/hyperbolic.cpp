@@ -118,11 +118,11 @@ std::string HyperbolicMarch::flat_on_wall(ConstFieldView x, double t) const {
     if (there == at(0)) continue;
     if (t == 0) {
       constexpr double degree = std::numbers::pi / 180;
-      return fmt::format(": the curve up to ({:.4g}, {:.4g}) is only {:.2g} degrees above its wall", there[0],
+      return fmt::format(": the curve up to ({:.6g}, {:.6g}) is only {:.2g} degrees above its wall", there[0],
                          there[1], std::asin(lowest) / degree);
     }
     return fmt::format(
-        ": at ({:.4g}, {:.4g}) the curve has come down to the wall it stands on; let the body be stiffer, or "
+        ": at ({:.6g}, {:.6g}) the curve has come down to the wall it stands on; let the body be stiffer, or "
         "the run end before",
         there[0], there[1]);
   }

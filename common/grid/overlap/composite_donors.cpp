@@ -309,7 +309,7 @@ std::string CompositeGrid::nearest_curves(const Vec2& x, double t) const {
   const std::size_t b = order[1].second;
   const Gap gap = gap_between(curves[a], curves[b]);
   return fmt::format(
-      "; the curves of grids \"{}\" and \"{}\" are {:.3g} ({:.2g} cells) apart at ({:.4g}, {:.4g}){}",
+      "; the curves of grids \"{}\" and \"{}\" are {:.3g} ({:.2g} cells) apart at ({:.6g}, {:.6g}){}",
       bodies_[a].name, bodies_[b].name, gap.distance, gap.distance / cell, gap.x[0], gap.x[1],
       while_moving(t));
 }

@@ -76,7 +76,7 @@ void DisagreementWatch::compare(const CartesianGrid& background, std::span<const
 
 std::string DisagreementWatch::in_words(const Finding& found) const {
   return fmt::format(
-      R"({} differs by {:.2g} % of its range between grid "{}", point ({}, {}) at ({:.4g}, {:.4g}), and grid "{}", t = {:.4g})",
+      R"({} differs by {:.2g} % of its range between grid "{}", point ({}, {}) at ({:.6g}, {:.6g}), and grid "{}", t = {:.4g})",
       component_of(found), 100 * found.size, grid_of(found), found.i, found.j, found.place.x(),
       found.place.y(), background_, found.t);
 }

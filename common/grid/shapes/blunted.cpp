@@ -33,7 +33,7 @@ double reach_of(const PlaneCurve& curve, double corner, double width, double mos
     const Vec2 x = curve.position(corner);
     constexpr double most_of = 0.9;
     throw UserMistake(fmt::format(
-        "the sides of the sharp corner at ({:.4g}, {:.4g}) are not {:.3g} apart anywhere before the "
+        "the sides of the sharp corner at ({:.6g}, {:.6g}) are not {:.3g} apart anywhere before the "
         "next corner, where the corner would be cut off; write `blunt: {:.2g}` or less",
         x[0], x[1], width, most_of * widest));
   }

@@ -41,7 +41,7 @@ Corner corner_of(const Vec2& in, const Vec2& out, double radius, const Vec2& pla
   constexpr double back = 3.12;  // 179 degrees
   if (std::abs(turn) > back)
     throw UserMistake(
-        fmt::format("the edges of a polygon turn back on themselves at ({:.4g}, {:.4g}); no arc touches both",
+        fmt::format("the edges of a polygon turn back on themselves at ({:.6g}, {:.6g}); no arc touches both",
                     place[0], place[1]));
   return {.turn = turn, .tangent = radius * std::tan(0.5 * std::abs(turn))};
 }
@@ -84,7 +84,7 @@ double straight_part(const Skeleton& skeleton, std::size_t k, double before, dou
   if (left >= 0) return left;
   const Vec2 &a = skeleton.points[k], &b = skeleton.points[k + 1];
   throw UserMistake(
-      fmt::format("radius {:.4g} is too large for the edge from ({:.4g}, {:.4g}) to ({:.4g}, {:.4g}), {:.4g} "
+      fmt::format("radius {:.4g} is too large for the edge from ({:.6g}, {:.6g}) to ({:.6g}, {:.6g}), {:.4g} "
                   "long: the arcs at its "
                   "ends take {:.4g}; write at most {:.3g}",
                   radius, a[0], a[1], b[0], b[1], skeleton.lengths[k], before + after,

@@ -234,7 +234,7 @@ def _folded(lines, width):
 
 
 def _place_in_words(found):
-    point, place = (", ".join(f"{value:.4g}" for value in found[key]) for key in ("point", "place"))
+    point, place = (", ".join(f"{value:.6g}" for value in found[key]) for key in ("point", "place"))
     return f"grid \"{found['grid']}\", point ({point}) at ({place})"
 
 
@@ -283,6 +283,29 @@ def momentum_lines(summary):
             lines.append(f"  warning: the momentum of {name} is off by {percent(missed / scale)} of what the gas gave it; a finer grid brings it nearer "
                          "(docs/output.md, budgets)")
     return lines
+
+
+TURNED = 0.05    # angle, in rad, from which on a linear law says something else than the others
+
+
+def turned_lines(summary, directory):
+    """A line for each solid of linear elasticity that has turned: its law takes the rotation for a strain."""
+    lines = []
+    for name, part in summary["participants"].items():
+        angle = _largest_angle(Path(directory) / f"forces_{name}.csv") if part.get("program") == "solid_solver_linear_elastic" else 0
+        if angle > TURNED:
+            lines.append(f"  warning: {name} has turned by {math.degrees(angle):.2g} degrees, which its law, linear_elastic, takes for a strain; "
+                         f"saint_venant_kirchhoff is the same law for bodies that turn (solids.{name}.law)")
+    return lines
+
+
+def _largest_angle(table):
+    """In a table of forces, of which a run that broke off may have left half a line; 0 where there is none."""
+    angle = 0
+    with contextlib.suppress(OSError, ValueError, TypeError), table.open(encoding="utf-8", newline="") as file:
+        for row in csv.DictReader(file):
+            angle = max(angle, abs(float(row.get("angle [rad]"))))
+    return angle
 
 
 def _interface_lines(interface):
@@ -347,7 +370,7 @@ def describe(summary, directory, width=None):
         lines += _interface_lines(interface)
     if counted := {key: value for key, value in summary["counters"].items() if value and key not in ROUTINE}:
         lines.append("  counters: " + ", ".join(f"{key.replace('_', ' ')} {value:g}" for key, value in counted.items()))
-    lines += overlap_lines(summary) + mass_lines(summary) + momentum_lines(summary)
+    lines += overlap_lines(summary) + mass_lines(summary) + momentum_lines(summary) + turned_lines(summary, directory)
     lines += [f"  warning: {said}" for said in (noise_in_words(summary), disagreement_in_words(summary)) if said]
     if summary.get("expectations"):
         met = sum(entry["met"] for entry in summary["expectations"])

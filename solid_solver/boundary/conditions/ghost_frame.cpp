@@ -70,7 +70,7 @@ void GhostFrame::extend_into_corner(FieldView q, Side across, Side beside) const
     for (const auto& [m, n] : {std::pair(1, 1), {1, 2}, {2, 1}, {2, 2}}) {
       double* to = q.plane(p) + corner - m * inward1 - n * inward2;
       const auto extended = [&](std::ptrdiff_t inward) {
-        return extrapolated(to[inward], to[2 * inward], to[3 * inward], sides_.limiter());
+        return extrapolated(to[inward], to[2 * inward], to[3 * inward], to[4 * inward], sides_.limiter());
       };
       const double first = along1 ? extended(inward1) : extended(inward2);
       const double second = along2 ? extended(inward2) : first;

@@ -18,7 +18,7 @@ void correct_displacement_dissipation(const Sides& sides, ConstFieldView q, Fiel
       for (int p = plane::u1; p <= plane::u2; ++p) {
         const double* values = q.plane(p);
         const auto u = [&](int m) { return values[line.at(k, m)]; };
-        const double beyond = u(-1) - extrapolated(u(0), u(1), u(2), sides.limiter());
+        const double beyond = u(-1) - extrapolated(u(0), u(1), u(2), u(3), sides.limiter());
         next.plane(p)[line.at(k, 0)] += factor * fourth_difference(u(-2), u(-1), u(0), u(1), u(2));
         next.plane(p)[line.at(k, 1)] += unlike * fourth_difference(beyond, 0, 0, 0, 0);
       }

@@ -206,7 +206,7 @@ void check_gas_data(const GivenGas& gas, const std::vector<Vec2>& points, double
     if (q.rho > 0 && q.p > 0 && std::isfinite(q.rho + q.p + q.v1 + q.v2)) continue;
     fail(node.place, path,
          fmt::format(
-             "takes its data from `reference`, which has rho = {:.3g}, p = {:.3g} at ({:.4g}, {:.4g}), "
+             "takes its data from `reference`, which has rho = {:.3g}, p = {:.3g} at ({:.6g}, {:.6g}), "
              "t = {:.4g}; {}",
              q.rho, q.p, x[0], x[1], t, remedy_at(t)));
   }
@@ -239,7 +239,7 @@ void check_solid_data(const GivenVector& u, const std::vector<Vec2>& points, dou
   for (const Vec2& x : points) {
     if (u(x, t).allFinite()) continue;
     fail(node.place, path,
-         fmt::format("takes its data from `reference`, whose displacement is not finite at ({:.4g}, {:.4g}), "
+         fmt::format("takes its data from `reference`, whose displacement is not finite at ({:.6g}, {:.6g}), "
                      "t = {:.4g}; {}",
                      x[0], x[1], t, remedy_at(t)));
   }
@@ -252,7 +252,7 @@ void check_solid_strain(const SolidSpec& solid, const GivenVector& u, double t, 
     const std::string wrong = unbearable(solid, deformation_gradient(cell, u, t));
     if (wrong.empty()) continue;
     fail(node.place, path,
-         fmt::format("{} in the cell at ({:.4g}, {:.4g}) of solid `{}`, t = {:.4g}; {}", wrong, cell.x[0],
+         fmt::format("{} in the cell at ({:.6g}, {:.6g}) of solid `{}`, t = {:.4g}; {}", wrong, cell.x[0],
                      cell.x[1], solid.name, t, remedy_at(t)));
   }
 }

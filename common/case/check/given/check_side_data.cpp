@@ -50,7 +50,7 @@ GivenSide given_side(Side side, const BoundarySpec& spec, const Node& boundary, 
 [[noreturn]] void fail_at_side(const GivenSide& side, const std::string& key, const std::string& values,
                                const Vec2& x, double t) {
   fail(side.node_of(key).place, side.path_of(key),
-       fmt::format("is {} at ({:.4g}, {:.4g}), t = {:.4g}; must be finite", values, x[0], x[1], t));
+       fmt::format("is {} at ({:.6g}, {:.6g}), t = {:.4g}; must be finite", values, x[0], x[1], t));
 }
 
 void check_values(const GivenSide& side, const Vec2& x, double t) {
@@ -95,7 +95,7 @@ void check_rate(const Case& problem, const GivenSide& side, const std::vector<Si
   }
   if (apart.empty()) return;
   fail(side.node_of("velocity").place, side.path_of("velocity"),
-       fmt::format("is {} (at ({:.4g}, {:.4g}), t = {:.4g}); leave it out, and it is the rate of `value`",
+       fmt::format("is {} (at ({:.6g}, {:.6g}), t = {:.4g}); leave it out, and it is the rate of `value`",
                    apart, where[0], where[1], when));
 }
 
@@ -115,7 +115,7 @@ void check_jump(const SolidSpec& solid, const GivenSide& side, const SidePoint& 
   if (wrong.empty()) return;
   fail(side.node_of("value").place, side.path_of("value"),
        fmt::format(
-           "{} at once in the cell at ({:.4g}, {:.4g}): it begins with ({:.3g}, {:.3g}), and the solid with "
+           "{} at once in the cell at ({:.6g}, {:.6g}): it begins with ({:.3g}, {:.3g}), and the solid with "
            "({:.3g}, {:.3g}); let it grow from there, or let `initial.u` be the same there",
            wrong, point.x[0], point.x[1], of_side[0], of_side[1], own[0], own[1]));
 }
@@ -131,7 +131,7 @@ void check_jump_to_wall(const SolidSpec& solid, const GivenSide& side, const Sid
   if (wrong.empty()) return;
   fail(side.node.place, side.path,
        fmt::format(
-           "{} at once in the cell at ({:.4g}, {:.4g}): the wall holds the body across it, which begins with "
+           "{} at once in the cell at ({:.6g}, {:.6g}): the wall holds the body across it, which begins with "
            "({:.3g}, {:.3g}); let `initial.u` lead along the wall there, or be zero",
            wrong, point.x[0], point.x[1], own[0], own[1]));
 }

@@ -32,7 +32,7 @@ void check_finite(const Formula& formula, const std::vector<Vec2>& points) {
     const double c1 = formula.value->c1(x[0], x[1], 0), c2 = formula.value->c2(x[0], x[1], 0);
     if (std::isfinite(c1) && std::isfinite(c2)) continue;
     fail(formula.node.place, formula.path,
-         fmt::format("is ({}, {}) at ({:.4g}, {:.4g}), t = 0; must be finite", c1, c2, x[0], x[1]));
+         fmt::format("is ({}, {}) at ({:.6g}, {:.6g}), t = 0; must be finite", c1, c2, x[0], x[1]));
   }
 }
 
@@ -48,7 +48,7 @@ void check_outline_stays(const SolidSpec& solid, const Formula& u) {
     if (moved.norm() <= most) continue;
     fail(u.node.place, u.path,
          fmt::format(
-             "moves the outline by ({:.3g}, {:.3g}) at ({:.4g}, {:.4g}), but the grid of the gas begins "
+             "moves the outline by ({:.3g}, {:.3g}) at ({:.6g}, {:.6g}), but the grid of the gas begins "
              "at its `shape`; let it be zero along the outline, or move the `shape`",
              moved[0], moved[1], x[0], x[1]));
   }
@@ -62,7 +62,7 @@ void check_strain(const SolidSpec& solid, const Formula& displacement) {
     const std::string wrong = unbearable(solid, deformation_gradient(cell, u, 0));
     if (!wrong.empty())
       fail(displacement.node.place, displacement.path,
-           fmt::format("{} in the cell at ({:.4g}, {:.4g}), t = 0", wrong, cell.x[0], cell.x[1]));
+           fmt::format("{} in the cell at ({:.6g}, {:.6g}), t = 0", wrong, cell.x[0], cell.x[1]));
   }
 }
 

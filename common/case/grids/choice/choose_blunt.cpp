@@ -66,7 +66,7 @@ void choose_for(Node& shape, const std::string& path, double h, std::vector<std:
   constexpr double percent = 100;
   for (const grid::CutCorner& cut : cuts) {
     chosen.push_back(
-        fmt::format("{}: blunt {:.3g}: the sharp corner at ({:.4g}, {:.4g}) is cut off where its sides are "
+        fmt::format("{}: blunt {:.3g}: the sharp corner at ({:.6g}, {:.6g}) is cut off where its sides are "
                     "so far apart; {:.3g} is missing there, {:.2g} % of the outline's extent (less with a "
                     "smaller h, or `blunt`)",
                     path, width, rounded(cut.at[0], extent), rounded(cut.at[1], extent), cut.loss,

@@ -112,7 +112,7 @@ constexpr double most_points = 4e6;  ///< of the core of a body
                                                0.9 * std::sqrt(most_points / points))});
   }
   throw NoGridsFit(
-      {.cause = fmt::format("{}: {} at ({:.4g}, {:.4g})", cause,
+      {.cause = fmt::format("{}: {} at ({:.6g}, {:.6g})", cause,
                             bend ? fmt::format("it bends with a radius of {:.3g}", outline.inwards.radius)
                                  : fmt::format("it is only {:.3g} thick", outline.thickness.distance),
                             x[0], x[1]),

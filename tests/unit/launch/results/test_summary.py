@@ -158,6 +158,17 @@ class Summary(InScratch):
         self.part("fluid", conservation={"mass_defect": -1.0, "mass_initial": 2.0})
         self.assertIn("warning: the mass of fluid is off by 50 %", summary.describe(self.merged(), self.folder))
 
+    def test_a_body_that_turns_is_told_what_its_linear_law_makes_of_it(self):
+        def said(angles, program="solid_solver_linear_elastic"):
+            (self.folder / "forces_flap.csv").write_text("t [time],angle [rad]\n" + angles)
+            return "\n".join(summary.turned_lines({"participants": {"flap": {"program": program}, "air": {}}}, self.folder))
+        self.assertIn("flap has turned by 5.7 degrees, which its law, linear_elastic, takes for a strain; saint_venant_kirchhoff", said("0,0\n1,-0.1\n2,0.01\n"))
+        self.assertIn("by 5.7 degrees", said("0,0.1\n1"))    # and half a line
+        for silent in (said("0,0.04\n"), said(""), said("0,0.1\n", program="solid_solver_neo_hookean")):
+            self.assertEqual(silent, "")
+        (self.folder / "forces_flap.csv").unlink()
+        self.assertEqual(summary.turned_lines({"participants": {"flap": {"program": "solid_solver_linear_elastic"}}}, self.folder), [])
+
     def test_solids_that_miss_momentum_are_told_with_how_much(self):
         def said(**totals):
             return "\n".join(summary.momentum_lines({"conservation": {"bar": totals, "fluid": {"momentum1_defect": 3, "momentum2_defect": 4}}}))

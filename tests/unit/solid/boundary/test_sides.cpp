@@ -12,6 +12,7 @@
 #include "solid_solver/boundary/conditions/given_motion.hpp"
 #include "solid_solver/boundary/conditions/tractions.hpp"
 #include "solid_solver/boundary/every_boundary.hpp"
+#include "solid_solver/boundary/ghost_lines.hpp"
 #include "solid_solver/boundary/traction_ghost.hpp"
 #include "tests/convergence/solid/skewed_grid.hpp"
 
@@ -232,6 +233,35 @@ TEST(GhostFrame, IsWhatTheSidesSayOfIt) {
   EXPECT_EQ(body.at(Side::left, 3, -1).P.a12, body.at(Side::right, 3, 1).P.a12);
   const Vec2 below = body.sides.position(body.sides.line(Side::bottom).at(3, -1));
   EXPECT_EQ(body.at(Side::bottom, 3, -1).v, various(below.x() + 0.5, below.y()).v);
+}
+
+/// Beyond the first of four values of f at 0, 1, 2, 3.
+template <class F>
+double beyond(const F& f, Limiter limiter) {
+  return extrapolated(f(0.0), f(1.0), f(2.0), f(3.0), limiter);
+}
+
+TEST(Extrapolation, ContinuesConstantsLinesAndParabolasWhereverTheirTopIs) {
+  for (const Limiter limiter : {Limiter::none, Limiter::mc, Limiter::minmod}) {
+    const auto constant = [](double) { return 0.1; };
+    EXPECT_EQ(beyond(constant, limiter), 0.1);
+    for (const double top : {-3.0, 0.5, 1.0, 1.7, 2.0, 2.3, 8.0}) {
+      const auto parabola = [top](double x) { return 7 - 3 * (x - top) * (x - top); };
+      EXPECT_NEAR(beyond(parabola, limiter), parabola(-1), 1e-13) << top;
+    }
+    const auto line = [](double x) { return 5 - 2 * x; };
+    EXPECT_NEAR(beyond(line, limiter), line(-1), 1e-13);
+  }
+}
+
+TEST(Extrapolation, IsConstantBesideAJumpWithALimiter) {
+  for (const double place : {0.5, 1.5}) {
+    const auto jump = [place](double x) { return x < place ? 3.0 : 1.0; };
+    EXPECT_EQ(beyond(jump, Limiter::mc), 3);
+    EXPECT_NE(beyond(jump, Limiter::none), 3);
+  }
+  const auto sawtooth = [](double x) { return std::cos(3.14159265358979 * x); };
+  EXPECT_NEAR(beyond(sawtooth, Limiter::mc), 1, 1e-12);
 }
 
 }  // namespace
