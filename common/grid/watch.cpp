@@ -18,11 +18,10 @@ const std::string& Watch::grid_of(const Finding& found) const {
   return grids_[static_cast<std::size_t>(found.grid)];
 }
 
-bool Watch::keep(const Finding& found) {
-  if (!(found.size > now_.size)) return false;
+void Watch::keep(const Finding& found) {
+  if (!(found.size > now_.size)) return;
   now_ = found;
   if (now_.size > worst_.size) worst_ = now_;
-  return true;
 }
 
 void Watch::archive_findings(Archive& archive) {

@@ -59,8 +59,8 @@ class Watch {
   const std::vector<WatchedQuantity>& quantities() const { return quantities_; }
   /// Of a look: forgets what the last one found.
   void begin() { now_ = {}; }
-  /// Keeps what is worse than all before. @returns whether it is the worst of this look
-  bool keep(const Finding& found);
+  /// Keeps what is worse than all before, of this look and since the start.
+  void keep(const Finding& found);
   void archive_findings(Archive& archive);
 
  private:
