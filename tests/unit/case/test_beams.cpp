@@ -55,7 +55,7 @@ TEST(Beams, MistakesInABodyOnAWallSayWhereAndWhatToWrite) {
        {panel, "solids.panel.beam.ends=[guided, free]", ""},
        {panel, "solids.panel.beam.line=[[0, 50], [0, 0]]", "the last end of the line there is free"},
        {panel, "solids.panel.beam.thickness=y - 1",
-        "is -0.6094 at (0, 0.3906); let it be positive along the line"},
+        "is -0.6094 at (0, 0.390625); let it be positive along the line"},
        {panel, "solids.panel.beam.line=[[100, 0], [100, 50]]",
         "(100, 0) is not in the body, which lies in (-0.5"},
        {panel, "solids.panel.beam.line=[[0, 10], [0, 50]]",
