@@ -41,8 +41,8 @@ struct SideMetrics {
 };
 SideMetrics side_metrics(const ReferenceMetrics& metrics, const Layout& layout, Side side, int k);
 
-/// How far two differences agree [-]: 1 where one is at most three times the other, 0 where they have different signs or one is
-/// zero.
+/// How far two differences agree [-]: 1 where they have one sign and one is at most three times the other, 0 where they have
+/// different signs or one is zero.
 inline double agreement(double a, double b) {
   const double apart = std::abs(a - b), both = std::abs(a) + std::abs(b);
   const double beyond = 2.0 * (apart / both - 0.5), weight = 1.0 - (beyond < 1.0 ? beyond : 1.0);
@@ -61,7 +61,7 @@ inline double extrapolated(double q0, double q1, double q2, double q3, Limiter l
   return ((limiter == Limiter::none) | (weight == 1.0)) ? third_order : limited;
 }
 
-/// Planes first .. last of ghost line m < 0 by extrapolation from the three lines inside it, points k = begin
+/// Planes first .. last of ghost line m < 0 by extrapolation from the four lines inside it, points k = begin
 /// .. end - 1.
 struct GhostRange {
   int first_plane = 0, last_plane = plane::count - 1;

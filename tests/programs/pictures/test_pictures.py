@@ -152,6 +152,16 @@ class Cells(unittest.TestCase):
     def test_a_ring_is_drawn_without_a_gap(self):
         self.assertAlmostEqual(area(mesh.triangles(ring())), circle(OUTER) - circle(RIM), places=12)
 
+    def test_cells_are_cut_where_their_values_differ_less(self):
+        """A front that leans one way looks as one that leans the other way."""
+        x1, x2 = np.meshgrid([0.0, 1.0], [0.0, 1.0])
+        grid = read({"x1": x1, "x2": x2, "rho": np.ones((2, 2))})
+        for alone in range(4):    # the corner, counted along rows, that lies behind the front
+            values = np.where(np.arange(4) == alone, 1.0, 0.0).reshape(2, 2)
+            drawn = mesh.triangles(grid, values=values).triangles
+            self.assertEqual([(triangle == alone).any() for triangle in drawn].count(True), 1)
+            self.assertAlmostEqual(area(mesh.triangles(grid, values=values)), 1)
+
     def test_what_a_ring_covers_is_drawn_once_but_for_the_cells_it_cuts(self):
         both = area(mesh.triangles(background(), mesh.uncovered(background(), [ring()]))) + area(mesh.triangles(ring()))
         domain, cut = 4 - circle(RIM), 2 * np.pi * (OUTER + RIM) * 0.025 * np.sqrt(2)

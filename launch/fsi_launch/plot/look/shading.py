@@ -29,7 +29,7 @@ def _image(axes, grid, values):
 
 
 def _triangles(axes, grid, values):
-    triangles = mesh.triangles(grid)
+    triangles = mesh.triangles(grid, values=values)
     if not triangles:
         return None
     drawn = TriMesh(triangles)

@@ -116,7 +116,7 @@ def _colour_range(values, floor):
 
 def _contours(axes, grids, k, values, levels):
     """Lines on what the grids laid over grid k leave of it: none is drawn twice."""
-    triangles = mesh.triangles(grids[k], mesh.uncovered(grids[k], grids[k + 1:]))
+    triangles = mesh.triangles(grids[k], mesh.uncovered(grids[k], grids[k + 1:]), values)
     if not triangles:
         return
     shown = values[triangles.triangles]

@@ -26,11 +26,16 @@ def _welded(grid):
     return quads
 
 
-def triangles(grid, shown=None):
-    """The cells `shown` (all between used points unless told) as two triangles each; None if there are none."""
+def triangles(grid, shown=None, values=None):
+    """The cells `shown` (all between used points unless told) as two triangles each; None if there are none. With `values`, one for
+    each point, a cell is cut where they differ less: a front that crosses cells has no teeth then, whichever way it leans."""
     quads = _welded(grid)[cells(grid.used()) if shown is None else shown]
     if not len(quads):
         return None
+    if values is not None:
+        corner = np.asarray(values).ravel()[quads]
+        other = np.abs(corner[:, 0] - corner[:, 2]) > np.abs(corner[:, 1] - corner[:, 3])
+        quads[other] = np.roll(quads[other], 1, axis=1)
     return Triangulation(grid.x1.ravel(), grid.x2.ravel(), np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]]))
 
 
