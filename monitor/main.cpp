@@ -8,7 +8,6 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
-#include <future>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -139,14 +138,17 @@ void replay(const Wishes& wishes) {
 
 /// On a busy machine it takes seconds until the run knows who asks.
 void send(Request request, const RunEntry& run) {
-  constexpr double patience_s = 30;
-  constexpr std::chrono::seconds silence(3);
-  auto answer = std::async(std::launch::async,
-                           [&] { bus::send_control(run.run, run.key, request, patience_s, run.network); });
-  if (answer.wait_for(silence) != std::future_status::ready) {
-    fmt::print(stderr, "{} has not answered yet; it has {} s\n", run.run, patience_s);
-  }
-  answer.get();
+  constexpr double patience_s = 30, silence_s = 3;
+  const auto start = std::chrono::steady_clock::now();
+  bool told = false;
+  bus::send_control(run.run, run.key, request, patience_s, run.network, [&] {
+    if (interrupted())
+      throw Failure(ExitCode::interrupted, fmt::format("interrupted before {} answered", run.run));
+    const std::chrono::duration<double> waited = std::chrono::steady_clock::now() - start;
+    if (told || waited.count() < silence_s) return;
+    told = true;
+    fmt::print(stderr, "{} has not answered yet; this waits {} s\n", run.run, patience_s);
+  });
   fmt::print("{} has heard: {}\n", run.run, name_of(request));
   if (request == Request::checkpoint || request == Request::stop)
     fmt::print("the checkpoint goes to {}/checkpoints\n", run.dir);

@@ -51,6 +51,13 @@ CubicTable read_table(const io::Hdf5& group, const std::vector<std::string>& nam
   return {std::move(x), std::move(columns)};
 }
 
+/// Round-off of times: of the longest one, whatever their unit.
+double round_off_of(const std::vector<double>& times) {
+  double longest = 0;
+  for (const double t : times) longest = std::max(longest, std::fabs(t));
+  return 1e-9 * longest;
+}
+
 }  // namespace
 
 TabulatedSolution::TabulatedSolution(const std::string& path, const Reading& gas, const Reading& solid) {
@@ -76,7 +83,7 @@ PistonTable::PistonTable(const std::string& path)
 
 std::size_t index_of_time(const std::vector<double>& times, double t) {
   for (std::size_t k = 0; k < times.size(); ++k) {
-    if (std::fabs(times[k] - t) <= 1e-9 * std::max(1.0, std::fabs(t))) return k;
+    if (std::fabs(times[k] - t) <= round_off_of(times)) return k;
   }
   throw UserMistake(fmt::format(
       "the reference solution is not tabulated at t = {}; it has t = {}. Add the time to output.times", t,
@@ -84,7 +91,7 @@ std::size_t index_of_time(const std::vector<double>& times, double t) {
 }
 
 std::string reason_beyond(const std::vector<double>& times, const std::string& broke, double t) {
-  if (broke.empty() || (!times.empty() && t <= times.back() + 1e-9 * std::max(1.0, std::fabs(t)))) return "";
+  if (broke.empty() || (!times.empty() && t <= times.back() + round_off_of(times))) return "";
   return "the reference solution ends before: " + broke;
 }
 

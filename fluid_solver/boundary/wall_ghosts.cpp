@@ -55,13 +55,18 @@ double pressure_slope(ConstFieldView q, ConstFieldView x, const SidePoints& side
 /// half of the density, then less and less, and not at all where it would be all of it. There a shock stands between the wall and the
 /// first line, which is its own mirror image, and the ghosts of smooth gas do not fit:
 ///
-///     denser at the wall      a shock that leaves it. The reflected velocity would give the wall's dense gas a slope, at its face
-///                             half the speed of the gas before the shock: it would push the shock back, and where gas
+///     denser at the wall,     a shock that leaves it. The reflected velocity would give the wall's dense gas a slope, at its face
+///     its pressure higher     half the speed of the gas before the shock: it would push the shock back, and where gas
 ///                             can leave along the wall the shock would stay for ever. The wall's own state has no slope
 ///     thinner at the wall     a shock that meets it. Ghosts with the density at the wall and the speed before the
 ///                             shock would push the wall's gas away as fast as it comes. The mirror's density does not
 double part_of_change(double change, double inside) {
   return std::clamp(2 * (1 - std::fabs(change) / inside), 0.0, 1.0);
+}
+
+/// The same of the pressure, where only a rise makes a shock.
+double part_of_rise(double rise, double inside) {
+  return rise > 0 ? part_of_change(rise, inside) : 1;
 }
 
 }  // namespace
@@ -90,10 +95,11 @@ std::uint64_t wall_ghosts(FieldView q, ConstFieldView x, const SidePoints& side,
         ghost.segment<2>(1) = v;
         const double change_of_density = ghost[0] - inside[0],
                      part = part_of_change(change_of_density, inside[0]);
+        ghost[0] = inside[0] + part * change_of_density;
         if (change_of_density > 0) {
-          ghost += (1 - part) * (load(q, side.at(k, 0)) - ghost);
-        } else {
-          ghost[0] = inside[0] + part * change_of_density;
+          const StateVector at_wall = load(q, side.at(k, 0));
+          const double smooth = std::max(part, part_of_rise(at_wall[3] - inside[3], inside[3]));
+          ghost += (1 - smooth) * (at_wall - ghost);
         }
         bounded |= part < 1;
       }

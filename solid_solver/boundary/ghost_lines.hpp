@@ -42,7 +42,7 @@ struct SideMetrics {
 SideMetrics side_metrics(const ReferenceMetrics& metrics, const Layout& layout, Side side, int k);
 
 /// How far two differences agree [-]: 1 where they have one sign and one is at most three times the other, 0 where they have
-/// different signs or one is zero.
+/// different signs or one alone is zero.
 inline double agreement(double a, double b) {
   const double apart = std::abs(a - b), both = std::abs(a) + std::abs(b);
   const double beyond = 2.0 * (apart / both - 0.5), weight = 1.0 - (beyond < 1.0 ? beyond : 1.0);
@@ -50,7 +50,7 @@ inline double agreement(double a, double b) {
 }
 
 /// Value beyond q0 from q0 .. q3 inward: third order; exact for constants to the last bit. With a limiter it turns into a constant
-/// where neither the first differences agree nor the second ones, as beside a jump. A parabola has its ghost points also where its
+/// where neither the first differences agree nor the second ones, as beside a jump within a cell. A parabola has its ghost points also where its
 /// top lies near the side: a body of four cells that is bent has one across it.
 inline double extrapolated(double q0, double q1, double q2, double q3, Limiter limiter) {
   const double third_order = q2 + 3.0 * (q0 - q1);
@@ -59,6 +59,11 @@ inline double extrapolated(double q0, double q1, double q2, double q3, Limiter l
   const double weight = by_slope > by_curvature ? by_slope : by_curvature;
   const double limited = q0 + weight * (third_order - q0);
   return ((limiter == Limiter::none) | (weight == 1.0)) ? third_order : limited;
+}
+
+/// The same from three values, where a fourth is not as good as these.
+inline double extrapolated(double q0, double q1, double q2, Limiter limiter) {
+  return extrapolated(q0, q1, q2, q2 - (q1 - q2), limiter);
 }
 
 /// Planes first .. last of ghost line m < 0 by extrapolation from the four lines inside it, points k = begin

@@ -16,7 +16,7 @@
 namespace fsi::solid {
 
 /// Rows around a rank's own that it is brought after a prediction, and sets conditions in: two that the next sweep reads; two
-/// more, so that who reads a corner has the four points beside it that its stress is extrapolated from; and two from which
+/// more, so that whoever reads a ghost point has the four lines that it is extrapolated from; and two from which
 /// conditions at a side of these are found, with what conditions beside them change.
 inline constexpr int rows_with_conditions = 6;
 /// Those of them in which all values are right after the conditions.

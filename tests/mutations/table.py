@@ -64,7 +64,7 @@ MUTATIONS = [
     ("wall: density of the ghosts for a shock that stands before it", "fluid_solver/boundary/wall_ghosts.cpp",
      "2 * (1 - std::fabs(change) / inside)", "2 * (1 + std::fabs(change) / inside)", "test_fluid", "*Wall*"),
     ("wall: state of the ghosts for a shock that is to leave it", "fluid_solver/boundary/wall_ghosts.cpp",
-     "ghost += (1 - part)", "ghost += 0 * (1 - part)", "test_fluid", "Eq31SlipWall*"),
+     "ghost += (1 - smooth)", "ghost += 0 * (1 - smooth)", "test_fluid", "Eq31SlipWall*"),
     # --- gas: prediction, update, viscosity
     ("prediction: compression of the pressure", f"{GAS}/flow_rows.hpp",
      "(c1 * p_1 + c2 * p_2) + gamma * p * divergence", "(c1 * p_1 + c2 * p_2) - gamma * p * divergence",

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <utility>
 
 #include "common/bus/convert.hpp"
@@ -19,21 +20,29 @@ constexpr double participant_lease_s = 10;
 /// Pictures that wait for `pictures`; more than programs of a run send between two looks.
 constexpr std::size_t most_pictures = 256;
 
-/// Returns when the request has arrived. @throws PeerLost nobody takes it within `timeout_s`
-void deliver(const wire::Control& request, const Entity& participant, double timeout_s) {
+/// Returns when the request has arrived; `meanwhile` is called several times a second.
+/// @throws PeerLost nobody takes it within `timeout_s`, and what `meanwhile` throws
+void deliver(const wire::Control& request, const Entity& participant, double timeout_s,
+             const std::function<void()>& meanwhile) {
+  constexpr double slice_s = 0.1;
   Waitset waitset(participant);
   Writer<amp_fsi_Control> writer(participant, control_topic, Delivery::lasting);
   writer.announce_matches(waitset);
   const auto start = Clock::now();
+  const auto over = [&] {
+    if (meanwhile) meanwhile();
+    return since(start) > timeout_s;
+  };
   while (writer.matched() == 0) {
-    if (since(start) > timeout_s)
-      throw PeerLost(fmt::format("nobody of run '{}' takes requests; is it running?", request.run));
-    waitset.wait(timeout_s - since(start));
+    if (over()) throw PeerLost(fmt::format("nobody of run '{}' takes requests; is it running?", request.run));
+    waitset.wait(std::min(timeout_s, slice_s));
   }
   writer.write(borrow(request));
-  if (!writer.arrived(timeout_s))
-    throw PeerLost(
-        fmt::format("run '{}' did not take '{}' within {} s", request.run, request.command, timeout_s));
+  while (!writer.arrived(std::min(timeout_s, slice_s))) {
+    if (over())
+      throw PeerLost(
+          fmt::format("run '{}' did not take '{}' within {} s", request.run, request.command, timeout_s));
+  }
 }
 
 }  // namespace
@@ -127,14 +136,14 @@ int Listener::programs() const {
 
 void Listener::request(Request request, double timeout_s) {
   deliver({.run = implementation_->run, .command = std::string(name_of(request))},
-          implementation_->participant, timeout_s);
+          implementation_->participant, timeout_s, {});
 }
 
 void send_control(const std::string& run, const std::string& key, Request request, double timeout_s,
-                  const std::string& network) {
+                  const std::string& network, const std::function<void()>& meanwhile) {
   const auto domain = join_domain(run, participant_lease_s, network);
   const Entity participant = create_participant(run, parse_key(key), "control");
-  deliver({.run = run, .command = std::string(name_of(request))}, participant, timeout_s);
+  deliver({.run = run, .command = std::string(name_of(request))}, participant, timeout_s, meanwhile);
 }
 
 }  // namespace fsi::bus

@@ -1,6 +1,7 @@
 #pragma once
 /// Watching a run from outside without ever disturbing it, and asking it for something.
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -32,7 +33,7 @@ class Listener {
   int programs() const;
   /// As `send_control`, by who listens already: with protection a second participant of one process would end
   /// what the first one hears. @throws PeerLost
-  void request(Request request, double timeout_s = 3);
+  void request(Request request, double timeout_s = 10);
 
  private:
   struct Implementation;
@@ -41,8 +42,9 @@ class Listener {
 
 /// Sends a request to a run and returns when it has arrived. A
 /// protected run hears only who knows its `key`.
+/// `meanwhile` is called several times a second; what it throws ends the wait.
 /// @throws PeerLost nobody takes requests for that run within `timeout_s`
 void send_control(const std::string& run, const std::string& key, Request request, double timeout_s = 3,
-                  const std::string& network = {});
+                  const std::string& network = {}, const std::function<void()>& meanwhile = {});
 
 }  // namespace fsi::bus

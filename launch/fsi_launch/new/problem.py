@@ -11,7 +11,7 @@ BEFORE, BEHIND, BESIDE = 1.5, 2.5, 1.5      # gas around the body, in lengths of
 SHOCK_AT = 0.5      # before the body, in lengths of it
 SHOCK_PASSES, STREAM_PASSES = 2.5, 2.0      # lengths of the body until the end
 OUTPUTS = 10
-LEAST_SPACING, LARGEST_SPACING = 1e-9, 1e6      # [m]; grid.factor = 0.1 / h is at most 1e8
+LEAST_SPACING, LARGEST_SPACING = 2e-7, 1e6      # [m]; grid.factor = 0.1 / h is at most 1e6, with half the spacing too
 
 
 @dataclass(frozen=True)

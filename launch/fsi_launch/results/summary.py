@@ -294,16 +294,17 @@ def turned_lines(summary, directory):
     for name, part in summary["participants"].items():
         angle = _largest_angle(Path(directory) / f"forces_{name}.csv") if part.get("program") == "solid_solver_linear_elastic" else 0
         if angle > TURNED:
-            lines.append(f"  warning: {name} has turned by {math.degrees(angle):.2g} degrees, which its law, linear_elastic, takes for a strain; "
+            lines.append(f"  warning: {name} has turned by {math.degrees(angle):.1f} degrees, which its law, linear_elastic, takes for a strain; "
                          f"saint_venant_kirchhoff is the same law for bodies that turn (solids.{name}.law)")
     return lines
 
 
 def _largest_angle(table):
-    """In a table of forces, of which a run that broke off may have left half a line; 0 where there is none."""
+    """In a table of forces, whose last line a run that broke off may have left half; 0 where there is none."""
     angle = 0
-    with contextlib.suppress(OSError, ValueError, TypeError), table.open(encoding="utf-8", newline="") as file:
-        for row in csv.DictReader(file):
+    with contextlib.suppress(OSError, ValueError, TypeError, csv.Error):
+        text = table.read_text(encoding="utf-8")
+        for row in csv.DictReader(text[:text.rfind("\n") + 1].splitlines()):
             angle = max(angle, abs(float(row.get("angle [rad]"))))
     return angle
 

@@ -47,8 +47,7 @@ double Tractions::stretch_along(ConstFieldView q, Side side, int k) const {
   const Condition& beyond = sides_.condition_beyond(side, k);
   if (!sides_.at_end(side, k) || (!beyond.moved() && !beyond.slips())) return stretch(k);
   const int step = k == 0 ? 1 : -1;
-  return extrapolated(stretch(k + step), stretch(k + 2 * step), stretch(k + 3 * step), stretch(k + 4 * step),
-                      sides_.limiter());
+  return extrapolated(stretch(k + step), stretch(k + 2 * step), stretch(k + 3 * step), sides_.limiter());
 }
 
 void Tractions::find_projected(ConstFieldView q, double t, const InterfaceValues& values,
@@ -138,9 +137,8 @@ void Tractions::extend_stress_to_corners(FieldView q, Side side, double t, const
     const int step = k == 0 ? 1 : -1;
     for (int p = plane::P11; p <= plane::P22; ++p) {
       double* P = q.plane(p);
-      P[line.at(k, 0)] =
-          extrapolated(P[line.at(k + step, 0)], P[line.at(k + 2 * step, 0)], P[line.at(k + 3 * step, 0)],
-                       P[line.at(k + 4 * step, 0)], sides_.limiter());
+      P[line.at(k, 0)] = extrapolated(P[line.at(k + step, 0)], P[line.at(k + 2 * step, 0)],
+                                      P[line.at(k + 3 * step, 0)], sides_.limiter());
     }
     if (!loaded) continue;
     SolidState s = load(q, line.at(k, 0));

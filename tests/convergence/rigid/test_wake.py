@@ -75,17 +75,16 @@ class Wake(unittest.TestCase):
         """The wall once kept the shock in its first cell: drag 1.9 times as great, and half of the gas was lost."""
         _, budget, coarse = self.run_cylinder(10, 4)
         self.assertLess(abs(budget["mass_defect"]), 0.03 * budget["mass_initial"])
-        _, budget, fine = self.run_cylinder(20, 4)
+        said, budget, fine = self.run_cylinder(20, 4)
         self.assertLess(abs(budget["mass_defect"]), 0.02 * budget["mass_initial"])
+        self.assertNotIn("the mass of fluid", said)
         self.assertLess(abs(coarse / fine - 1), 0.05)
 
-    def test_mass_that_is_lost_is_said_and_a_finer_grid_keeps_it(self):
-        """A cylinder of five cells in a stream of Mach 8, and of twenty in Mach 4."""
+    def test_mass_that_is_lost_is_said(self):
+        """A cylinder of five cells in a stream of Mach 8."""
         said, budget, _ = self.run_cylinder(5, 8)
         self.assertLess(budget["mass_defect"], -0.05 * budget["mass_initial"])
         self.assertIn("the mass of fluid is off by", said)
-        said, budget, _ = self.run_cylinder(20, 4)
-        self.assertNotIn("the mass of fluid", said)
 
 
 if __name__ == "__main__":

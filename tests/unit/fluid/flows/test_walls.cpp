@@ -229,6 +229,22 @@ TEST(Eq31SlipWall, StopsAStreamOfAnySpeedByAShockThatLeaves) {
   }
 }
 
+/// Three times as dense as the gas beyond, at the same pressure: no shock, and the wall's acceleration presses as ever.
+TEST(Eq31WallGhosts, ContinueThePressureOfADenseLayer) {
+  const double a = 0.7, rho = 3;
+  const StateField layer = [=](double x, double, double) {
+    return State{x < 0.05 ? rho : 1, 0, 0, 5 - rho * a * x};
+  };
+  GasSolver gas = box_with_interface(layer, 5, Limiter::minmod);
+  test::OwnedInterface side = uniform_interface(9, {1, 0}, 0, 0);
+  std::fill_n(side.a.begin(), 9, a);
+  const std::vector<InterfaceValues> values{side.view()};
+  gas.apply_fluid_bcs(0, values);
+  for (int j = 0; j < 9; ++j) {
+    for (const int i : {-1, -2}) EXPECT_NEAR(gas.state()(3, i, j), 5 - rho * a * 0.1 * i, 1e-12);
+  }
+}
+
 /// Pressure at the stagnation point of a cylinder of so many cells along its radius that is put into a stream of Mach M.
 double stagnation_pressure(double M, int cells) {
   const StateField stream = [=](double, double, double) { return State{1, M * std::sqrt(gamma), 0, 1}; };

@@ -149,9 +149,9 @@ class Sizes(unittest.TestCase):
 
     def test_a_size_for_which_no_resolution_can_be_written_is_refused_with_one_that_can(self):
         for size in (1e-30, 1e300):
-            with self.assertRaisesRegex(UserMistake, "write a --size of 2e-08 to 2e"):
+            with self.assertRaisesRegex(UserMistake, "write a --size of 4e-06 to 2e"):
                 problem(size=size)
-        self.assertGreaterEqual(problem(size=2e-8).spacing(), 0.99e-9)
+        self.assertGreaterEqual(problem(size=4e-6).spacing(), 1.99e-7)
 
 
 class Text(unittest.TestCase):

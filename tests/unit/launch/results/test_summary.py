@@ -163,8 +163,9 @@ class Summary(InScratch):
             (self.folder / "forces_flap.csv").write_text("t [time],angle [rad]\n" + angles)
             return "\n".join(summary.turned_lines({"participants": {"flap": {"program": program}, "air": {}}}, self.folder))
         self.assertIn("flap has turned by 5.7 degrees, which its law, linear_elastic, takes for a strain; saint_venant_kirchhoff", said("0,0\n1,-0.1\n2,0.01\n"))
-        self.assertIn("by 5.7 degrees", said("0,0.1\n1"))    # and half a line
-        for silent in (said("0,0.04\n"), said(""), said("0,0.1\n", program="solid_solver_neo_hookean")):
+        self.assertIn("by 5.7 degrees", said("0,0.1\n1,3.2"))    # of 3.2e-5, when the run ended
+        self.assertIn("by 114.6 degrees", said("0,2\n"))
+        for silent in (said("0,0.04\n"), said(""), said("0,\0\n"), said("0,0.1\n", program="solid_solver_neo_hookean")):
             self.assertEqual(silent, "")
         (self.folder / "forces_flap.csv").unlink()
         self.assertEqual(summary.turned_lines({"participants": {"flap": {"program": "solid_solver_linear_elastic"}}}, self.folder), [])
