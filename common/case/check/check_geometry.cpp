@@ -198,7 +198,7 @@ void check_core(const SolidSpec& solid, const Node& root) {
   fail(
       grid.place, fmt::format("solids.{}.grid", solid.name),
       fmt::format("this box does not hold the outline of the solid: `shape` reaches ({:.6g}, {:.6g}), {:.4g} "
-                  "beyond its {} side; write at least x: [{:.4g}, {:.4g}], y: [{:.4g}, {:.4g}]",
+                  "beyond its {} side; write at least x: [{:.10g}, {:.10g}], y: [{:.10g}, {:.10g}]",
                   excess.x[0], excess.x[1], excess.distance, name_of(excess.side), x_a, x_b, y_a, y_b));
 }
 

@@ -212,6 +212,15 @@ TEST(Exchange, RequestToNobodyFails) {
   EXPECT_THROW(send_control(own_run(), "", Request::stop, 0.2), PeerLost);
 }
 
+TEST(Exchange, WhoWaitsForARequestToArriveMayGiveUp) {
+  struct GivenUp {};
+  int asked = 0;
+  const auto meanwhile = [&] {
+    if (++asked == 2) throw GivenUp();
+  };
+  EXPECT_THROW(send_control(own_run(), "", Request::stop, 1e6, {}, meanwhile), GivenUp);
+}
+
 TEST(Exchange, ListenerHearsTheNewestTelemetryOfEveryProgram) {
   const std::string run = own_run();
   Listener listener(run);

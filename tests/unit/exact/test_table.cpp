@@ -50,6 +50,17 @@ TEST(CubicTable, RefusesPointsThatDoNotIncrease) {
   EXPECT_THROW(CubicTable({0, 1, 2}, {{0, 0, 0}}), std::invalid_argument);
 }
 
+/// A body of a micrometre is passed by a wave in nanoseconds.
+TEST(TimesOfATable, AreToldApartInAnyUnit) {
+  for (const double unit : {1e-12, 1.0, 1e12}) {
+    const std::vector<double> times{0, unit, 2 * unit};
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_EQ(index_of_time(times, times[k] * (1 + 1e-12)), k) << unit;
+    EXPECT_THROW(static_cast<void>(index_of_time(times, 1.5 * unit)), UserMistake);
+    EXPECT_EQ(reason_beyond(times, "why", 2 * unit), "");
+    EXPECT_NE(reason_beyond(times, "why", 2.1 * unit), "");
+  }
+}
+
 class PistonTableFile : public testing::Test {
  protected:
   void SetUp() override {

@@ -249,6 +249,8 @@ TEST(CaseShape, MistakesSayWhereAndWhatToWrite) {
       {disk_case(disk_outline, "{name: ring, solid: disk}", "{spacing: h, " + rings + "}"),
        "`map` says where its lines are"},
       {disk_case("{kind: circle, radius: 1.3}"), "write at least x: [-1.3, 1.3], y: [-1.3, 1.3]"},
+      {disk_case("{kind: circle, centre: [12345.6, 0], radius: 0.13}"),
+       "write at least x: [12345.47, 12345.73], y: [-0.13, 0.13]"},
   };
   for (const ShapeMistake& mistake : mistakes) {
     const std::string message = mistake_in(mistake.text);
