@@ -26,7 +26,7 @@ import time
 from pathlib import Path
 
 import beam_studies
-import corner_studies
+import stream_studies
 import flutter_studies
 import record_builds
 import record_check
@@ -576,7 +576,7 @@ def all_studies():
     return [*piston_studies(), *record_paper.manufactured(tools),
             ("Gas: manufactured solution on a moving grid", lambda: converge("chosen-gas", "gas_manufactured", "2,4,8,16")),
             *other_studies(), *record_paper.disks(tools), *disk_studies(),
-            *of(record_ellipse, record_levels, record_ranks, beam_studies, wall_studies, corner_studies, flutter_studies, thin_studies,
+            *of(record_ellipse, record_levels, record_ranks, beam_studies, wall_studies, stream_studies, flutter_studies, thin_studies,
                 record_impacts, record_outlines),
             ("What watching costs", lambda: watched("watched")), ("What live pictures cost", lambda: looked_at(15)),
             ("Signals to every program at random moments", lambda: faults(1000)), *of(record_faults, record_builds),

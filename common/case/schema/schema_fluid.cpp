@@ -187,7 +187,8 @@ constexpr array gas_scheme_keys{
         .fallback = "0.1",
         .range = {.low = 0, .high = 1}},
     Key{.name = "shock_viscosity",
-        .meaning = "coefficient of max(0, -div v) on undivided differences",
+        .meaning = "coefficient of max(0, -div v) on undivided differences; 0.5 where strong shocks lie "
+                   "along grid lines",
         .fallback = "0",
         .range = not_negative},
     Key{.name = "linear_diffusion",

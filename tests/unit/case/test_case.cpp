@@ -247,6 +247,20 @@ TEST(RemarksOnACase, OfASolidThatTheGasSqueezesToNothing) {
       << remarks("0.004").front();
 }
 
+TEST(RemarksOnACase, OfAFastStreamBeforeABodyWithoutShockViscosity) {
+  const auto remarks = [](const std::string& mach, const std::string& viscosity) {
+    const std::string state = "{rho: 1.4, v: [0, " + mach + "], p: 1}";
+    return remarks_on(
+        load_case(FSI_ROOT "/configs/two_cylinders.yaml",
+                  {"fluid.initial=" + state, "fluid.scheme={shock_viscosity: " + viscosity + "}"}));
+  };
+  EXPECT_TRUE(remarks("-1.9", "0").empty());
+  EXPECT_TRUE(remarks("-4", "0.5").empty());
+  ASSERT_EQ(remarks("-4", "0").size(), 1U);
+  EXPECT_NE(remarks("-4", "0").front().find("fluid: the gas streams with Mach 4;"), std::string::npos)
+      << remarks("-4", "0").front();
+}
+
 TEST(Summary, TellsTheLauncherWhichProgramsRun) {
   const auto coupled =
       nlohmann::json::parse(summary_as_json(load_case("elastic_piston", {}, {"solid=neo_hookean"})));
