@@ -57,6 +57,11 @@ struct WaveCurve {
   }
 };
 
+/// What a vacuum leaves of the pressure of a gas at a wall [-].
+inline double least_pressure_ratio(double gamma) {
+  return std::pow(WaveCurve::least_sound, 2 * gamma / (gamma - 1));
+}
+
 /// Of an ideal gas through the wave that changes its pressure so many times [-]: behind a shock by Rankine and Hugoniot,
 /// else at constant entropy.
 inline double density_ratio(double gamma, double pressure_ratio) {
