@@ -45,9 +45,16 @@ std::vector<double> rim_of(const GridSpec& grid) {
   return curve_through(points);
 }
 
+/// Is x on this curve, up to round-off?
+bool is_on(const std::vector<double>& curve, const Vec2& x) {
+  constexpr double round_off = 1e-9;  // of the largest coordinate
+  double largest = 0;
+  for (const double coordinate : curve) largest = std::max(largest, std::fabs(coordinate));
+  return grid::distance_to(curve, x) <= round_off * largest;
+}
+
 bool within(const std::vector<double>& rim, const Vec2& x) {
-  constexpr double round_off = 1e-9;
-  return grid::encloses(rim, x) || grid::distance_to(rim, x) <= round_off * (1 + x.norm());
+  return grid::encloses(rim, x) || is_on(rim, x);
 }
 
 bool within_rim(const GridSpec& grid, const Vec2& x) {
@@ -78,9 +85,7 @@ bool is_in_continuum(const SolidSpec& solid, const Vec2& x) {
 /// A beam has its outline alone, closed by the wall on which it stands; rounded corners may leave the end of its line
 /// outside.
 bool is_in_beam(const SolidSpec& solid, const Vec2& x) {
-  constexpr double round_off = 1e-9;
-  if (solid.beam && grid::distance_to(curve_through(solid.beam->line), x) <= round_off * (1 + x.norm()))
-    return true;
+  if (solid.beam && is_on(curve_through(solid.beam->line), x)) return true;
   if (fitted_grids(solid).empty()) return within_rim(solid.grid, x);
   const BodyFittedSpec& outline = solid.body_fitted.front();
   const CurveSpec& curve = outline.curve;

@@ -63,9 +63,10 @@ std::optional<std::string> trouble_behind(const BodyFittedSpec& spec, ConstField
   const grid::SlantedLine line = grid::most_slanted_line(x, spec.side);
   if (line.slant <= grid::largest_slant) return std::nullopt;
   return fmt::format(
-      "at ({:.6g}, {:.6g}) its curve is too flat on the wall for the distance of its lines, "
-      "{:.2g} times that of its points",
-      line.x[0], line.x[1], line.slant);
+      "at ({:.6g}, {:.6g}) {} for the distance of its lines, {:.2g} times that of its points", line.x[0],
+      line.x[1],
+      spec.curve.walls ? "its curve is too flat on the wall" : "its lines lean too far over the curve",
+      line.slant);
 }
 
 bool holds(const BodyFittedSpec& spec) {

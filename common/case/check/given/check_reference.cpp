@@ -15,6 +15,7 @@
 #include "common/case/document/fluid_sections.hpp"
 #include "common/case/document/node_at.hpp"
 #include "common/case/grids/grid_points.hpp"
+#include "common/case/scales.hpp"
 #include "common/case/schema/laws.hpp"
 #include "common/core/types.hpp"
 
@@ -165,7 +166,7 @@ void check_motion(const Case& problem, const Node& root) {
     for (const Vec2& x : meeting_points(solid)) {
       const Vec2 start(problem.interface.motion->c1(x[0], x[1], 0),
                        problem.interface.motion->c2(x[0], x[1], 0));
-      if ((start - x).norm() <= tolerance * (1 + x.norm())) continue;
+      if ((start - x).norm() <= tolerance * (size_of(solid.grid) + x.norm())) continue;
       fail(node.place, "interface.motion",
            fmt::format("must be (x, y) at t = 0, but ({:.6g}, {:.6g}) goes to ({:.6g}, {:.6g})", x[0], x[1],
                        start[0], start[1]));

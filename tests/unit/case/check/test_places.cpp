@@ -83,6 +83,16 @@ TEST(CaseProbe, OutsideTheGasIsRefusedAndOnItsRimFine) {
   EXPECT_EQ(disk_probe("fluid", "2", "2"), "");
 }
 
+TEST(CaseProbe, RoundOffIsThatOfTheGridsSize) {
+  const auto probe = [](const std::string& x) {
+    return mistake_of("isentropic_vortex",
+                      {"grid.factor=1e6", "fluid.grid={x: [0, 1e-6], y: [0, 1e-6], spacing: h}",
+                       "time.end=1e-9", "output={probes: [{name: a, in: fluid, x: " + x + ", y: 5e-7}]}"});
+  };
+  EXPECT_EQ(probe("1e-6"), "");
+  EXPECT_NE(probe("1.001e-6").find("lies outside fluid.grid"), std::string::npos) << probe("1.001e-6");
+}
+
 TEST(CaseProbe, OfTheGasWithinABodyIsRefusedWithTheNameOfTheBody) {
   const std::string message = disk_probe("fluid", "0.9", "0");
   EXPECT_NE(message.find("(0.9, 0) lies in solid `disk` at t = 0"), std::string::npos) << message;
