@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdlib>
 #include <filesystem>
+#include <iterator>
 
 #include "common/case/check/check.hpp"
 #include "common/case/document/scope.hpp"
@@ -17,6 +18,7 @@
 #include "common/case/read/build.hpp"
 #include "common/case/read/build_block.hpp"
 #include "common/case/read/build_shape.hpp"
+#include "common/case/read/choose_scheme.hpp"
 #include "common/case/read/restart.hpp"
 #include "common/case/report/memory.hpp"
 #include "common/case/schema/boundary_facts.hpp"
@@ -137,8 +139,9 @@ Case case_from(Node root, const std::string& file, double available) {
   refuse_points_of_no_rectangle(root);
   validate(root, schema::case_file, scope);
   put_name(root, file);
-  const std::vector<std::string> chosen = choose_grids(root, scope);
+  std::vector<std::string> chosen = choose_grids(root, scope);
   Case result = build_case(root, scope);
+  std::ranges::copy(choose_schemes(root, result), std::back_inserter(chosen));
   check_memory(result, root, available);
   check_case(result, root);
   result.path = file;

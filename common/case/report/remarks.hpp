@@ -16,12 +16,6 @@ double pressure_over_stiffness(const Case& problem, const SolidSpec& solid);
 /// or behind a bow shock [-].
 double stagnation_over_stiffness(const Case& problem, const SolidSpec& solid);
 
-/// Largest Mach number that a gas has at t = 0 or outside its sides [-].
-double largest_mach(const FluidSpec& fluid);
-
-/// From this Mach number on, the bow shock of a blunt body is noisy without shock_viscosity (docs/results.md, cylinders in fast streams).
-inline constexpr double blunt = 2;
-
 /// More than this and a body is squeezed to less than a tenth, or as much drawn out: it was given in other units.
 inline constexpr double crushing = 10;
 /// More than this squeezes a body by a third or more, and breaks it rather than the scheme does.

@@ -43,7 +43,9 @@ inline constexpr Range any_number{};
 inline constexpr Range positive{.low = 0, .low_open = true};
 inline constexpr Range not_negative{.low = 0};
 inline constexpr Range factor_range{
-    .low = 0, .high = 1e6, .low_open = true};  ///< of `grid.factor` [1/length]: 0.1 micrometres in SI units
+    .low = 0,
+    .high = 1e9,
+    .low_open = true};  ///< of `grid.factor` [1/length]: h = 0.1 nanometres in SI units
 
 inline constexpr std::size_t most_definitions = 100;
 

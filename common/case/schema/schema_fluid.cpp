@@ -187,9 +187,9 @@ constexpr array gas_scheme_keys{
         .fallback = "0.1",
         .range = {.low = 0, .high = 1}},
     Key{.name = "shock_viscosity",
-        .meaning = "coefficient of max(0, -div v) on undivided differences; 0.5 where strong shocks lie "
-                   "along grid lines",
-        .fallback = "0",
+        .meaning = "coefficient of max(0, -div v) on undivided differences; strong shocks along grid lines "
+                   "break up without",
+        .fallback = "0.5 where the case says of shocks of Mach 2 and more, else 0",
         .range = not_negative},
     Key{.name = "linear_diffusion",
         .meaning = "coefficient of undivided second differences",

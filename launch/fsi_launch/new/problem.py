@@ -73,9 +73,6 @@ class Problem:
         return (down(x_low - BEFORE * length), -down(-x_high - BEHIND * length), y_low if self.on_wall else down(y_low - BESIDE * length),
                 -down(-y_high - BESIDE * length))
 
-    def has_shocks(self):
-        return self.flow == "shock" or self.mach > 1
-
     def shock(self):
         """Where it is at t = 0 [m]: a third of a spacing beside a line of points. On a line round-off would decide which side of the shock
         its points are on, and differently on each grid; so it is on none when the spacing is halved."""

@@ -52,9 +52,6 @@ fluid:
   grid: {{name: background, x: [{x_low:.6g}, {x_high:.6g}], y: [{y_low}, {y_high:.6g}]}}    # points h apart, closer where the body's outline asks for it
 """
 
-SCHEME = """  scheme: {shock_viscosity: 0.5}    # quiet where a strong shock lies along grid lines; a tenth of the gas's time
-"""
-
 SHOCK_SIDES = """  boundary:
     left: {{kind: far_field, state: {{rho: rho_1, v: [v_1, 0], p: p_1}}}}    # the gas behind the shock; waves from inside leave
     right: {{kind: far_field, state: {{rho: rho_0, v: [0, 0], p: p_0}}}}
@@ -193,4 +190,4 @@ def write(problem, file, path):
         every_space=" " * max(1, 15 - len(every)), motion="    motion: fixed         # free: the gas moves it\n" if problem.fixed else "",
         x_probe=0.5 * sum(problem.outline.box()[:2]), y_probe=0.5 * (problem.outline.box()[3] + y_high))
     return (HEAD.format(**numbers) + (SHOCK if shock else STREAM).format(**numbers) + SOLID_NUMBERS.format(**numbers) + BEHIND * shock
-            + RESOLUTION.format(**numbers) + SCHEME * problem.has_shocks() + sides.format(bottom="slip_wall" if problem.on_wall else bottom) + body)
+            + RESOLUTION.format(**numbers) + sides.format(bottom="slip_wall" if problem.on_wall else bottom) + body)

@@ -91,8 +91,8 @@ class Wake(unittest.TestCase):
         self.assertLess(summary["0.5"]["disagreement"]["value"], 0.5 * summary["0"]["disagreement"]["value"])
 
     def test_mass_that_is_lost_is_said(self):
-        """A cylinder of five cells in a stream of Mach 8."""
-        said, budget, _ = self.run_cylinder(5, 8)
+        """A cylinder of five cells in a stream of Mach 8, without the shock viscosity that would be chosen."""
+        said, budget, _ = self.run_cylinder(5, 8, "--set=fluid.scheme.shock_viscosity=0")
         self.assertLess(budget["mass_defect"], -0.05 * budget["mass_initial"])
         self.assertIn("the mass of fluid is off by", said)
 

@@ -52,7 +52,14 @@ std::vector<Vec2> sample_points(const GridSpec& grid, std::optional<Side> side, 
 }
 
 std::vector<Vec2> sample_points(const FluidSpec& fluid) {
-  std::vector<Vec2> points = sample_points(fluid.grid);
+  std::vector<Vec2> points;
+  constexpr int most = 96;  // in each direction: what is smaller than a hundredth of the gas may be missed
+  const GridSpec& grid = fluid.grid;
+  const int last1 = std::min(grid.n1 - 1, most), last2 = std::min(grid.n2 - 1, most);
+  for (int b = 0; b <= last2; ++b) {
+    for (int a = 0; a <= last1; ++a)
+      points.push_back(position(grid, a * (grid.n1 - 1) / last1, b * (grid.n2 - 1) / last2, 0));
+  }
   if (fluid.refine.levels == 1) leave_out_behind(points, fluid);
   return points;
 }

@@ -12,6 +12,8 @@ from fsi_launch.plot.several_runs import several
 GAS_LINES = (("rho", "density $\\rho$"), ("v", "velocity $v$"), ("p", "pressure $p$"))
 SOLID_LINES = (("u", "displacement $\\bar u$"), ("v", "velocity $\\bar v$"), ("P11", "stress $\\bar P_{11}$"))
 SAME = 1e-3        # variation across the line, part of the variation along it, that counts as none
+UNSEEN = 1e-7      # the same, part of the largest value of all components
+LEAST = 1e-9       # the same, where all is round-off
 MOST_TIMES = 6
 REFERENCE = {"color": "black", "linewidth": 2.6, "alpha": 0.3, "zorder": 1}
 SAME_VALUE = 1e-11  # differences, part of the values, that are round-off
@@ -35,11 +37,12 @@ def _depends_on_one_coordinate(grid):
     """True if every field is the same on all lines j = const., as in a piston or a tube."""
     if min(grid.x1.shape) < 2:
         return False
-    for values in (values for key, values in grid.fields.items() if not key.startswith("x")):
-        along = np.ptp(values, axis=1).max()
-        if np.ptp(values, axis=0).max() > SAME * along + 1e-9 * (1 + np.abs(values).max()):
-            return False
-    return True
+    fields = {key: values for key, values in grid.fields.items() if not key.startswith("x")}
+    largest = {}    # of all components of a vector or a tensor
+    for key, values in fields.items():
+        largest[key.rstrip("12")] = max(largest.get(key.rstrip("12"), 0), np.abs(values).max())
+    return all(np.ptp(values, axis=0).max() <= SAME * np.ptp(values, axis=1).max() + UNSEEN * largest[key.rstrip("12")] + LEAST
+               for key, values in fields.items())
 
 
 def _direction(grid):

@@ -70,9 +70,9 @@ TEST(OverrideMistake, NamesTheOptionAndWhatToWrite) {
   EXPECT_EQ(overriding_mistake({"time.cfl=fast"}),
             "--set time.cfl: unknown name `fast` at position 1 of `fast`");
   EXPECT_EQ(overriding_mistake({"grid.factor=0"}),
-            "--set grid.factor: must be > 0 and <= 1000000 [1/length], is 0");
-  EXPECT_EQ(overriding_mistake({"grid.factor=1000001"}),
-            "--set grid.factor: must be > 0 and <= 1000000 [1/length], is 1000001");
+            "--set grid.factor: must be > 0 and <= 1000000000 [1/length], is 0");
+  EXPECT_EQ(overriding_mistake({"grid.factor=1000000001"}),
+            "--set grid.factor: must be > 0 and <= 1000000000 [1/length], is 1000000001");
   EXPECT_EQ(overriding_mistake({"grid.factor=20h"}),
             "--set grid.factor: h = 1 / (10 j) and j come from this number; it cannot use them");
   EXPECT_EQ(overriding_mistake({"time.end.x=1"}),

@@ -161,12 +161,6 @@ class Text(unittest.TestCase):
         self.assertEqual((body["law"], body["motion"], case["units"]), ("rigid", "fixed", "SI"))
         self.assertEqual((parameters["mach"], float(parameters["E"]), case["time"]["end"]), (1.7, 205e9, 0.002))
 
-    def test_flows_with_shocks_have_shock_viscosity(self):
-        for flow, mach, scheme in (("shock", 1.2, {"shock_viscosity": 0.5}), ("stream", 4.0, {"shock_viscosity": 0.5}), ("stream", 0.9, None)):
-            with self.subTest(flow, mach=mach):
-                case = yaml.safe_load(text.write(problem(flow=flow, mach=mach), "case.yaml", None))
-                self.assertEqual(case["fluid"].get("scheme"), scheme)
-
     def test_numbers_of_ones_own_are_written_as_they_are_given(self):
         given = {"mach": 1.2345678901, "density": 1.2250000000000001e-7, "pressure": 101325.7, "gamma": 1.4000000000000001, "end": 1.2345678e-3,
                  "size": 0.123456789, "material": "1234.5678,2.34567891e9,0.3333333333333333"}
