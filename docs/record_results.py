@@ -26,7 +26,6 @@ import time
 from pathlib import Path
 
 import beam_studies
-import stream_studies
 import flutter_studies
 import record_builds
 import record_check
@@ -37,6 +36,7 @@ import record_levels
 import record_outlines
 import record_paper
 import record_ranks
+import stream_studies
 import thin_studies
 import wall_studies
 

@@ -17,6 +17,7 @@ time: {end: 2}
 fluid:
   gamma: 1.4
   p_e: 0
+  scheme: {shock_viscosity: 0}
   grid: {kind: mapped, map: [along, "0.5*(along + sqrt(along^2 + reach^2))*tan(turn*pi/180)*(1 - s) + s"], points: [3*n/2 + 1, n + 1]}
   boundary:
     left: {kind: inflow, state: {rho: 1.4, v: [mach, 0], p: 1}}

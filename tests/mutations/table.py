@@ -298,5 +298,7 @@ MUTATIONS = [
     ("grids that disagree: where the background advances nothing", "common/grid/overlap/disagreement.cpp",
      "contains(Interval{i, i + 2}, j + 1)", "contains(Interval{i, i + 1}, j + 1)", "test_watches", "Disagreements*"),
     ("what a stream that is brought to rest presses with", "common/case/report/remarks.cpp",
-     "rho * speed * speed", "0.5 * rho * speed * speed", "test_case", "RemarksOnACase*"),
+     "rho * v.squaredNorm()", "0.5 * rho * v.squaredNorm()", "test_case", "RemarksOnACase*"),
+    ("a body that runs into a gas: their relative speed", "common/case/read/choose_scheme.cpp",
+     "(v - bodies.high).cwiseAbs()", "(v + bodies.high).cwiseAbs()", "test_case", "ChosenScheme*"),
 ]

@@ -135,9 +135,11 @@ std::vector<Side> sides_of_body(const SolidSpec& solid) {
 bool lies_behind(const BodyFittedSpec& spec, const GridSpec& background, const Vec2& x) {
   const double width = background.x_b - background.x_a, height = background.y_b - background.y_a;
   const Rim rim{background.x_a, background.x_b, background.y_a, background.y_b, std::min(width, height)};
-  constexpr double round_off = 1e-9;
+  constexpr double round_off = 1e-9;  // of the largest coordinate
+  double largest = 0;
+  for (const double coordinate : spec.curve.x) largest = std::max(largest, std::abs(coordinate));
   return is_to_the_left(spec.curve, rim, x) == (spec.side == Side::top) &&
-         grid::distance_to(spec.curve.x, x) > round_off * (1 + x.norm());
+         grid::distance_to(spec.curve.x, x) > round_off * largest;
 }
 
 }  // namespace fsi

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/case/report/gas_data.hpp"
+#include "common/case/check/given/given_states.hpp"
 #include "common/case/schema/laws.hpp"
 
 namespace fsi {
@@ -13,10 +13,10 @@ namespace fsi {
 namespace {
 
 /// Largest |p - p_e| of a gas, or with rho v^2 added to it [pressure].
-double largest_load(const FluidSpec& fluid, bool brought_to_rest) {
+double largest_load(const Case& problem, const FluidSpec& fluid, bool brought_to_rest) {
   double load = 0;
-  each_state(fluid, [&](double rho, double speed, double p) {
-    load = std::max(load, std::abs(p - fluid.p_e) + (brought_to_rest ? rho * speed * speed : 0));
+  each_state(problem, fluid, [&](double rho, const Vec2& v, double p) {
+    load = std::max(load, std::abs(p - fluid.p_e) + (brought_to_rest ? rho * v.squaredNorm() : 0));
   });
   return load;
 }
@@ -24,7 +24,8 @@ double largest_load(const FluidSpec& fluid, bool brought_to_rest) {
 double over_stiffness(const Case& problem, const SolidSpec& solid, bool brought_to_rest) {
   if (!is_continuum(solid.law)) return 0;
   double load = 0;
-  for (const FluidSpec& fluid : problem.fluids) load = std::max(load, largest_load(fluid, brought_to_rest));
+  for (const FluidSpec& fluid : problem.fluids)
+    load = std::max(load, largest_load(problem, fluid, brought_to_rest));
   return load / (solid.lambda + 2 * solid.mu);
 }
 

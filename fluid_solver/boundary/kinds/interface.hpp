@@ -76,7 +76,10 @@ struct Interface {
   /// All ranks look at all points, so that all of them find the same one.
   static void check(const GasSide& side, const InterfaceValues& values) {
     constexpr double round_off = 1e-12;  // of a sum of a few terms, with a margin [-]
-    const double lowest = side.options.wave_curve ? -round_off * std::fabs(side.options.p_e) : 0;
+    double largest = std::fabs(side.options.p_e);
+    for (std::size_t k = 0; k < static_cast<std::size_t>(side.points.n()); ++k)
+      largest = std::max(largest, pressure(side, values, k));
+    const double lowest = side.options.wave_curve ? -round_off * largest : 0;
     for (std::size_t k = 0; k < static_cast<std::size_t>(side.points.n()); ++k) {
       const auto at = side.points.at(static_cast<int>(k), 0);
       const double p_I = pressure(side, values, k);

@@ -252,11 +252,9 @@ def disagreement_in_words(summary):
     found = summary.get("disagreement") or {}
     if not found.get("large"):
         return ""
-    gas = found["participant"] if found["participant"] == "fluid" else f"fluids.{found['participant']}"
     return (f"grids disagree where they overlap: {found['field']} of {found['participant']} differs by {percent(found['value'])} of its range "
             f"between {_place_in_words(found)}, and the background, t = {found['t']:.4g}; "
-            "do not trust the flow there: a finer grid resolves it, or, where a strong shock stands, "
-            f"{gas}.scheme.shock_viscosity: 0.5 (docs/output.md, disagreement)")
+            "do not trust the flow there: a finer grid resolves it (docs/output.md, disagreement)")
 
 
 MISSED_MASS = 0.05      # part of the mass that a gas had at the start

@@ -84,9 +84,8 @@ class Wake(unittest.TestCase):
         """A cylinder of twenty cells in a stream of Mach 12: without it the shock stands at one place in each grid."""
         summary = {}
         for viscosity in ("0", "0.5"):
-            said, *_ = self.run_cylinder(20, 12, f"--set=fluid.scheme.shock_viscosity={viscosity}")
+            self.run_cylinder(20, 12, f"--set=fluid.scheme.shock_viscosity={viscosity}")
             summary[viscosity] = json.loads((self.folder / "20" / "summary.json").read_text(encoding="utf-8"))
-            self.assertEqual(summary[viscosity]["disagreement"]["large"], "fluid.scheme.shock_viscosity: 0.5 (docs" in said, said)
         self.assertFalse(summary["0.5"]["disagreement"]["large"], summary["0.5"]["disagreement"])
         self.assertLess(summary["0.5"]["disagreement"]["value"], 0.5 * summary["0"]["disagreement"]["value"])
 

@@ -282,6 +282,60 @@ TEST(ChosenScheme, HasShockViscosityWhereShocksOfMachTwoMayComeUp) {
   EXPECT_EQ(viscosity_with({"solids.cylinder_1.initial={v: [0, 1.25]}"}), "0.5");
 }
 
+TEST(ChosenScheme, LooksAtSidesUntilTheEndAndAtSmallParts) {
+  const auto side = [](const std::string& v) {
+    return "fluid.boundary.left={kind: imposed, state: {rho: 1.4, v: ['" + v + "', 0], p: 1}}";
+  };
+  EXPECT_EQ(viscosity_with({side("0")}), "0");
+  EXPECT_EQ(viscosity_with({side("abs(y - 0.3) < 0.1 ? 2 : 0")}), "0.5");
+  EXPECT_EQ(viscosity_with({side("min(2, 4 * t)")}), "0.5");
+  EXPECT_EQ(viscosity_with({side("min(1.9, 4 * t)")}), "0");
+}
+
+TEST(ChosenScheme, TakesTheSpeedOfBodiesRelativeToTheGas) {
+  const auto gas = [](const std::string& v) {
+    const std::string state = "{rho: 1.4, v: [0, " + v + "], p: 1}";
+    return std::vector<std::string>{"fluid.initial=" + state,
+                                    "fluid.boundary.left={kind: imposed, state: " + state + "}"};
+  };
+  const auto with = [&](const std::string& of_gas, const std::string& of_bodies) {
+    std::vector<std::string> settings = gas(of_gas);
+    for (const char* body : {"1", "2"})
+      settings.push_back(fmt::format("solids.cylinder_{}.initial={{v: [0, {}]}}", body, of_bodies));
+    return viscosity_with(settings);
+  };
+  EXPECT_EQ(with("1.3", "1.3"), "0");
+  EXPECT_EQ(with("0.7", "-0.5"), "0");
+  EXPECT_EQ(with("0.7", "-0.6"), "0.5");
+  EXPECT_EQ(with("-0.7", "0.6"), "0.5");
+}
+
+TEST(ChosenScheme, IsThatOfEachGasAndIsReadAgainAsItWasWritten) {
+  const Case problem = tests::load_text(
+      "time: {end: 1}\n"
+      "fluids:\n"
+      "  low: {grid: {x: [-1, 0], y: [0, 0.4], points: [11, 5]}, initial: {rho: 1, v: [0, 0], p: 1},\n"
+      "    boundary: {left: outflow, right: {kind: interface, solid: s}, bottom: slip_wall, top: "
+      "slip_wall}}\n"
+      "  high: {grid: {x: [0.1, 1], y: [0, 0.4], points: [11, 5]}, initial: {rho: 1, v: [0, 0], p: 10},\n"
+      "    boundary: {right: outflow, left: {kind: interface, solid: s}, bottom: slip_wall, top: "
+      "slip_wall}}\n"
+      "solids:\n"
+      "  s: {law: rigid, rho: 1, grid: {x: [0, 0.1], y: [0, 0.4], points: [5, 5]},\n"
+      "    boundary: {left: {kind: interface, fluid: low}, right: {kind: interface, fluid: high}, bottom: "
+      "slip_wall, top: slip_wall}}\n");
+  int said = 0;
+  for (const std::string& line : problem.chosen)
+    said += line.find("shock_viscosity 0.5") != std::string::npos;
+  for (const FluidSpec& fluid : problem.fluids) {
+    EXPECT_EQ(fluid.scheme.shock_viscosity > 0, fluid.name == "low") << fluid.name;
+  }
+  EXPECT_EQ(said, 1);
+  const Case again = tests::load_text(problem.resolved);
+  EXPECT_EQ(again.digest, problem.digest);
+  EXPECT_TRUE(again.chosen.empty());
+}
+
 TEST(ChosenScheme, LeavesWhatIsWrittenAndSmoothFlowAlone) {
   const std::string fast = "fluid.initial={rho: 1.4, v: [4, 0], p: 1}";
   EXPECT_EQ(viscosity_with({fast, "fluid.scheme={shock_viscosity: 0}"}), "0");

@@ -1,7 +1,9 @@
 #include "common/case/check/given/sample.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 
 #include "common/case/grids/curve_side.hpp"
 #include "common/case/grids/grid_points.hpp"
@@ -23,27 +25,45 @@ bool in_body(const SolidSpec& solid, const Vec2& x) {
   return curve.closed() && grid::encloses(curve.x, x);
 }
 
+using Box = Eigen::AlignedBox2d;
+
+/// Around all that may lie behind a curve: behind the closed outline of a body the body lies.
+Box box_of(const BodyFittedSpec& fitted) {
+  Box box(Vec2::Constant(-std::numeric_limits<double>::infinity()),
+          Vec2::Constant(std::numeric_limits<double>::infinity()));
+  if (fitted.solid.empty() || !fitted.curve.closed()) return box;
+  box.setEmpty();
+  for (const Vec2& x : outline_points(fitted.curve)) box.extend(x);
+  return box;
+}
+
 /// What lies behind curves fitted to a gas goes, the k-th curve apart.
 void leave_out_behind(std::vector<Vec2>& points, const FluidSpec& fluid,
                       std::optional<std::size_t> apart = {}) {
   for (std::size_t k = 0; k < fluid.body_fitted.size(); ++k) {
     if (k == apart) continue;
-    std::erase_if(points, [&](const Vec2& x) { return lies_behind(fluid.body_fitted[k], fluid.grid, x); });
+    const BodyFittedSpec& fitted = fluid.body_fitted[k];
+    const Box box = box_of(fitted);
+    std::erase_if(points,
+                  [&](const Vec2& x) { return box.contains(x) && lies_behind(fitted, fluid.grid, x); });
   }
 }
 
 constexpr int samples_of_body = 16;  // in each direction
+/// The same of a gas, or along its sides: what is smaller than a hundredth of it may be missed.
+constexpr int samples_of_gas = 96;
 
 }  // namespace
 
 std::vector<Vec2> sample_points(const GridSpec& grid, std::optional<Side> side, double t) {
-  constexpr int samples = 8;  // in each direction
   std::vector<Vec2> points;
+  if (side) {
+    const int last = points_along(grid, *side) - 1, samples = std::min(last, samples_of_gas);
+    for (int a = 0; a <= samples; ++a) points.push_back(side_point(grid, *side, a * last / samples, t));
+    return points;
+  }
+  constexpr int samples = 8;  // in each direction
   for (int b = 0; b <= samples; ++b) {
-    if (side) {
-      points.push_back(side_point(grid, *side, b * (points_along(grid, *side) - 1) / samples, t));
-      continue;
-    }
     for (int a = 0; a <= samples; ++a) {
       points.push_back(position(grid, a * (grid.n1 - 1) / samples, b * (grid.n2 - 1) / samples, t));
     }
@@ -53,9 +73,8 @@ std::vector<Vec2> sample_points(const GridSpec& grid, std::optional<Side> side, 
 
 std::vector<Vec2> sample_points(const FluidSpec& fluid) {
   std::vector<Vec2> points;
-  constexpr int most = 96;  // in each direction: what is smaller than a hundredth of the gas may be missed
   const GridSpec& grid = fluid.grid;
-  const int last1 = std::min(grid.n1 - 1, most), last2 = std::min(grid.n2 - 1, most);
+  const int last1 = std::min(grid.n1 - 1, samples_of_gas), last2 = std::min(grid.n2 - 1, samples_of_gas);
   for (int b = 0; b <= last2; ++b) {
     for (int a = 0; a <= last1; ++a)
       points.push_back(position(grid, a * (grid.n1 - 1) / last1, b * (grid.n2 - 1) / last2, 0));
