@@ -29,6 +29,15 @@ double over_stiffness(const Case& problem, const SolidSpec& solid, bool brought_
   return load / (solid.lambda + 2 * solid.mu);
 }
 
+/// A gas whose p_e was left out beside bodies that it presses.
+bool presses_from_all_sides(const Case& problem, const FluidSpec& fluid) {
+  const auto is_elastic = [](const SolidSpec& solid) { return is_continuum(solid.law) || solid.beam; };
+  if (fluid.p_e != 0 || !fluid.initial || std::ranges::none_of(problem.solids, is_elastic)) return false;
+  bool everywhere = true;
+  each_state(problem, fluid, [&](double, const Vec2&, double p) { everywhere &= p > 0; });
+  return everywhere;
+}
+
 }  // namespace
 
 double pressure_over_stiffness(const Case& problem, const SolidSpec& solid) {
@@ -54,6 +63,13 @@ std::vector<std::string> remarks_on(const Case& problem) {
                       "(docs/troubleshooting.md has how two "
                       "gases meet)",
                       solid.name));
+  }
+  for (const FluidSpec& fluid : problem.fluids) {
+    if (!presses_from_all_sides(problem, fluid)) continue;
+    remarks.push_back(fmt::format(
+        "{}.p_e is 0: elastic bodies are free of stress in a vacuum, and the whole pressure of the gas "
+        "presses them from t = 0 on; write the pressure at which they rest, unless this is meant",
+        fluid.path));
   }
   return remarks;
 }

@@ -250,6 +250,16 @@ TEST(RemarksOnACase, OfASolidThatTheGasSqueezesToNothing) {
       << remarks("0.004").front();
 }
 
+TEST(RemarksOnACase, OfAPressureAtRestThatWasLeftOut) {
+  const auto remarks = [](const std::string& p_e) {
+    return remarks_on(load_case(FSI_ROOT "/configs/two_cylinders.yaml", {"fluid.p_e=" + p_e}));
+  };
+  EXPECT_TRUE(remarks("0.7").empty());
+  ASSERT_EQ(remarks("0").size(), 1U);
+  EXPECT_EQ(remarks("0").front().find("fluid.p_e is 0: elastic bodies"), 0U) << remarks("0").front();
+  EXPECT_TRUE(remarks_on(load_case(FSI_ROOT "/configs/rigid_piston.yaml", {"fluid.p_e=0"})).empty());
+}
+
 /// What is chosen for the gas of `two_cylinders`, whose own scheme is left out, and what it says so.
 std::string viscosity_with(const std::vector<std::string>& settings) {
   std::vector<std::string> all{"fluid.scheme={limiter: minmod}",
