@@ -71,6 +71,14 @@ void refuse_bare_parameter(const Node& root, const std::string& key, const std::
   throw UserMistake(fmt::format("{}: {} is a parameter; write `parameters.{}`", option, in_ticks(key), key));
 }
 
+/// A case has `fluid` or `fluids`.
+void refuse_the_only_gas(const Node& root, const std::string& key, const std::string& option) {
+  const Node* gases = root.find("fluids");
+  if (!key.starts_with("fluid.") || root.find("fluid") != nullptr || gases == nullptr) return;
+  throw UserMistake(fmt::format("{}: the case has several gases, {}; write `fluids.NAME.{}`", option,
+                                fmt::join(keys_of(*gases), ", "), key.substr(key.find('.') + 1)));
+}
+
 std::pair<std::string, std::string> split_at_equals(const std::string& text, const std::string& option,
                                                     const char* shape) {
   const std::size_t equals = text.find('=');
@@ -104,6 +112,7 @@ void apply_options(Node& root, const std::vector<std::string>& overrides,
     const auto [key, value] = split_at_equals(text, "--set", "--set KEY=VALUE");
     const std::string option = "--set " + shown(key);
     refuse_bare_parameter(root, key, option);
+    refuse_the_only_gas(root, key, option);
     require_known_name(root, key, "parameters", option);
     require_known_name(root, key, "solids", option);
     require_known_name(root, key, "fluids", option);

@@ -14,8 +14,8 @@ from fsi_launch.plot.reading import data, scales  # noqa: E402
 
 
 class Schlieren(unittest.TestCase):
-    def gas(self, density):
-        x1, x2 = np.meshgrid(np.linspace(0, 1, 41), np.linspace(0, 1, 21))
+    def gas(self, density, height=1):
+        x1, x2 = np.meshgrid(np.linspace(0, 1, 41), np.linspace(0, height, 21))
         return data.Output(1.0, [read({"x1": x1, "x2": x2, "rho": density(x1, x2)})])
 
     def test_a_front_is_a_shock_and_a_coarse_smooth_field_is_none(self):
@@ -59,9 +59,17 @@ class Schlieren(unittest.TestCase):
         self.assertEqual(colour(0.15, 0.8), (255, 255, 255))
         self.assertNotEqual(colour(0.15, 0.15), (255, 255, 255))
 
+    def test_a_long_duct_has_scales_of_its_own_and_room_for_numbers(self):
+        for height, thin in ((0.11, False), (0.02, True)):
+            [(_, draw)] = schlieren.pictures([data.Series("fluid", [self.gas(lambda x, y: 1 + 0.3 * (x > 0.5), height)])], scales.Scales(1, 1, 1))
+            [axes] = draw().axes
+            self.assertEqual(axes.get_aspect() == "auto", thin)
+        self.assertEqual(schlieren.height_of_panel(4, ((0, 1), (0, 0.02))), schlieren.LOWEST)
+        self.assertEqual(schlieren.height_of_panel(4, ((0, 2), (0, 1))), 2)
+
     def test_a_solid_beside_the_gas_is_within_the_picture(self):
         around = data.Output(1.0, [ring()])
-        (left, right), (bottom, top) = schlieren._box(self.gas(lambda x, y: 1 + x), [around])
+        (left, right), (bottom, top) = schlieren.box(self.gas(lambda x, y: 1 + x), [around])
         self.assertEqual([round(one, 3) for one in (left, right, bottom, top)], [-0.8, 1, -0.8, 1])
 
 

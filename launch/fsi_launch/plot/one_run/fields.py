@@ -80,11 +80,16 @@ def _arrangement(count, shape):
     return (count, 1) if shape > 1.3 else (1, count)
 
 
+def is_thin(width, height):
+    """Have the two directions scales of their own?"""
+    return height < THIN * width
+
+
 def panels(count, box, beside):
     """(figure, axes) of equal scale unless they would be too thin, arranged so that the pictures are large, with room `beside` each
     [inch]."""
     width, height = box[1] - box[0], box[3] - box[2]
-    thin = height < THIN * width
+    thin = is_thin(width, height)
     height = max(height, THIN * width)
     rows, columns = _arrangement(count, width / height)
     panel_width = 6.4 if columns == 1 else 4.0

@@ -18,6 +18,7 @@ STANDS_OUT = 2.5   # if by so many times what it does at four fifths of the poin
 USUAL = 80         # percentile
 MOST_TIMES = 6
 PANEL = 4.1        # width [inch]
+LOWEST = 1.0       # height [inch]
 PANELS_IN_A_ROW = 3
 SPEED_MAP = "plasma"
 LEVEL_LINES = {"colors": "tab:blue", "linewidths": 0.35}
@@ -87,7 +88,7 @@ def _colour(axes, solids, speed):
     return drawn
 
 
-def _box(gas, solids):
+def box(gas, solids):
     """((x_a, x_b), (y_a, y_b)) of all gases, and of solids beside them."""
     shown = [grid for one in (gas, *solids) for grid in one.grids]
     return tuple((min(values.min() for values in x), max(values.max() for values in x))
@@ -103,12 +104,17 @@ def draw(axes, gas, solids, size):
         if grid.level > 0:
             axes.add_collection(LineCollection(mesh.level_outline(grid), **LEVEL_LINES), autolim=False)
     drawn = _colour(axes, solids, size.speed)
-    box = _box(gas, solids)
-    axes.set_xlim(*box[0])
-    axes.set_ylim(*box[1])
-    axes.set_aspect("equal")
+    shown = box(gas, solids)
+    axes.set_xlim(*shown[0])
+    axes.set_ylim(*shown[1])
+    axes.set_aspect("auto" if fields.is_thin(*map(np.ptp, shown)) else "equal")
     axes.set_title(units.moment(gas.t), loc="left")
     return drawn
+
+
+def height_of_panel(width, shown):
+    """Of a panel so wide [inch] that shows this box: low ones keep room for their numbers."""
+    return max(width * np.ptp(shown[1]) / np.ptp(shown[0]), LOWEST)
 
 
 def _chosen(gas):
@@ -137,8 +143,8 @@ def _picture(gas, solids, chosen, natural):
     size = replace(size, speed=0.0) if rests else size
     columns = 2 if len(chosen) == 4 else min(len(chosen), PANELS_IN_A_ROW)
     rows = -(-len(chosen) // columns)
-    box = _box(gas.outputs[0], [one.outputs[0] for one in solids])
-    height = max(PANEL * np.ptp(box[1]) / np.ptp(box[0]), 1.0)
+    shown = box(gas.outputs[0], [one.outputs[0] for one in solids])
+    height = height_of_panel(PANEL, shown)
     figure, axes = pyplot.subplots(rows, columns, figsize=(PANEL * columns + 0.8, (height + 0.45) * rows + 0.3), squeeze=False)
     for one in axes.flat[len(chosen):]:
         one.set_visible(False)

@@ -7,7 +7,7 @@ from matplotlib import pyplot
 from matplotlib.colors import LogNorm
 
 from fsi_launch.plot.look import style, units
-from fsi_launch.plot.one_run import schlieren
+from fsi_launch.plot.one_run import fields, schlieren
 from fsi_launch.plot.reading import data
 from fsi_launch.plot.several_runs import outlines, several
 
@@ -59,6 +59,7 @@ def _difference(figure, axes, gases, bodies):
                 axes.plot(*curve.T, line, color="black", linewidth=0.8)
     axes.set_xlim(x1.min(), x1.max())
     axes.set_ylim(x2.min(), x2.max())
+    axes.set_aspect("auto" if fields.is_thin(np.ptp(x1), np.ptp(x2)) else "equal")
     axes.set_title(f"difference of the densities, mean {np.nanmean(apart):.1e}", loc="left")
     bar = figure.colorbar(drawn, ax=axes, shrink=0.7, aspect=24, pad=0.01)
     bar.outline.set_visible(False)
@@ -91,8 +92,7 @@ def pictures(series, told):
     finest = max(range(len(runs)), key=lambda k: runs[k][0].outputs[0].background().x1.size)
     size = schlieren.scales([moment[finest][0] for moment in moments], [moment[finest][1] for moment in moments])
     columns = len(runs) + (1 if len(runs) == 2 else 0)
-    background = moments[0][0][0].background()
-    height = PANEL * np.ptp(background.x2) / np.ptp(background.x1)
+    height = schlieren.height_of_panel(PANEL, schlieren.box(*moments[0][0]))
     figure, axes = pyplot.subplots(len(moments), columns, figsize=(PANEL * columns + 1, (height + 0.3) * len(moments)),
                                    squeeze=False)
     for row, moment in zip(axes, moments):

@@ -85,6 +85,16 @@ TEST(OverrideMistake, NamesTheOptionAndWhatToWrite) {
   EXPECT_EQ(overriding_mistake({"time=[1, 2]"}), "--set time: must be a section of keys, is a list of 2");
 }
 
+TEST(OverrideMistake, OfTheGasOfACaseWithSeveralNamesThem) {
+  try {
+    load_case(FSI_ROOT "/configs/piston_between_gases.yaml", {"fluid.gamma=1.2"});
+    FAIL() << "no mistake";
+  } catch (const UserMistake& mistake) {
+    EXPECT_STREQ(mistake.what(),
+                 "--set fluid.gamma: the case has several gases, left, right; write `fluids.NAME.gamma`");
+  }
+}
+
 TEST(OverrideMistake, OfALawNamesTheLawsThereAre) {
   EXPECT_EQ(overriding_mistake({}, {"solid=neohookean"}),
             "--solid solid=neohookean: `neohookean` does not exist here; did you mean `neo_hookean`? (one of "
