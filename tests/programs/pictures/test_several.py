@@ -54,6 +54,13 @@ class Outlines(unittest.TestCase):
         self.assertAlmostEqual(np.hypot(*np.diff(curve, axis=0).T).sum(), 6)
         self.assertTrue((curve[0] == curve[-1]).all())
 
+    def test_one_side_of_a_body_is_compared_with_the_whole_rim_of_another(self):
+        rim, side = outlines.outline([block()]), np.array([[1.1, 0], [1.1, 2]])
+        for one, other in ((rim, side), (side, rim)):
+            self.assertAlmostEqual(outlines.apart(one, other), 0.1)
+        self.assertAlmostEqual(outlines.apart(side, side + [0.2, 0]), 0.2)
+        self.assertAlmostEqual(outlines.apart(rim, 2 * rim), np.hypot(1, 2))
+
     def test_a_body_of_several_grids_has_the_side_that_does_not_lie_within_it(self):
         for turned in (False, True):
             curve = outlines.outline(arch(turned))

@@ -17,6 +17,7 @@ from fsi_launch.telling import tell
 HEADING = ("solid", "run", "other run", "t [time]", "largest distance [length]")
 COLOURS = ("#2b5ea8", "#1d8a3d", "#b5281e", "#8a5a00", "#7a3fa0", "#3b3b3b")
 LINES = ("-", "--", "-.", ":")
+CLOSED = 1e-9       # part of its length by which a closed curve's ends are apart
 PALEST = 0.4        # part of its colour that the earliest outline has, the rest is white
 AXES = (400, 310)   # size of the axes in the picture at most [points]
 NARROWEST = 160     # that they are, and 0.5 of it their least height [points]
@@ -77,6 +78,17 @@ def distance(points, curve):
         part = np.clip(((point - a) * along).sum(axis=1) / length2, 0, 1)
         worst = max(worst, np.hypot(*(a + part[:, None] * along - point).T).min())
     return worst
+
+
+def apart(one, other):
+    """Largest distance of two outlines. Of a rigid body before a gas no more may be known than the side that meets it: that is compared with
+    the whole rim of another run's, not the rim with it."""
+    ways = [(a, b) for a, b in ((one, other), (other, one)) if _is_closed(b) or not _is_closed(a)]
+    return max(distance(a, b) for a, b in ways)
+
+
+def _is_closed(curve):
+    return np.hypot(*(curve[-1] - curve[0])) <= CLOSED * _length(curve)
 
 
 # --- comparison
@@ -158,8 +170,7 @@ def table(name, bodies, names):
     for (a, label), (b, other) in zip(zip(bodies, names), zip(bodies[1:], names[1:])):
         for t in a.outlines:
             if t > 0 and (curve := several.at(b.outlines, t)) is not None:
-                apart = max(distance(a.outlines[t], curve), distance(curve, a.outlines[t]))
-                rows.append((name, label, other, t, apart))
+                rows.append((name, label, other, t, apart(a.outlines[t], curve)))
     return rows
 
 
@@ -178,6 +189,6 @@ def pictures(series, told, out, but=()):
             rows += table(name, bodies, told)
     if rows:
         several.write_table(HEADING, rows, out / "outlines.csv")
-        for name, label, other, t, apart in rows:
-            far = f"{apart:.2e} {units.symbol('length')}".rstrip()
+        for name, label, other, t, largest in rows:
+            far = f"{largest:.2e} {units.symbol('length')}".rstrip()
             print(f"{name}: outlines of {label} and {other} at {units.moment(t)} are up to {far} apart")
