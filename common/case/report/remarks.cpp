@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/case/check/given/given.hpp"
 #include "common/case/check/given/given_states.hpp"
+#include "common/case/check/given/sample.hpp"
 #include "common/case/schema/laws.hpp"
 
 namespace fsi {
@@ -38,6 +40,21 @@ bool presses_from_all_sides(const Case& problem, const FluidSpec& fluid) {
   return everywhere;
 }
 
+/// Does gas go out by a side of an upright rectangle at all times and places, where its state says so?
+bool leaves_by(const Case& problem, const FluidSpec& fluid, Side side) {
+  const auto& state = fluid.boundary[static_cast<std::size_t>(side)].state;
+  if (!state || fluid.grid.kind != GridSpec::Kind::rectangle || fluid.grid.rotation != 0) return false;
+  const bool along_x = side == Side::left || side == Side::right;
+  const double outward = side == Side::left || side == Side::bottom ? -1 : 1;
+  for (int k = 0; k < times_of_known_values(fluid, side, *state); ++k) {
+    const double t = looked_at_time(problem, k);
+    for (const Vec2& x : sample_points(fluid.grid, side, t)) {
+      if (!(outward * (along_x ? state->v1 : state->v2)(x[0], x[1], t) > 0)) return false;
+    }
+  }
+  return true;
+}
+
 }  // namespace
 
 double pressure_over_stiffness(const Case& problem, const SolidSpec& solid) {
@@ -65,6 +82,13 @@ std::vector<std::string> remarks_on(const Case& problem) {
                       solid.name));
   }
   for (const FluidSpec& fluid : problem.fluids) {
+    for (const Side side : all_sides) {
+      const BoundarySpec& spec = fluid.boundary[static_cast<std::size_t>(side)];
+      if (spec.kind != BoundaryKind::inflow || !leaves_by(problem, fluid, side)) continue;
+      remarks.push_back(fmt::format(
+          "{}.boundary.{}: the state of this inflow goes out of the gas; is the sign of its velocity right?",
+          fluid.path, name_of(side)));
+    }
     if (!presses_from_all_sides(problem, fluid)) continue;
     remarks.push_back(fmt::format(
         "{}.p_e is 0: elastic bodies are free of stress in a vacuum, and the whole pressure of the gas "
