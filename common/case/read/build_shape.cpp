@@ -9,6 +9,10 @@
 #include <filesystem>
 #include <limits>
 #include <optional>
+#include <regex>
+#include <sstream>
+#include <string>
+#include <string_view>
 #include <utility>
 
 #include "common/case/document/fluid_sections.hpp"
@@ -309,8 +313,24 @@ std::vector<BodyFittedSpec> build_fitted_grids(const Reader& reader, const Owner
 
 namespace {
 
+/// The unit that the first lines of a file name for its columns where it is not m, as x_mm, x [mm] and x/mm do; "": none.
+std::string unit_of_columns(const std::string& text) {
+  static const std::regex column(R"((^|[^a-z])x[a-z0-9]*\s*[_/(\[]\s*(um|µm|mm|cm|km|in|ft)([^a-z]|$))",
+                                 std::regex::icase);
+  std::istringstream lines(text);
+  constexpr std::string_view number = "+-.0123456789";
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t first = line.find_first_not_of(" \t\r");
+    if (first != std::string::npos && number.find(line[first]) != std::string_view::npos) break;
+    constexpr std::size_t longest = 200;  // of a heading
+    line.resize(std::min(line.size(), longest));
+    if (std::smatch found; std::regex_search(line, found, column)) return found[2];
+  }
+  return "";
+}
+
 /// `through: [[x, y], ..]` in the place of `file: NAME` in the shape at `owner`.
-void inline_points(Node& shape, const std::string& owner, const std::string& folder) {
+void inline_points(Node& shape, const std::string& owner, const std::string& folder, bool in_metres) {
   for (config::Entry& entry : shape.entries) {
     if (entry.key != "file" || !entry.value.is_scalar()) continue;
     if (shape.find("through") != nullptr)
@@ -322,6 +342,13 @@ void inline_points(Node& shape, const std::string& owner, const std::string& fol
       fail(entry.value.place, owner + ".file",
            fmt::format("{} {}; its path counts from the folder of the case file", in_ticks(path),
                        file.trouble));
+    }
+    if (const std::string unit = unit_of_columns(file.text); in_metres && !unit.empty()) {
+      fail(entry.value.place, owner + ".file",
+           fmt::format(
+               "the heading of {} says {}, but with `units: SI` its numbers are metres: write them so, "
+               "and m in the heading (`fsi new NAME --outline FILE` does)",
+               in_ticks(path), unit));
     }
     Node list{.kind = Node::Kind::list, .place = entry.value.place, .entries = {}};
     const std::vector<Vec2> points = grid::points_from_csv(file.text, path);
@@ -347,10 +374,12 @@ void inline_points(Node& shape, const std::string& owner, const std::string& fol
 }  // namespace
 
 void inline_point_files(Node& root, const std::string& folder) {
+  const Node* units = root.find("units");
+  const bool in_metres = units != nullptr && units->text == "SI";
   if (Node* solids = root.find("solids")) {
     for (config::Entry& solid : solids->entries) {
       if (Node* shape = solid.value.find("shape"))
-        inline_points(*shape, fmt::format("solids.{}.shape", solid.key), folder);
+        inline_points(*shape, fmt::format("solids.{}.shape", solid.key), folder, in_metres);
     }
   }
   for (const FluidSection<Node>& fluid : fluid_sections(root)) {
@@ -358,7 +387,7 @@ void inline_point_files(Node& root, const std::string& folder) {
     if (grids == nullptr) continue;
     for (std::size_t k = 0; k < grids->items.size(); ++k) {
       if (Node* shape = grids->items[k].find("shape"))
-        inline_points(*shape, fmt::format("{}.body_fitted[{}].shape", fluid.path, k), folder);
+        inline_points(*shape, fmt::format("{}.body_fitted[{}].shape", fluid.path, k), folder, in_metres);
     }
   }
 }

@@ -18,7 +18,8 @@ struct Spline {
                   .element = &point_element},
       schema::Key{.name = "file",
                   .type = schema::Type::text,
-                  .meaning = "CSV file with the points, x, y on each line; relative to the case file",
+                  .meaning = "CSV file with the points, x, y on each line, in the unit of the case; relative "
+                             "to the case file",
                   .fallback = "from `through`"},
       schema::Key{
           .name = "corner_angle",

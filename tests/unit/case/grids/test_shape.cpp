@@ -93,6 +93,33 @@ TEST(CaseShape, PointsOfAFileBecomePartOfTheResolvedCase) {
   EXPECT_EQ(from_file.resolved.find("outline.csv"), std::string::npos);
 }
 
+TEST(CaseShape, AHeadingInAnotherUnitThanTheCasesIsRefused) {
+  const tests::TemporaryFolder folder;
+  const std::string points = "0.8, 0\n0, 0.9\n-0.8, 0\n0, -0.9\n";
+  const auto with = [&](const std::string& heading, const std::string& units) {
+    folder.write("outline.csv", heading + "\n" + points);
+    try {
+      load_case(folder.write("case.yaml", units + disk_case("{kind: spline, file: outline.csv}")),
+                {"grid.factor=2"});
+    } catch (const UserMistake& mistake) {
+      return std::string(mistake.what());
+    }
+    return std::string();
+  };
+  const std::string SI = "units: SI\n";
+  for (const char* heading :
+       {"x_mm,y_mm", "# points x, y\nX [mm]; Y [mm]", "# x/mm y/mm", "x1 (mm) x2 (mm)"}) {
+    EXPECT_NE(with(heading, SI).find("says mm, but with `units: SI` its numbers are metres"),
+              std::string::npos)
+        << heading << with(heading, SI);
+    EXPECT_EQ(with(heading, ""), "") << heading;
+  }
+  for (const char* heading :
+       {"x, y", "x_m,y_m", "# points x, y [m] of the outline in mm.csv", "x [m]; y [m]", "index mm"})
+    EXPECT_EQ(with(heading, SI), "") << heading;
+  EXPECT_EQ(with("# " + std::string(1'000'000, 'x'), SI), "");
+}
+
 /// Lines of a disk of radius 0.9 down to radius 0.2.
 const std::string rings = "map: [(0.9 - 0.7 * s) * cos(2 * pi * r), (0.9 - 0.7 * s) * sin(2 * pi * r)]";
 
