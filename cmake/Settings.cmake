@@ -51,6 +51,7 @@ if(FSI_SANITIZE)
   target_compile_options(fsi_settings INTERFACE -fsanitize=address,undefined
     -fno-sanitize=null,alignment,vptr,object-size,pointer-overflow,nonnull-attribute,returns-nonnull-attribute
     -fno-sanitize-recover=undefined -fno-omit-frame-pointer
+    -Og  # takes no longer to compile, and what is compiled is ten times as fast: libraries of templates
     -g1)  # names and lines for the reports; more would double the size of everything
   target_link_options(fsi_settings INTERFACE -fsanitize=address,undefined)
 endif()

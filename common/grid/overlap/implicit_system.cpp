@@ -86,8 +86,8 @@ void ImplicitSystem::factor(std::span<const InterpolationList> lists, std::span<
   estimate();
 }
 
-/// Hager's method for the largest row sum of A^-1 D, D the weights on known values: a row of it is known
-/// after one solve with A^T; one with A says which other row is larger.
+/// Hager's method for the largest row sum of A^-1 D, D the weights on known values and what an equation is off by itself: a
+/// row of it is known after one solve with A^T; one with A says which other row is larger.
 void ImplicitSystem::estimate() {
   const auto n = static_cast<Eigen::Index>(entries_.size());
   amplification_ = std::numeric_limits<double>::infinity();
@@ -96,7 +96,7 @@ void ImplicitSystem::estimate() {
   through_.clear();
   if (factors_->lu.info() != Eigen::Success) return;
   Column known(n);
-  for (Eigen::Index k = 0; k < n; ++k) known[k] = entries_[static_cast<std::size_t>(k)].on_known;
+  for (Eigen::Index k = 0; k < n; ++k) known[k] = entries_[static_cast<std::size_t>(k)].on_known + own_error;
   Column unit = Column::Constant(n, 1.0 / static_cast<double>(n));
   constexpr int most_rows = 6;
   double largest = 0;

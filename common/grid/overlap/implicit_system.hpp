@@ -35,9 +35,14 @@ class ImplicitSystem {
   ImplicitSystem(std::span<const InterpolationList> lists, std::span<const Layout> layouts);
 
   bool factored() const { return factors_ != nullptr; }
+  /// What an equation is off by itself, as a part of the values: a smooth solution of 30 points to a wave is interpolated about
+  /// as well [-]. It is in the amplification, so that points which have known values by weights of round-off only, as where points
+  /// of two grids coincide and are each other's donors, are found whatever the processor makes of their positions.
+  static constexpr double own_error = 1e-4;
+
   /// How much larger than its cause an error of known values may arrive: the largest sum of sizes of the
-  /// weights of a point on known values, bounded from estimates of the norm of A^-1 (Hager 1984). 1 where no
-  /// weight is negative, infinite where A has no inverse.
+  /// weights of a point on known values and of `own_error`, from estimates of the norm of A^-1 (Hager 1984). About 1 where no
+  /// weight is negative and known values are near, infinite where A has no inverse.
   double amplification() const { return amplification_; }
   /// The point that is worst off.
   ImplicitPoint worst() const { return entries_[worst_].place; }
