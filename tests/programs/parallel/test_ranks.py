@@ -158,13 +158,6 @@ class Layout(OnRanks):
     def test_periods_across_the_rows(self):
         self.assert_layouts("isentropic_vortex", "--set", "grid.factor=2", "--set", "time.end=0.2", numbers_of_ranks=(3, 7), every=2)
 
-    def test_sources_of_a_chosen_solution(self):
-        self.assert_layouts("manufactured_piston", "--set", "grid.factor=1", "--set", "time.end=0.1")
-
-    def test_restart_on_other_ranks(self):
-        self.assert_restarts_on_other_ranks("elastic_piston", "--set", "grid.factor=2", "--set", "time.end=0.3", "--set",
-                                            "output.times=[0.1, 0.3]", "--set", "output.checkpoint_every=10")
-
 
 class LayoutOfSolids(OnRanks):
     who = ("solid",)
@@ -175,13 +168,6 @@ class LayoutOfSolids(OnRanks):
 
     def test_solid_without_a_gas(self):
         self.assert_layouts("solid_manufactured", "--set", "time.end=0.05", "--set", "output.times=[0.05]", numbers_of_ranks=(2, 4))
-
-    def test_sources_of_a_chosen_solution(self):
-        self.assert_layouts("manufactured_piston", "--set", "grid.factor=1", "--set", "time.end=0.1")
-
-    def test_restart_on_other_ranks(self):
-        self.assert_restarts_on_other_ranks("elastic_piston", "--set", "grid.factor=2", "--set", "time.end=0.3", "--set",
-                                            "output.times=[0.1, 0.3]", "--set", "output.checkpoint_every=10")
 
 
 class LayoutOfABar(OnRanks):
@@ -221,6 +207,17 @@ class LayoutOfAnEllipse(OnRanks):
         self.assertEqual(*reasons)
 
 
+class LayoutOfAPiston(OnRanks):
+    who = ("fluid", "solid")
+
+    def test_sources_of_a_chosen_solution(self):
+        self.assert_layouts("manufactured_piston", "--set", "grid.factor=1", "--set", "time.end=0.1")
+
+    def test_restart_on_other_ranks(self):
+        self.assert_restarts_on_other_ranks("elastic_piston", "--set", "grid.factor=2", "--set", "time.end=0.3", "--set",
+                                            "output.times=[0.1, 0.3]", "--set", "output.checkpoint_every=10")
+
+
 class LayoutOfBoth(OnRanks):
     who = ("fluid", "ellipse")
 
@@ -228,7 +225,7 @@ class LayoutOfBoth(OnRanks):
         self.assert_layouts("shock_ellipse", "--set", "grid.factor=2", "--set", "time.end=0.4", "--set", "output.times=[0.4]")
 
 
-class Faults(OnRanks):
+class Losing(OnRanks):
     lasting = LASTING
 
     def ranks_of(self, run):
@@ -252,6 +249,18 @@ class Faults(OnRanks):
         self.assertIsNone(memory_of(run))
         return run.summary()["reason"]
 
+
+class Faults(Losing):
+    def test_killed_rank(self):
+        self.assertRegex(self.lose(1, signal.SIGKILL), rf"rank 1 of {self.who[0]}")
+
+    def test_killed_first_rank(self):
+        self.assertIn(f"lost {self.who[0]}", self.lose(0, signal.SIGKILL))
+
+
+class FaultsOfLaunchers(Losing):
+    """To whom the ranks of gases and solids are the same."""
+
     def test_memory_of_killed_launchers_is_freed_by_the_next_run(self):
         run = self.launch(*self.lasting, script=PATIENT)
         _, mpirun = self.ranks_of(run)
@@ -268,12 +277,6 @@ class Faults(OnRanks):
         other.process.send_signal(signal.SIGTERM)
         self.assertEqual(other.wait(), 143, other.stderr)
         self.assert_nothing_left(run)
-
-    def test_killed_rank(self):
-        self.assertRegex(self.lose(1, signal.SIGKILL), rf"rank 1 of {self.who[0]}")
-
-    def test_killed_first_rank(self):
-        self.assertIn(f"lost {self.who[0]}", self.lose(0, signal.SIGKILL))
 
     def test_stopped_rank(self):
         self.assertRegex(self.lose(1, signal.SIGSTOP), rf"rank 1 of {self.who[0]} \(process \d+\): it has been stopped for 4\.?\d* s")
