@@ -96,10 +96,14 @@ struct BodyFittedSpec {
 };
 
 struct GasScheme {
+  /// Mach number from which on a shock along grid lines breaks up without viscosity (docs/results.md, cylinders in fast streams).
+  static constexpr double strong_shock = 2;
+
   RiemannSolver riemann = RiemannSolver::roe;
   GasLimiter limiter = GasLimiter::minmod;
-  double entropy_fix = 0.1;     ///< width of the sonic-point fix, part of a [-]
-  double shock_viscosity = 0;   ///< coefficient of max(0, -div v) on undivided differences [-]
+  double entropy_fix = 0.1;  ///< width of the sonic-point fix, part of a [-]
+  /// Coefficient of max(0, -div v) on undivided differences [-]; left open: none, and strong shocks are noticed.
+  std::optional<double> shock_viscosity;
   double linear_diffusion = 0;  ///< of undivided second differences [1/time]
 };
 

@@ -76,6 +76,8 @@ std::string to_json(const Part& part) {
   if (part.overlap) json["overlap"] = overlap_json(*part.overlap);
   if (part.noise) json["noise"] = finding_json(*part.noise, "noisy");
   if (part.disagreement) json["disagreement"] = finding_json(*part.disagreement, "large");
+  if (part.strong_shock && part.strong_shock->size > 0)
+    json["strong_shock"] = finding_json(*part.strong_shock, "strong");
   constexpr int indent = 2;
   return json.dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }

@@ -29,10 +29,10 @@ struct InterfaceExtremes {
   double traction_scale = 0;  ///< largest pressure of the gas at an interface [pressure]
 };
 
-/// The worst that was found in the fields: a ripple of the grid's scale (common/grid/ripple.hpp), or a difference
-/// of two grids where both compute (common/grid/overlap/disagreement.hpp).
+/// The worst that was found in the fields: a ripple of the grid's scale (common/grid/ripple.hpp), a difference of two grids where
+/// both compute (common/grid/overlap/disagreement.hpp), or a shock (fluid_solver/measures/strong_shocks.hpp).
 struct Finding {
-  double size = 0;    ///< over the range of the field [-]
+  double size = 0;    ///< over the range of the field; of a shock its Mach number [-]
   bool much = false;  ///< so large that somebody should know
   std::string field, grid;
   std::array<int, 2> point = {};
@@ -85,6 +85,8 @@ struct Part {
   std::optional<Overlap> overlap;                     ///< of programs with overlapping grids
   std::optional<Finding> noise;                       ///< the worst since the start, of programs with fields
   std::optional<Finding> disagreement;  ///< the worst since the start, of a gas with several grids
+  std::optional<Finding>
+      strong_shock;  ///< the worst since the start, of a gas whose case leaves its viscosity open
 };
 
 /// The part as JSON text; a number that is not finite becomes null.

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "common/case/case.hpp"
 #include "common/grid/overlap/disagreement.hpp"
 #include "common/grid/ripple.hpp"
 #include "common/program/build_id.hpp"
@@ -39,7 +40,7 @@ wire::Telemetry telemetry_of(const Setup& setup, const io::Part& part, const Par
   telemetry.compute_s = part.compute_s;
   telemetry.wait_s = part.wait_s;
   telemetry.health = solver.health();
-  for (const auto& found : {part.noise, part.disagreement}) {
+  for (const auto& found : {part.noise, part.disagreement, part.strong_shock}) {
     if (!found || !found->much) continue;
     if (!telemetry.noise.empty()) telemetry.noise += "; ";
     telemetry.noise += found->words;
@@ -88,6 +89,7 @@ void watch_noise(io::Part& part, Participant& solver, const io::Standing& at, bo
   solver.look_for_noise(at.t);
   note(part.noise, solver.noise(), grid::noisy, "noise of the grid's scale");
   note(part.disagreement, solver.disagreement(), grid::torn, "grids disagree where they overlap");
+  note(part.strong_shock, solver.strong_shock(), GasScheme::strong_shock, "without shock viscosity");
 }
 
 void participate(const Setup& setup, io::Part& part, Participant& solver) {

@@ -72,6 +72,8 @@ class Participant {
   virtual const grid::Watch* noise() const { return nullptr; }
   /// Where its grids disagree; null for a solver without grids that overlap.
   virtual const grid::Watch* disagreement() const { return nullptr; }
+  /// The strongest shock of a gas without viscosity; null for a solver that need not look for one.
+  virtual const grid::Watch* strong_shock() const { return nullptr; }
   /// Errors, counters and budgets at the end of the run.
   virtual void report(double /*t*/, io::Part& /*part*/) const {}
 

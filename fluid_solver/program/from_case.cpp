@@ -71,7 +71,7 @@ GasOptions options_of(const Case& problem, const FluidSpec& spec) {
           .riemann = scheme.riemann,
           .limiter = scheme.limiter,
           .entropy_fix = scheme.entropy_fix,
-          .shock_viscosity = scheme.shock_viscosity,
+          .shock_viscosity = scheme.shock_viscosity.value_or(0),
           .linear_diffusion = scheme.linear_diffusion,
           .wave_curve = problem.interface.riemann == GasResponse::exact,
           .refine = {refine.levels, refine.variable, refine.threshold, refine.buffer, refine.every},

@@ -213,6 +213,7 @@ void FluidParticipant::archive(Archive& archive) {
   if (probe_table_) archive.inside("probes", [&] { probe_table_->archive(archive); });
   archive.inside("ripples", [&] { ripples_->archive(archive); });
   if (disagreement_) archive.inside("disagreement", [&] { disagreement_->archive(archive); });
+  if (shocks_) archive.inside("strong_shocks", [&] { shocks_->archive(archive); });
   if (budget_) archive.inside("budget", [&] { budget_->archive(archive); });
   if (budget_table_) archive.inside("budget_table", [&] { budget_table_->archive(archive); });
 }
@@ -275,6 +276,8 @@ void FluidParticipant::watch_fields() {
       {.components = {"v1", "v2"}, .first = 1, .floor = small * sound},
       {.components = {"p"}, .first = 3, .floor = small * start.min_p}};
   ripples_.emplace(quantities, names);
+  if (!spec_.scheme.shock_viscosity && spec_.scheme.limiter != GasLimiter::none)
+    shocks_.emplace(spec_.gamma, names);
   if (const grid::CompositeGrid* composite = solver_.composite()) {
     names.resize(static_cast<std::size_t>(composite->grids()));
     disagreement_.emplace(quantities, std::move(names));
@@ -287,6 +290,7 @@ void FluidParticipant::look_for_noise(double t) {
   for (int k = 0; k < solver_.grids(); ++k)
     watched_.push_back({.q = solver_.state(k), .x = solver_.grid(k).x(), .points = &solver_.valid(k)});
   ripples_->look(watched_, t);
+  if (shocks_) shocks_->look(watched_, t);
   if (!disagreement_) return;
   const grid::CompositeGrid& composite = *solver_.composite();
   watched_.resize(static_cast<std::size_t>(composite.grids()));

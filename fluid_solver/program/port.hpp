@@ -16,6 +16,7 @@
 #include "common/program/participant.hpp"
 #include "fluid_solver/gas_solver.hpp"
 #include "fluid_solver/measures/budget.hpp"
+#include "fluid_solver/measures/strong_shocks.hpp"
 #include "fluid_solver/program/crew.hpp"
 
 namespace fsi::fluid {
@@ -39,6 +40,7 @@ class FluidParticipant final : public Participant {
   void look_for_noise(double t) override;
   const grid::Watch* noise() const override { return &*ripples_; }
   const grid::Watch* disagreement() const override { return disagreement_ ? &*disagreement_ : nullptr; }
+  const grid::Watch* strong_shock() const override { return shocks_ ? &*shocks_ : nullptr; }
   void report(double t, io::Part& part) const override;
 
  private:
@@ -76,7 +78,8 @@ class FluidParticipant final : public Participant {
   std::optional<io::CsvWriter> budget_table_;
   std::optional<grid::RippleWatch> ripples_;
   std::optional<grid::DisagreementWatch> disagreement_;  ///< of grids that overlap
-  std::vector<grid::WatchedGrid> watched_;               ///< work memory
+  std::optional<ShockWatch> shocks_;        ///< where the case leaves open whether there is a viscosity
+  std::vector<grid::WatchedGrid> watched_;  ///< work memory
 
   void open_budget();
   std::vector<Strip> strips_of_tables() const;

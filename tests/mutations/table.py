@@ -144,6 +144,8 @@ MUTATIONS = [
      "k * g21 * g12 + c * g22 * g11", "k * g21 * g12 - c * g22 * g11", "test_laws", "EveryLaw*"),
     ("P of laws of shape and area", "solid_solver/laws/shape_and_area.hpp",
      "mu * F.a21 - c * F.a12", "mu * F.a21 + c * F.a12", "test_laws", "EveryLaw*"),
+    ("strong shocks: expansions are none", "fluid_solver/measures/strong_shocks.cpp",
+     "return jump.slowed > along_the_line * slows", "return -jump.slowed > along_the_line * slows", "test_fluid", "StrongShocks*"),
     # --- solid: sweep, metrics, dissipation, time step
     ("solid's face problem: coupling of the components", f"{SOLID}/riemann.hpp",
      "(z22 * df1 - z12 * df2)", "(z22 * df1 + z12 * df2)", "test_solid_kernels", "Eq34*"),

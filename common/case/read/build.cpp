@@ -68,7 +68,8 @@ GasScheme gas_scheme_of(const Node& node) {
   Reader::assign(node, "riemann", result.riemann);
   Reader::assign(node, "limiter", result.limiter);
   Reader::assign(node, "entropy_fix", result.entropy_fix);
-  Reader::assign(node, "shock_viscosity", result.shock_viscosity);
+  if (node.find("shock_viscosity") != nullptr)
+    Reader::assign(node, "shock_viscosity", result.shock_viscosity.emplace());
   Reader::assign(node, "linear_diffusion", result.linear_diffusion);
   return result;
 }

@@ -15,9 +15,7 @@ namespace fsi {
 
 namespace {
 
-/// From this Mach number on a shock that lies along grid lines breaks up without viscosity (docs/results.md, cylinders in fast
-/// streams).
-constexpr double strong_shock = 2;
+constexpr double strong_shock = GasScheme::strong_shock;
 constexpr double usual_viscosity = 0.5;  // of the published runs [-]
 constexpr double rounding = 1 - 1e-9;    // of what a case computes: a shock of just that Mach number counts
 constexpr double infinite = std::numeric_limits<double>::infinity();

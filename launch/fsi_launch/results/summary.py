@@ -49,7 +49,8 @@ def _ordered(errors):
 
 
 def _worst(parts, key):
-    """The worst that any program found in its fields, with its name, or None: ripples (`noise`), grids that differ (`disagreement`)."""
+    """The worst that any program found in its fields, with its name, or None: ripples (`noise`), grids that differ (`disagreement`), shocks
+    of gases without viscosity (`strong_shock`)."""
     found = [{"value": one["value"], "participant": name} | one for name, part in parts.items() if (one := part.get(key))]
     return max(found, key=lambda one: one["value"] or 0, default=None)
 
@@ -91,7 +92,7 @@ def merge(parts, case, status, reason, wall_s, known=None, done=()):
         part = parts.get(name, {"status": "completed" if name in done and status != "failed" else "lost"})
         summary["participants"][name] = {"program": program} | {
             key: part[key] for key in PARTICIPANT_KEYS if key in part}
-    for key in ("noise", "disagreement"):
+    for key in ("noise", "disagreement", "strong_shock"):
         if found := _worst(parts, key):
             summary[key] = found
     if overlap := {name: part["overlap"] for name, part in parts.items() if part.get("overlap")}:
@@ -257,6 +258,17 @@ def disagreement_in_words(summary):
             "do not trust the flow there: a finer grid resolves it (docs/output.md, disagreement)")
 
 
+def strong_shock_in_words(summary):
+    """One line where a gas without shock viscosity has a shock that such a gas does not keep, or ""."""
+    found = summary.get("strong_shock") or {}
+    if not found.get("strong"):
+        return ""
+    gas = found["participant"]
+    scheme = f"{gas if gas == 'fluid' else f'fluids.{gas}'}.scheme"
+    return (f"a shock of Mach {found['value']:.2g} along grid lines of {gas}, {_place_in_words(found)}, t = {found['t']:.4g}: such a shock may break up; "
+            f"write {scheme}.shock_viscosity: 0.5, or 0 to say that it is meant (docs/theory_fluid.md, shocks along grid lines)")
+
+
 MISSED_MASS = 0.05      # part of the mass that a gas had at the start
 MISSED_MOMENTUM = 0.05  # part of the momentum that the gas gave a solid
 ROUND_OFF = 1e-12       # part of pressure x speed x time^2: what the gas presses in the run on a side as long as its way
@@ -372,7 +384,7 @@ def describe(summary, directory, width=None):
     if counted := {key: value for key, value in summary["counters"].items() if value and key not in ROUTINE}:
         lines.append("  counters: " + ", ".join(f"{key.replace('_', ' ')} {value:g}" for key, value in counted.items()))
     lines += overlap_lines(summary) + mass_lines(summary) + momentum_lines(summary) + turned_lines(summary, directory)
-    lines += [f"  warning: {said}" for said in (noise_in_words(summary), disagreement_in_words(summary)) if said]
+    lines += [f"  warning: {said}" for said in (noise_in_words(summary), disagreement_in_words(summary), strong_shock_in_words(summary)) if said]
     if summary.get("expectations"):
         met = sum(entry["met"] for entry in summary["expectations"])
         lines.append(f"  expectations: {met} of {len(summary['expectations'])} met")

@@ -57,6 +57,24 @@ solids:
     boundary: {left: {kind: interface, fluid: left}, right: {kind: interface, fluid: right}, bottom: slip_wall, top: slip_wall}
 """
 
+# A piston whose far end is at rest first and then driven at 3.5 times the speed of sound: nothing in the case says so before it is run.
+LATE = """
+time: {end: 0.4}
+fluid:
+  p_e: 1
+  grid: {x: [0, 2], y: [0, 0.2], spacing: 0.025}
+  boundary: {left: {kind: interface, solid: piston}, right: outflow, bottom: slip_wall, top: slip_wall}
+  initial: {rho: 1.4, v: [0, 0], p: 1}
+solids:
+  piston:
+    law: linear_elastic
+    rho: 10
+    lambda: 100
+    mu: 100
+    grid: {x: [-0.3, 0], y: [0, 0.2], spacing: 0.025}
+    boundary: {left: {kind: displacement, value: ["3.5 * (t < 0.2 ? 0 : t < 0.3 ? 5 * (t - 0.2)^2 : t - 0.25)", 0]}, right: interface, bottom: slip_wall, top: slip_wall}
+"""
+
 
 class Wake(unittest.TestCase):
     def setUp(self):
@@ -65,6 +83,7 @@ class Wake(unittest.TestCase):
         self.folder = Path(scratch.name)
         (self.folder / "wake.yaml").write_text(CASE, encoding="utf-8")
         (self.folder / "plate.yaml").write_text(PLATE, encoding="utf-8")
+        (self.folder / "late.yaml").write_text(LATE, encoding="utf-8")
 
     def run_with(self, factor, *settings):
         """What the run says, and its summary."""
@@ -127,6 +146,24 @@ class Wake(unittest.TestCase):
         self.assertGreater(len(late), 100)
         for force in (min(late), max(late)):
             self.assertAlmostEqual(force / (0.02 * (behind - before)), 1, delta=2e-3)
+
+    def test_a_strong_shock_that_no_case_foretells_is_said_where_its_viscosity_is_left_open(self):
+        told = {}
+        for given in ("", "0", "0.5"):
+            settings = [f"--set=fluid.scheme={{shock_viscosity: {given}}}"] if given else []
+            answer = subprocess.run([ROOT / "launch" / "fsi", "run", self.folder / "late.yaml", "--no-progress", *settings, "--out", self.folder / f"late{given}"],
+                                    stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
+            self.assertEqual(answer.returncode, 0, answer.stderr)
+            told[given] = (answer.stdout, json.loads((self.folder / f"late{given}" / "summary.json").read_text(encoding="utf-8")).get("strong_shock"))
+        said, found = told[""]
+        self.assertTrue(found["strong"])
+        self.assertGreater(found["value"], 3)
+        self.assertGreater(found["t"], 0.2)
+        self.assertIn("write fluid.scheme.shock_viscosity: 0.5", said)
+        self.assertIn("without shock viscosity: shock of Mach", (self.folder / "late" / "log" / "fluid.log").read_text(encoding="utf-8"))
+        for given in ("0", "0.5"):
+            self.assertIsNone(told[given][1])
+            self.assertNotIn("warning: a shock", told[given][0])
 
     def test_mass_that_is_lost_is_said(self):
         """A cylinder of five cells in a stream of Mach 8, without the shock viscosity that would be chosen."""

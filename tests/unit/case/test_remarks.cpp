@@ -91,7 +91,7 @@ std::string viscosity_with(const std::vector<std::string>& settings) {
   const bool written = problem.resolved.find("shock_viscosity: 0.5") != std::string::npos;
   EXPECT_EQ(said != problem.chosen.end(), problem.fluids.front().scheme.shock_viscosity == 0.5);
   EXPECT_EQ(written, problem.fluids.front().scheme.shock_viscosity == 0.5);
-  return fmt::format("{}", problem.fluids.front().scheme.shock_viscosity);
+  return fmt::format("{}", problem.fluids.front().scheme.shock_viscosity.value_or(0));
 }
 
 TEST(ChosenScheme, HasShockViscosityWhereShocksOfMachTwoMayComeUp) {
