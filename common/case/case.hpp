@@ -234,6 +234,7 @@ struct Expectation {
 
 struct Case {
   std::string name, title, path;
+  bool in_si = false;               ///< all numbers are in m, s, kg
   std::string digest;               ///< of the resolved text: all programs of a run must agree
   std::string restart_digest;       ///< of the part that a restart must not change
   std::string resolved;             ///< the case with parameters and overrides filled in, as YAML

@@ -304,6 +304,7 @@ Case build_case(const Node& root, const Scope& scope) {
   Case result;
   result.name = case_name_of(root);
   Reader::assign(root, "title", result.title);
+  if (const Node* units = root.find("units")) result.in_si = units->text == "SI";
   result.parameters = numbers_of(root, "parameters");
   result.grid_factor = scope.constants.at("j");
   result.time = time_of(*root.find("time"));

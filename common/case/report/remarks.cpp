@@ -40,6 +40,17 @@ bool presses_from_all_sides(const Case& problem, const FluidSpec& fluid) {
   return everywhere;
 }
 
+/// Largest p / rho of a gas [pressure volume/mass].
+double highest_temperature(const Case& problem, const FluidSpec& fluid) {
+  double highest = 0;
+  each_state(problem, fluid,
+             [&](double rho, const Vec2&, double p) { highest = std::max(highest, p / rho); });
+  return highest;
+}
+
+/// In SI units gases that people blow on solids have R T of 6000 (the heaviest, at room temperature) and more.
+constexpr double no_gas_has_less = 3000;
+
 /// Does gas go out by a side of an upright rectangle at all times and places, where its state says so?
 bool leaves_by(const Case& problem, const FluidSpec& fluid, Side side) {
   const auto& state = fluid.boundary[static_cast<std::size_t>(side)].state;
@@ -89,6 +100,12 @@ std::vector<std::string> remarks_on(const Case& problem) {
           "{}.boundary.{}: the state of this inflow goes out of the gas; is the sign of its velocity right?",
           fluid.path, name_of(side)));
     }
+    if (const double T = highest_temperature(problem, fluid); problem.in_si && T > 0 && T < no_gas_has_less)
+      remarks.push_back(
+          fmt::format("{}: p / rho is at most {:.3g} m2/s2, as of no gas (`units: SI`; air at 288 K has "
+                      "82700); `T` is p / rho and not "
+                      "kelvin: for air write 287 times the kelvin, and p in Pa",
+                      fluid.path, T));
     if (!presses_from_all_sides(problem, fluid)) continue;
     remarks.push_back(fmt::format(
         "{}.p_e is 0: elastic bodies are free of stress in a vacuum, and the whole pressure of the gas "

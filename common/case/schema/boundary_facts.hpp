@@ -73,7 +73,7 @@ inline constexpr std::array gas_state_keys{
         .range = positive},
     Key{.name = "T",
         .type = Type::field,
-        .meaning = "temperature p / rho, in place of p",
+        .meaning = "temperature p / rho, in place of p: in SI units 287 times the kelvin of air",
         .unit = "pressure volume/mass",
         .fallback = "p / rho",
         .range = positive},

@@ -68,6 +68,21 @@ TEST(RemarksOnACase, OfAnInflowThatLeaves) {
   EXPECT_TRUE(remarks("left", "[sin(9 * t), 0]").empty());
 }
 
+TEST(RemarksOnACase, OfATemperatureInKelvin) {
+  const auto said = [](const std::string& units, const std::string& state) {
+    const std::vector<std::string> remarks = remarks_on(
+        load_case(FSI_ROOT "/configs/two_cylinders.yaml", {"units=" + units, "fluid.initial=" + state}));
+    return std::ranges::count_if(remarks, [](const std::string& one) {
+      return one.starts_with("fluid: p / rho is at most 300 m2/s2");
+    });
+  };
+  EXPECT_EQ(said("SI", "{rho: 1.2, v: [0, 0], T: 300}"), 1);
+  EXPECT_EQ(said("SI", "{rho: 1.2, v: [0, 0], p: 360}"), 1);
+  EXPECT_EQ(said("SI", "{rho: 1.2, v: [0, 0], T: 287 * 300}"), 0);
+  EXPECT_EQ(said("none", "{rho: 1.2, v: [0, 0], T: 300}"), 0);
+  EXPECT_EQ(said("SI", "{rho: 1.2, v: [0, 0], T: 'x < 0.5 ? 300 : 287 * 300'}"), 0);  // somewhere it is a gas
+}
+
 TEST(RemarksOnACase, OfAPressureAtRestThatWasLeftOut) {
   const auto remarks = [](const std::string& p_e) {
     return remarks_on(load_case(FSI_ROOT "/configs/two_cylinders.yaml", {"fluid.p_e=" + p_e}));

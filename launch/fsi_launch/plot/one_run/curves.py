@@ -92,6 +92,11 @@ def _reference_line(axes, one, key, table):
     axes.plot(s[shown], part[key][shown], **REFERENCE)
 
 
+def legend_beside(panels):
+    """The names of the first panel's lines, where no panel has any."""
+    panels[0][-1].legend(*panels[0][0].get_legend_handles_labels(), loc="upper left", bbox_to_anchor=(1.0, 1.0))
+
+
 def _lines_picture(series, scales, reference):
     figure, panels = line_panels(series)
     for column, one in enumerate(series):
@@ -107,7 +112,7 @@ def _lines_picture(series, scales, reference):
             steady(axes, np.concatenate([line.get_ydata() for line in axes.lines]))
     if reference:
         panels[0][0].plot([], [], label="reference", **REFERENCE)
-    panels[0][0].legend()
+    legend_beside(panels)
     return figure
 
 

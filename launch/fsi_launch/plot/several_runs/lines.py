@@ -22,7 +22,7 @@ def _picture(runs, told, t):
                 s, values = curves.along(several.at(_outputs(one), t).grids[0], key, size.floor(curves.unit_of(key)))
                 axes.plot(s, values, color=outlines.COLOURS[k % len(outlines.COLOURS)], linestyle=outlines.LINES[k % len(outlines.LINES)], label=label)
             curves.steady(axes, np.concatenate([line.get_ydata() for line in axes.lines]))
-    panels[0][0].legend()
+    curves.legend_beside(panels)
     figure.suptitle(units.moment(t), x=0.01, ha="left", fontsize=10)
     return figure
 
