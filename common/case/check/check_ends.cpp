@@ -56,12 +56,21 @@ const BoundarySpec& condition_at(const SolidSpec& solid, const FluidSpec& fluid,
   return solid.body_fitted.front().boundary[static_cast<std::size_t>(ends[end])];
 }
 
+/// What to write for one side of a body: all of them where the case has no `boundary` at all, whose sides must all be there.
+std::string with_side(const Node* boundary, Side held, const char* how) {
+  if (boundary != nullptr) return fmt::format("`{}: {}`", name_of(held), how);
+  std::string sides;
+  for (const Side side : all_sides)
+    sides += fmt::format("{}{}: {}", sides.empty() ? "" : ", ", name_of(side), side == held ? how : "free");
+  return fmt::format("`boundary: {{{}}}`", sides);
+}
+
 void check_end(const SolidSpec& solid, const FluidSpec& fluid, const BodyFittedSpec& grid, std::size_t end,
                const Node& root) {
   if (schema::solid_boundary(condition_at(solid, fluid, end).kind).holds != Hold::nothing) return;
   const auto n = static_cast<std::size_t>(grid.curve.points());
   const std::size_t k = end == 0 ? 0 : n - 1;
-  const char* side = name_of(sides_at_ends(solid, fluid)[end]);
+  const Side side = sides_at_ends(solid, fluid)[end];
   const std::string wall = grid.curve.on.empty() ? fmt::format("the {} side of {}.grid",
                                                                name_of((*grid.curve.walls)[end]), fluid.path)
                                                  : fmt::format("the wall of grid `{}`", grid.curve.on);
@@ -71,9 +80,10 @@ void check_end(const SolidSpec& solid, const FluidSpec& fluid, const BodyFittedS
   fail(boundary != nullptr ? boundary->place : node.place, fmt::format("solids.{}.boundary", solid.name),
        fmt::format(
            "the outline ends at ({:.6g}, {:.6g}) on {}, but nothing holds it there: it would leave the wall, "
-           "and the grid of the gas with it; write {}`{}: slip_wall` (it slides along the wall){}",
-           grid.curve.x[k], grid.curve.x[n + k], wall, rigid ? "`motion: fixed`, or " : "", side,
-           rigid ? "" : fmt::format(" or `{}: clamped`", side)));
+           "and the grid of the gas with it; write {}{} (it slides along the wall){}",
+           grid.curve.x[k], grid.curve.x[n + k], wall, rigid ? "`motion: fixed`, or " : "",
+           with_side(boundary, side, "slip_wall"),
+           rigid ? "" : " or " + with_side(boundary, side, "clamped")));
 }
 
 /// The same where the gas meets the solid along a side of its own grid.

@@ -35,7 +35,7 @@ class ImplicitSystem {
   ImplicitSystem(std::span<const InterpolationList> lists, std::span<const Layout> layouts);
 
   bool factored() const { return factors_ != nullptr; }
-  /// What an equation is off by itself, as a part of the values: a smooth solution of 30 points to a wave is interpolated about
+  /// What an equation is off by itself, as a part of the values: a smooth solution of 50 points to a wave is interpolated about
   /// as well [-]. It is in the amplification, so that points which have known values by weights of round-off only, as where points
   /// of two grids coincide and are each other's donors, are found whatever the processor makes of their positions.
   static constexpr double own_error = 1e-4;

@@ -183,7 +183,15 @@ TEST(Blocks, NearlyIncompressibleOnesNeedRoundCorners) {
 TEST(Blocks, AFootIsHeld) {
   const std::string corners =
       "corners: [[-0.2, -2], [-0.2, -1], [0.2, -1], [0.2, -2]], walls: [bottom, bottom]";
-  EXPECT_NE(mistake_in(block_case(corners)).find("nothing holds it there"), std::string::npos);
+  // What is told is tried as it stands, in the place that is named.
+  const std::string message = mistake_in(block_case(corners));
+  ASSERT_NE(message.find("solids.block.boundary: the outline ends at"), std::string::npos) << message;
+  EXPECT_NE(message.find("nothing holds it there"), std::string::npos) << message;
+  for (const char* how : {"slip_wall", "clamped"}) {
+    const std::string told = fmt::format("boundary: {{left: free, right: free, bottom: {}, top: free}}", how);
+    EXPECT_NE(message.find("`" + told + "`"), std::string::npos) << message;
+    EXPECT_EQ(mistake_in(block_case(corners, "    " + told + "\n")), "") << how;
+  }
   const std::string with_interface = mistake_in(
       block_case(corners, "    boundary: {left: free, right: free, bottom: interface, top: free}\n"));
   EXPECT_NE(with_interface.find("write `bottom: clamped` or `bottom: slip_wall`"), std::string::npos)
