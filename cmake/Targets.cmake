@@ -1,5 +1,6 @@
-# fsi_library(name SOURCES ... KERNELS ... DEPENDS ...)  a static library seen from the repository root: #include
-#   "common/core/field.hpp"; KERNELS are the sources with the loops over all points, compiled with -O3
+# fsi_library(name [COLD] SOURCES ... KERNELS ... DEPENDS ...)  a static library seen from the repository root: #include
+#   "common/core/field.hpp"; KERNELS are the sources with the loops over all points, compiled with -O3; COLD where the time
+#   loop never comes
 #   the target `kernels` compiles all of these and nothing else
 # fsi_program(name SOURCES ... DEPENDS ...)     an executable in <build>/bin
 #   the target `programs` builds all that a run may need, and no tests
@@ -7,8 +8,8 @@
 #   the target `tests_<label>` builds all of one label
 
 # Most of the time of a compilation goes into the headers of the standard library, fmt, Eigen and GoogleTest, so they are
-# parsed once: fsi_precompiled for all sources, fsi_precompiled_tests for those of tests, fsi_precompiled_kernels for kernels,
-# since g++ takes the optimisation that precompiled headers were compiled with.
+# parsed once: fsi_precompiled for all sources, fsi_precompiled_tests for those of tests, _kernels for kernels and _cold for
+# what is cold, since g++ takes the optimisation that precompiled headers were compiled with.
 function(fsi_precompiled name)
   file(CONFIGURE OUTPUT ${name}.cpp CONTENT "")
   add_library(${name} OBJECT ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp)
@@ -20,15 +21,25 @@ function(fsi_kernel_options name)
   target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-O3>)
 endfunction()
 
+# -Og takes two thirds of the time of -O2 where nobody waits for what is compiled: outside the time loop, and in tests, whose
+# libraries are those of the programs.
+function(fsi_cold_options name)
+  target_compile_options(${name} PRIVATE $<$<CONFIG:Release>:-Og>)
+endfunction()
+
 if(FSI_PRECOMPILED)
   fsi_precompiled(fsi_precompiled)
   target_precompile_headers(fsi_precompiled PRIVATE ${PROJECT_SOURCE_DIR}/cmake/precompiled.hpp)
+  fsi_precompiled(fsi_precompiled_cold)
+  fsi_cold_options(fsi_precompiled_cold)
+  target_precompile_headers(fsi_precompiled_cold PRIVATE ${PROJECT_SOURCE_DIR}/cmake/precompiled.hpp)
   fsi_precompiled(fsi_precompiled_kernels)
   fsi_kernel_options(fsi_precompiled_kernels)
   target_precompile_headers(fsi_precompiled_kernels PRIVATE ${PROJECT_SOURCE_DIR}/cmake/precompiled.hpp)
   if(BUILD_TESTING)
     find_package(GTest REQUIRED)
     fsi_precompiled(fsi_precompiled_tests GTest::gtest)
+    fsi_cold_options(fsi_precompiled_tests)
     target_precompile_headers(fsi_precompiled_tests PRIVATE ${PROJECT_SOURCE_DIR}/cmake/precompiled.hpp <gtest/gtest.h>)
   endif()
 endif()
@@ -61,7 +72,7 @@ function(fsi_false_array_bounds name)
 endfunction()
 
 function(fsi_library name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;KERNELS;DEPENDS" ${ARGN})
+  cmake_parse_arguments(ARG "COLD" "" "SOURCES;KERNELS;DEPENDS" ${ARGN})
   if(ARG_SOURCES OR ARG_KERNELS)
     if(ARG_KERNELS)
       add_library(${name}_kernels OBJECT ${ARG_KERNELS})
@@ -77,7 +88,12 @@ function(fsi_library name)
     fsi_together(${name})
     target_include_directories(${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
     target_link_libraries(${name} PUBLIC fsi_settings ${ARG_DEPENDS})
-    fsi_precompile(${name} fsi_precompiled)
+    if(ARG_COLD)
+      fsi_cold_options(${name})
+      fsi_precompile(${name} fsi_precompiled_cold)
+    else()
+      fsi_precompile(${name} fsi_precompiled)
+    endif()
   else()
     add_library(${name} INTERFACE)
     target_include_directories(${name} INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
@@ -120,6 +136,7 @@ function(fsi_test name)
   find_package(GTest REQUIRED)
   include(GoogleTest)
   fsi_program(${name} SOURCES ${ARG_SOURCES} DEPENDS ${ARG_DEPENDS} GTest::gtest_main PRECOMPILED fsi_precompiled_tests)
+  fsi_cold_options(${name})
   # A local name may be that of something in another test.
   set_target_properties(${name} PROPERTIES UNITY_BUILD_CODE_BEFORE_INCLUDE "#pragma GCC diagnostic ignored \"-Wshadow\"")
   add_dependencies(tests_${ARG_LABEL} ${name})

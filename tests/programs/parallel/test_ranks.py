@@ -102,9 +102,9 @@ class OnRanks(Comparing):
         return run
 
     def assert_layouts(self, *arguments, numbers_of_ranks=(2, 3), every=7):
-        """The same with one rank, with more, and with more that get other rows again and again."""
+        """The same with one rank, with more, and with the last of these numbers, which get other rows again and again."""
         whole = self.on(1, *arguments)
-        for number in numbers_of_ranks:
+        for number in numbers_of_ranks[:-1]:
             self.assert_same(whole, self.on(number, *arguments))
         self.assert_same(whole, self.on(numbers_of_ranks[-1], *arguments, every=every))
         return whole
