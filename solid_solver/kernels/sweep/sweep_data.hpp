@@ -40,6 +40,15 @@ struct SweepResult {
   }
 };
 
+/// Columns that are swept at a time.
+struct SweepStrip {
+  int begin = 0, end = 0;
+  bool first = true, last = true;
+
+  /// Ghost points beside a strip, but for those beside the grid, are counted in another one.
+  bool counts(int i) const { return (first || i >= begin) && (last || i < end); }
+};
+
 /// Fields and numbers of one sweep.
 struct SweepData {
   const SolidPoints* points = nullptr;

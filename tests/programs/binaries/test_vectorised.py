@@ -17,13 +17,13 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from running import BIN, ROOT  # noqa: E402
 
-SOLID = (*(f"solid::GodunovSweep<.*::{loop}\\(" for loop in ("predict", "waves", "solve_faces1", "solve_faces2")),
+SOLID = ("solid::GodunovSweep<.*::predict\\(", *(f"solid::WavePasses<.*::{loop}\\(" for loop in ("waves", "solve_faces1", "solve_faces2")),
          *(f"solid::StressUpwinding<.*::{loop}\\(" for loop in ("find_shares", "correct_faces1", "correct_faces2", "add_decay")),
-         "solid::GodunovSweep<.*::spread_squared<", "solid::GodunovSweep<.*::update<.*NoTerms", "solid::GodunovSweep<.*::update<.*AllDissipation",
+         "solid::WavePasses<.*::spread_squared<", "solid::PointPasses<.*::update<.*NoTerms", "solid::PointPasses<.*::update<.*AllDissipation",
          *(f"solid::{loop}<" for loop in ("find_misses", "find_stresses", "find_impedances", "show_interface")),
          "solid::take_newton_steps\\(", "solid::add_relaxation<",
          "solid::add_tangential_stress_dissipation<", "solid::add_displacement_dissipation\\(", "solid::add_bulk_diffusion\\(")
-FIND_STIFFNESS = "solid::GodunovSweep<.*::find_stiffness\\("  # of laws whose K takes longer than the rest of the prediction
+FIND_STIFFNESS = "solid::PointPasses<.*::find_stiffness\\("  # of laws whose K takes longer than the rest of the prediction
 GAS = (*(f"fluid::{loop}<" for loop in ("predict_row", "flux_row", "update_row", "viscosity_row")), "::cartesian_rates<",
        "::mapped_rates<", "fluid::conserved_row\\(", "fluid::add_viscous_flux_row\\(",
        *(f"fluid::{loop}\\(" for loop in ("metric_row", "corner_row", "face_row_1", "face_row_2", "volume_row")))
