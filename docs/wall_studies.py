@@ -1,7 +1,9 @@
-"""Studies of walls between two gases for docs/record_results.py: exact solutions in the limit of small pulses."""
+"""Studies of walls for docs/record_results.py: between two gases, against exact solutions in the limit of small pulses, and the corners of one
+that a gust pushes."""
 
 import csv
 import math
+import re
 
 CASES = (("speeds of sound 1 and 2.04", []),
          ("a heavy gas on the right", ["parameters.rho_right=5", "parameters.gamma_right=1.2"]))
@@ -101,6 +103,50 @@ def _steps(tools):
     return f"last run: `{typed}`\n\n{note}\n\n" + _table(["m", "h = 1/80", "h = 1/160", "h = 1/320", "rate"], rows)
 
 
+PANEL = """\
+grid: {factor: 4}
+time: {end: 3}
+fluid:
+  gamma: 1.4
+  p_e: 1
+  grid: {x: [-1.5, 0.3], y: [0, 1]}
+  body_fitted:
+    - {name: strip, solid: panel, walls: [bottom, top], lines: 8}
+  boundary: {left: outflow, right: outflow, bottom: slip_wall, top: slip_wall}
+  initial: {rho: "1.4 * (x < -0.6 ? 1.2 : 1)", v: [0, 0], p: "x < -0.6 ? 1.3 : 1"}
+solids:
+  panel:
+    law: neo_hookean
+    rho: 0.1
+    lambda: 4
+    mu: 2
+    grid: {x: [0, 0.5], y: [0, 1]}
+    boundary: {left: interface, right: free, bottom: clamped, top: clamped}
+output: {times: [3]}
+"""
+
+
+def _held_corners(tools):
+    """Largest speeds at the end of a gust, within six points of each corner and at half of the height."""
+    import amp_fsi
+    import numpy
+    case, rows, typed = tools.RUNS / "panel_in_gust.yaml", [], ""
+    case.parent.mkdir(parents=True, exist_ok=True)
+    case.write_text(PANEL, encoding="utf-8")
+    for damping in ("{scaled: 0.5}", "{scaled: 0.2}", "{scaled: 0.1}", "{rate: 0.5, scaled: 0.05}", "{rate: 0.5}"):
+        for factor in (4, 8, 16):
+            directory, _, typed = tools.run_once(f"panel-in-gust-{factor}-{re.sub('[^0-9a-z.]+', '-', damping)}", str(case.relative_to(tools.ROOT)), [
+                f"grid.factor={factor}", f"solids.panel.scheme.displacement={damping}"])
+            panel = next(iter(amp_fsi.open(directory).fields("panel", t=3).values()))
+            speed, half = numpy.hypot(panel.v1, panel.v2), panel.u1.shape[0] // 2
+            rows.append([damping, f"1/{10 * factor}", *(f"{speed[[*range(6), *range(-6, 0)]][:, columns].max():.3f}" for columns in (slice(-6, None), slice(6))),
+                         f"{speed[half].max():.3f}", f"{panel.u1[half, -1]:.4f}", f"{tools.summary_of(directory)['noise']['value']:.3f}"])
+    note = ("A panel of rubber, held below and above, that a gust has pushed and that comes to rest: why its points do not have the velocity that they move with beside a corner of a held "
+            "and a free side is in [the theory](theory_solid.md#stability-of-waves-with-relaxation).\n\n")
+    heading = ["`displacement`", "h", "largest speed beside held and free", "beside held and gas", "at half of the height", "u1 of the free side's middle", "[noise](output.md#noise)"]
+    return f"last run: `{typed}` with this file:\n\n```yaml\n{PANEL}```\n\n{note}{_table(heading, rows)}\n"
+
+
 def studies(tools):
     """(title, function) of each study; `tools`: the functions of record_results."""
     yield "Elastic piston between two gases, small pulse", lambda: _pistons(tools)
@@ -110,3 +156,4 @@ def studies(tools):
     yield "Taylor's plate between two gases, its ends free", lambda: _free_plates(tools)
     yield "Taylor's plate between two gases, a small step of pressure", lambda: _steps(tools)
     yield "Taylor's plate between two gases: what is left when the pulse is gone", lambda: _growth(tools)
+    yield "Corners of a held and a free side: velocity beside them", lambda: _held_corners(tools)

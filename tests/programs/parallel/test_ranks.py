@@ -4,8 +4,8 @@ get, also after a restart on other ranks; and when a rank is killed or stopped, 
 
 test_ranks.py --kills N [SEED]           so many runs with two ranks for gas and solid each, of which somebody is killed or stopped
 test_ranks.py --all [RANKS..] [CASE..]  all shipped cases, or these, for some steps, with so many ranks (default: 2 3 4 7)
-test_ranks.py --in-turn [RANKS..] [CASE..]  the same with one of the numbers (default: 2 3 4) for each case, by turns; `programs.ranks_in_turn` of
-                                        the suite
+test_ranks.py --in-turn [RANKS..] [CASE..]  the same with one of the numbers (default: 2 3 4) for each case, by turns; of the shipped cases those
+                                        that no test below has: `programs.ranks_in_turn` of the suite
 test_ranks.py --restarts [RANKS..] [CASE..]  the same, from a checkpoint of the first number of ranks on with the second, and so on around
                                         (default: 3 2 4)
 """
