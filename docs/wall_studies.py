@@ -120,7 +120,7 @@ solids:
     rho: 0.1
     lambda: 4
     mu: 2
-    grid: {x: [0, 0.5], y: [0, 1]}
+    grid: {x: [0, 0.5], y: [0, 1], spacing: h}
     boundary: {left: interface, right: free, bottom: clamped, top: clamped}
 output: {times: [3]}
 """
@@ -135,7 +135,7 @@ def _held_corners(tools):
     case.write_text(PANEL, encoding="utf-8")
     for damping in ("{scaled: 0.5}", "{scaled: 0.2}", "{scaled: 0.1}", "{rate: 0.5, scaled: 0.05}", "{rate: 0.5}"):
         for factor in (4, 8, 16):
-            directory, _, typed = tools.run_once(f"panel-in-gust-{factor}-{re.sub('[^0-9a-z.]+', '-', damping)}", str(case.relative_to(tools.ROOT)), [
+            directory, _, typed = tools.run_once(f"panel-in-gust-{factor}-{re.sub('[^0-9a-z.]+', '-', damping).strip('-')}", str(case.relative_to(tools.ROOT)), [
                 f"grid.factor={factor}", f"solids.panel.scheme.displacement={damping}"])
             panel = next(iter(amp_fsi.open(directory).fields("panel", t=3).values()))
             speed, half = numpy.hypot(panel.v1, panel.v2), panel.u1.shape[0] // 2
