@@ -137,10 +137,10 @@ def _held_corners(tools):
         for factor in (4, 8, 16):
             directory, _, typed = tools.run_once(f"panel-in-gust-{factor}-{re.sub('[^0-9a-z.]+', '-', damping).strip('-')}", str(case.relative_to(tools.ROOT)), [
                 f"grid.factor={factor}", f"solids.panel.scheme.displacement={damping}"])
-            panel = next(iter(amp_fsi.open(directory).fields("panel", t=3).values()))
-            speed, half = numpy.hypot(panel.v1, panel.v2), panel.u1.shape[0] // 2
+            panel = next(iter(amp_fsi.open(directory).fields("panel", t=3).values())).fields
+            speed, half = numpy.hypot(panel["v1"], panel["v2"]), panel["u1"].shape[0] // 2
             rows.append([damping, f"1/{10 * factor}", *(f"{speed[[*range(6), *range(-6, 0)]][:, columns].max():.3f}" for columns in (slice(-6, None), slice(6))),
-                         f"{speed[half].max():.3f}", f"{panel.u1[half, -1]:.4f}", f"{tools.summary_of(directory)['noise']['value']:.3f}"])
+                         f"{speed[half].max():.3f}", f"{panel['u1'][half, -1]:.4f}", f"{tools.summary_of(directory)['noise']['value']:.3f}"])
     note = ("A panel of rubber, held below and above, that a gust has pushed and that comes to rest: why its points do not have the velocity that they move with beside a corner of a held "
             "and a free side is in [the theory](theory_solid.md#stability-of-waves-with-relaxation).\n\n")
     heading = ["`displacement`", "h", "largest speed beside held and free", "beside held and gas", "at half of the height", "u1 of the free side's middle", "[noise](output.md#noise)"]
