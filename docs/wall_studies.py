@@ -135,8 +135,11 @@ def _held_corners(tools):
     case.write_text(PANEL, encoding="utf-8")
     for damping in ("{scaled: 0.5}", "{scaled: 0.2}", "{scaled: 0.1}", "{rate: 0.5, scaled: 0.05}", "{rate: 0.5}"):
         for factor in (4, 8, 16):
-            directory, _, typed = tools.run_once(f"panel-in-gust-{factor}-{re.sub('[^0-9a-z.]+', '-', damping).strip('-')}", str(case.relative_to(tools.ROOT)), [
+            directory, code, typed = tools.run_once(f"panel-in-gust-{factor}-{re.sub('[^0-9a-z.]+', '-', damping).strip('-')}", str(case.relative_to(tools.ROOT)), [
                 f"grid.factor={factor}", f"solids.panel.scheme.displacement={damping}"])
+            if code != 0:
+                rows.append([damping, f"1/{10 * factor}", *["failed"] * 4, "-"])
+                continue
             panel = next(iter(amp_fsi.open(directory).fields("panel", t=3).values())).fields
             speed, half = numpy.hypot(panel["v1"], panel["v2"]), panel["u1"].shape[0] // 2
             rows.append([damping, f"1/{10 * factor}", *(f"{speed[[*range(6), *range(-6, 0)]][:, columns].max():.3f}" for columns in (slice(-6, None), slice(6))),
