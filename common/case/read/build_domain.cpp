@@ -36,7 +36,29 @@ void read_rectangle(const Node& node, const std::string& path, GridSpec& grid) {
   read("y", grid.y_a, grid.y_b);
 }
 
-void read_points(const Node& node, const std::string& path, GridSpec& grid) {
+constexpr double fewest_points = 5, most_points = 1e5;
+
+double points_along(double length, double spacing) {
+  return std::round(length / spacing) + 1;
+}
+
+/// What to write in the place of a spacing that a rectangle cannot have: 32 to 80 cells along the shorter side, fewer where the
+/// longer one would have too many. @param is_h it is that of the resolution, as are others then
+std::string other_spacing(bool is_h, double width, double height) {
+  const double finest = std::max(std::min(width, height) / 80, std::max(width, height) / (most_points - 2));
+  const double decade = std::pow(10, std::floor(std::log10(finest)));
+  const double spacing = (finest <= decade       ? 1
+                          : finest <= 2 * decade ? 2
+                          : finest <= 5 * decade ? 5
+                                                 : 10) *
+                         decade;
+  return fmt::format(
+      "write `{}` for {} x {} of them",
+      is_h ? fmt::format("grid: {{factor: {:.4g}}}", 0.1 / spacing) : fmt::format("spacing: {:.4g}", spacing),
+      points_along(width, spacing), points_along(height, spacing));
+}
+
+void read_points(const Node& node, const std::string& path, double h, GridSpec& grid) {
   const Node* counts = node.find("points");
   const Node* spacing = node.find("spacing");
   if (counts != nullptr && spacing != nullptr)
@@ -49,16 +71,12 @@ void read_points(const Node& node, const std::string& path, GridSpec& grid) {
     grid.n2 = static_cast<int>(*counts->items[1].number);
     return;
   }
-  constexpr double fewest = 5;
-  constexpr double most = 1e5;
-  const double n1 = std::round((grid.x_b - grid.x_a) / *spacing->number) + 1;
-  const double n2 = std::round((grid.y_b - grid.y_a) / *spacing->number) + 1;
-  if (!(std::min(n1, n2) >= fewest) || !(std::max(n1, n2) <= most)) {
+  const double width = grid.x_b - grid.x_a, height = grid.y_b - grid.y_a;
+  const double n1 = points_along(width, *spacing->number), n2 = points_along(height, *spacing->number);
+  if (!(std::min(n1, n2) >= fewest_points) || !(std::max(n1, n2) <= most_points)) {
     fail(spacing->place, path + ".spacing",
-         fmt::format("gives {} x {} points; {} to {} are possible in each direction: write a {} grid.factor, "
-                     "or another "
-                     "spacing",
-                     n1, n2, fewest, most, std::min(n1, n2) >= fewest ? "smaller" : "greater"));
+         fmt::format("gives {} x {} points; {} to {} are possible in each direction: {}", n1, n2,
+                     fewest_points, most_points, other_spacing(*spacing->number == h, width, height)));
   }
   grid.n1 = static_cast<int>(n1);
   grid.n2 = static_cast<int>(n2);
@@ -182,7 +200,7 @@ GridSpec build_grid(const Reader& reader, const Owner& owner) {
   } else {
     read_rectangle(node, path, grid);
   }
-  read_points(node, path, grid);
+  read_points(node, path, reader.scope().constants.at("h"), grid);
   return grid;
 }
 

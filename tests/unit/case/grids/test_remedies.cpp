@@ -1,5 +1,6 @@
 // Changes of a case that are tried before they are told.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <string>
@@ -76,6 +77,41 @@ TEST(RemediesForOutlines, GridsThatAreLeftOutAndAFinerOneAreTriedTogether) {
             std::string::npos)
       << message;
   EXPECT_EQ(mistake_in(rigid_case(gear), {"grid.factor=4"}), "");
+}
+
+// --- spacings that a rectangle cannot have
+
+/// A gas alone, 3 L by L. @param spacing of its grid, or nothing for the chosen one
+std::string box_case(double L, const std::string& spacing, const std::string& factor = "") {
+  return fmt::format(
+      "time: {{end: 1}}\n{}fluid:\n  grid: {{x: [0, {:g}], y: [0, {:g}]{}}}\n"
+      "  boundary: {{left: outflow, right: outflow, bottom: slip_wall, top: outflow}}\n"
+      "  initial: {{rho: 1, v: [0, 0], p: 1}}\n",
+      factor, 3 * L, L, spacing);
+}
+
+TEST(RemediesForSpacings, SayTheFactorWhereTheFileHasH) {
+  const std::string message = mistake_in(box_case(0.003, ", spacing: h"));
+  EXPECT_NE(message.find("gives 1 x 1 points"), std::string::npos) << message;
+  EXPECT_NE(message.find("write `grid: {factor: 2000}` for 181 x 61 of them"), std::string::npos) << message;
+  EXPECT_EQ(mistake_in(box_case(0.003, ", spacing: h", "grid: {factor: 2000}\n")), "");
+}
+
+TEST(RemediesForSpacings, SayTheFactorWhereTheFileHasNone) {
+  const std::string body =
+      "solids:\n  a: {law: rigid, rho: 1, motion: fixed, shape: {kind: ellipse, centre: [0.004, 0.0015], "
+      "semi_axes: [0.0006, 0.0005]}}\n";
+  const std::string message = mistake_in(box_case(0.003, "") + body);
+  EXPECT_NE(message.find("write `grid: {factor: 2000}` for 181 x 61 of them"), std::string::npos) << message;
+  EXPECT_EQ(mistake_in(box_case(0.003, "", "grid: {factor: 2000}\n") + body), "");
+}
+
+TEST(RemediesForSpacings, SayASpacingWhereTheFileHasANumber) {
+  for (const char* given : {"1e-9", "0.05", "20"}) {  // in place of about 1e-4
+    const std::string message = mistake_in(box_case(0.007, fmt::format(", spacing: {}", given)));
+    EXPECT_NE(message.find("write `spacing: 0.0001` for 211 x 71 of them"), std::string::npos) << message;
+  }
+  EXPECT_EQ(mistake_in(box_case(0.007, ", spacing: 0.0001")), "");
 }
 
 }  // namespace
