@@ -155,6 +155,22 @@ struct BeamSpec {
   std::array<BeamEnd, 2> ends{BeamEnd::free, BeamEnd::free};
 };
 
+/// What a rigid body may do, in the order of whatever holds it.
+inline constexpr std::array<std::string_view, 3> rigid_motions{"x", "y", "rotation"};
+
+/// What holds a rigid body at a point of it, its pivot; springs are at rest at t = 0.
+struct MountingSpec {
+  std::optional<Vec2> pivot;                   ///< at t = 0; none: the centre of mass
+  std::array<bool, 3> free{true, true, true};  ///< of `rigid_motions`
+  std::array<double, 3> spring{};              ///< [force/length/depth], [force*length/depth]
+  std::array<double, 3> damper{};              ///< the same times time
+
+  bool holds() const {
+    const auto any = [](const std::array<double, 3>& of) { return of != std::array<double, 3>{}; };
+    return free != std::array{true, true, true} || any(spring) || any(damper);
+  }
+};
+
 struct SolidSpec {
   std::string name;
   std::string law;      ///< the executable is solid_solver_<law>, or `program` where the law is external
@@ -162,6 +178,7 @@ struct SolidSpec {
   std::map<std::string, double> data;  ///< numbers for that program, or of the law besides lambda and mu
   double rho = 1, lambda = 1, mu = 1;  ///< [mass/volume], [pressure]
   bool fixed = false;                  ///< a rigid body that stays where it is
+  MountingSpec mounting;               ///< of a rigid body that does not
   GridSpec grid;
   std::array<BoundarySpec, 4> boundary;
   /// Along the outline; none where the outline is that of `grid`. Of a block its curve alone counts.
@@ -171,6 +188,9 @@ struct SolidSpec {
   bool initial_from_reference = false;
   std::optional<VectorExpressions> initial_u, initial_v;
   std::optional<VectorExpressions> body_force;  ///< force per unit reference volume
+
+  /// Of a rigid body: is there anything besides a gas that changes how it moves?
+  bool is_driven() const { return !fixed && (body_force || mounting.holds() || mounting.pivot); }
 };
 
 struct TimeSpec {

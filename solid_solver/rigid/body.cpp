@@ -3,6 +3,8 @@
 #include <cmath>
 #include <utility>
 
+#include "common/interface/modal.hpp"
+
 namespace fsi::rigid {
 
 namespace {
@@ -11,51 +13,103 @@ Vec2 turned(const Vec2& r) {
   return {-r.y(), r.x()};
 }
 
-Pose moved(const Pose& pose, const Vec3& by) {
-  return {.centre = pose.centre + by.head<2>(), .angle = pose.angle + by[2]};
-}
+/// Where a pose puts points of the reference body.
+class Placement {
+ public:
+  Placement(const Pose& pose, const Vec2& reference_centre)
+      : reference_centre_(reference_centre),
+        centre_(pose.centre),
+        cos_(std::cos(pose.angle)),
+        sin_(std::sin(pose.angle)) {}
+
+  Vec2 of(const Vec2& x_bar) const {
+    const Vec2 r = x_bar - reference_centre_;
+    return centre_ + cos_ * r + sin_ * turned(r);
+  }
+
+ private:
+  Vec2 reference_centre_, centre_;
+  double cos_, sin_;
+};
 
 }  // namespace
 
-RigidBody::RigidBody(Outline outline, const Inertia& inertia, double rho, Eigen::MatrixXd modes)
+RigidBody::RigidBody(Outline outline, const Inertia& inertia, double rho, Mounting mounting)
     : outlines_{std::move(outline)},
       reference_centre_(inertia.centre),
-      dynamics_{.mass = rho * inertia.area,
-                .moment_of_inertia = rho * inertia.second_moment,
-                .modes = std::move(modes)},
-      pose_{.centre = inertia.centre},
-      old_pose_(pose_) {
+      arm_(mounting.pivot ? Vec2(inertia.centre - *mounting.pivot) : Vec2::Zero()),
+      masses_{.mass = rho * inertia.area, .moment_of_inertia = rho * inertia.second_moment},
+      mounting_(std::move(mounting)) {
+  s_ = Eigen::VectorXd::Zero(modes());
   start(Vec3::Zero());
 }
 
 void RigidBody::start(const Vec3& V) {
-  s_ = modal_load(V);  // the columns of B are orthogonal unit vectors
-  old_s_ = older_s_ = s_;
-  acceleration_ = old_mean_ = Eigen::VectorXd::Zero(modes());
+  const Vec3 momentum = masses_.diagonal().cwiseProduct(V);
+  s_ = V.isZero(0) ? Eigen::VectorXd::Zero(modes()) : solve_few_modes(mass_matrix(), modal_load(momentum));
+  old_s_ = s_;
+  old_V_ = older_V_ = velocity();
+  acceleration_ = unloaded_acceleration();
+  old_mean_ = Eigen::VectorXd::Zero(modes());
+}
+
+/// M s' = -B^T diag(m, m, I) (-omega^2 d, 0) - E^T C q' with the springs at rest.
+Eigen::VectorXd RigidBody::unloaded_acceleration() const {
+  const Vec3 rate = mounting_.freedoms * s_;
+  Vec3 load = Vec3::Zero();
+  load.head<2>() = masses_.mass * rate[2] * rate[2] * arm();
+  const Eigen::VectorXd f =
+      modal_load(load) - mounting_.freedoms.transpose() * mounting_.damper.cwiseProduct(rate);
+  return f.isZero(0) ? Eigen::VectorXd::Zero(modes()) : solve_few_modes(mass_matrix(), f);
+}
+
+/// From the pivot to the centre of mass.
+Vec2 RigidBody::arm() const {
+  return std::cos(q_[2]) * arm_ + std::sin(q_[2]) * turned(arm_);
+}
+
+/// B = D E.
+Eigen::MatrixXd RigidBody::modes_now() const {
+  Eigen::Matrix3d D = Eigen::Matrix3d::Identity();
+  D.block<2, 1>(0, 2) = turned(arm());
+  return D * mounting_.freedoms;
+}
+
+Pose RigidBody::pose() const {
+  return {.centre = reference_centre_ - arm_ + q_.head<2>() + arm(), .angle = q_[2]};
 }
 
 void RigidBody::advance(double dt) {
-  old_pose_ = pose_;
-  older_s_ = old_s_;
+  older_q_ = old_q_;
+  old_q_ = q_;
+  older_V_ = old_V_;
+  old_V_ = velocity();
   old_s_ = s_;
   old_dt_ = dt_;
   dt_ = dt;
-  pose_ = moved(old_pose_, dynamics_.modes * (dt * (old_s_ + 0.5 * dt * acceleration_)));
+  q_ = old_q_ + mounting_.freedoms * (dt * (old_s_ + 0.5 * dt * acceleration_));
   s_ = old_s_ + dt * acceleration_;
 }
 
 Eigen::MatrixXd RigidBody::response() const {
-  return difference().leading * mass_matrix();
+  const double b = difference().leading;
+  const Vec3 held = dt_ * mounting_.damper + dt_ * dt_ / b * mounting_.spring;
+  return b * mass_matrix() + mounting_.freedoms.transpose() * held.asDiagonal() * mounting_.freedoms;
 }
 
 Eigen::VectorXd RigidBody::history(const Vec3& own_load) const {
-  const Eigen::VectorXd past = difference().history(old_s_, older_s_);
-  return mass_matrix() * past + dt_ * modal_load(own_load);
+  const BackwardDifference d = difference();
+  const Vec3 past = masses_.diagonal().cwiseProduct(Vec3(d.history(old_V_, older_V_)));
+  const Vec3 pulled = mounting_.spring.cwiseProduct(Vec3(d.history(old_q_, older_q_))) / d.leading;
+  return modal_load(past + dt_ * own_load) - dt_ * (mounting_.freedoms.transpose() * pulled);
 }
 
 void RigidBody::correct(const Eigen::VectorXd& s) {
   s_ = s;
-  pose_ = moved(old_pose_, dynamics_.modes * (0.5 * dt_ * (old_s_ + s_)));
+  const BackwardDifference d = difference();
+  const bool sprung = !mounting_.spring.isZero(0);
+  q_ = sprung ? Vec3((dt_ * (mounting_.freedoms * s_) + d.history(old_q_, older_q_)) / d.leading)
+              : Vec3(old_q_ + mounting_.freedoms * (0.5 * dt_ * (old_s_ + s_)));
   take_acceleration();
 }
 
@@ -71,17 +125,14 @@ void RigidBody::archive(Archive& archive) {
   const auto vector = [&](const char* name, Eigen::VectorXd& v) {
     archive.values(name, {v.data(), static_cast<std::size_t>(v.size())});
   };
-  const auto pose = [&](const char* name, Pose& at) {
-    archive.inside(name, [&] {
-      archive.values("centre", {at.centre.data(), 2});
-      archive.number("angle", at.angle);
-    });
-  };
-  pose("pose", pose_);
-  pose("old_pose", old_pose_);
+  const auto three = [&](const char* name, Vec3& v) { archive.values(name, {v.data(), 3}); };
+  three("q", q_);
+  three("old_q", old_q_);
+  three("older_q", older_q_);
   vector("s", s_);
   vector("old_s", old_s_);
-  vector("older_s", older_s_);
+  three("old_V", old_V_);
+  three("older_V", older_V_);
   vector("acceleration", acceleration_);
   vector("old_mean", old_mean_);
   archive.number("dt", dt_);
@@ -89,8 +140,8 @@ void RigidBody::archive(Archive& archive) {
 }
 
 Eigen::MatrixXd RigidBody::mass_matrix() const {
-  const Vec3 masses(dynamics_.mass, dynamics_.mass, dynamics_.moment_of_inertia);
-  return dynamics_.modes.transpose() * masses.asDiagonal() * dynamics_.modes;
+  const Eigen::MatrixXd B = modes_now();
+  return B.transpose() * masses_.diagonal().asDiagonal() * B;
 }
 
 Eigen::MatrixXd RigidBody::mode_vectors(std::size_t outline) const {
@@ -98,31 +149,32 @@ Eigen::MatrixXd RigidBody::mode_vectors(std::size_t outline) const {
   const std::vector<double> normals =
       grid::normals(x, outlines_[outline].ends, outlines_[outline].orientation);
   const std::size_t n = points(outline);
+  const Vec2 centre = pose().centre;
   Eigen::MatrixXd N(3, static_cast<Eigen::Index>(n));
   for (std::size_t k = 0; k < n; ++k) {
     const Vec2 normal(normals[k], normals[n + k]);
-    const Vec2 turning = turned(Vec2(x[k], x[n + k]) - pose_.centre);
+    const Vec2 turning = turned(Vec2(x[k], x[n + k]) - centre);
     N.col(static_cast<Eigen::Index>(k)) << normal.x(), normal.y(), normal.dot(turning);
   }
-  return dynamics_.modes.transpose() * N;
+  return modes_now().transpose() * N;
 }
 
 Vec2 RigidBody::position(const Vec2& x_bar) const {
-  const Vec2 r = x_bar - reference_centre_;
-  return pose_.centre + std::cos(pose_.angle) * r + std::sin(pose_.angle) * turned(r);
+  return Placement(pose(), reference_centre_).of(x_bar);
 }
 
 Vec2 RigidBody::velocity_at(const Vec2& x) const {
   const Vec3 v = velocity();
-  return v.head<2>() + v[2] * turned(x - pose_.centre);
+  return v.head<2>() + v[2] * turned(x - pose().centre);
 }
 
 std::vector<double> RigidBody::positions(std::size_t outline) const {
   const std::vector<double>& x_bar = outlines_[outline].x;
   const std::size_t n = points(outline);
+  const Placement placement(pose(), reference_centre_);
   std::vector<double> x(2 * n);
   for (std::size_t k = 0; k < n; ++k) {
-    const Vec2 now = position({x_bar[k], x_bar[n + k]});
+    const Vec2 now = placement.of({x_bar[k], x_bar[n + k]});
     x[k] = now.x();
     x[n + k] = now.y();
   }
@@ -131,26 +183,36 @@ std::vector<double> RigidBody::positions(std::size_t outline) const {
 
 std::vector<double> RigidBody::velocities(std::span<const double> x) const {
   const std::size_t n = x.size() / 2;
+  const Vec3 of_centre = velocity();
+  const Vec2 centre = pose().centre;
   std::vector<double> v(2 * n);
   for (std::size_t k = 0; k < n; ++k) {
-    const Vec2 now = velocity_at({x[k], x[n + k]});
+    const Vec2 now = of_centre.head<2>() + of_centre[2] * turned(Vec2(x[k], x[n + k]) - centre);
     v[k] = now.x();
     v[n + k] = now.y();
   }
   return v;
 }
 
-std::vector<double> RigidBody::centripetal_accelerations(std::span<const double> x) const {
+/// V' = B s' + (-omega^2 d, 0), and of a point r from the centre alpha e_z x r - omega^2 r besides.
+std::vector<double> RigidBody::initial_accelerations(std::span<const double> x) const {
   const std::size_t n = x.size() / 2;
   const double omega = velocity()[2];
+  const Vec3 of_modes = modes_now() * acceleration_;
+  const Vec2 centre = pose().centre, of_centre = of_modes.head<2>() - omega * omega * arm();
   std::vector<double> a(2 * n);
-  for (std::size_t i = 0; i < 2 * n; ++i) a[i] = -omega * omega * (x[i] - pose_.centre[i < n ? 0 : 1]);
+  for (std::size_t k = 0; k < n; ++k) {
+    const Vec2 r = Vec2(x[k], x[n + k]) - centre;
+    const Vec2 of_point = of_centre + of_modes[2] * turned(r) - omega * omega * r;
+    a[k] = of_point.x();
+    a[n + k] = of_point.y();
+  }
   return a;
 }
 
 double RigidBody::angular_momentum() const {
   const Vec3 v = velocity();
-  return dynamics_.mass * turned(pose_.centre).dot(v.head<2>()) + dynamics_.moment_of_inertia * v[2];
+  return masses_.mass * turned(pose().centre).dot(v.head<2>()) + masses_.moment_of_inertia * v[2];
 }
 
 }  // namespace fsi::rigid

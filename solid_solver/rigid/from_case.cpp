@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
@@ -55,15 +56,26 @@ class Freedom {
     }
   }
 
-  /// Columns: unit vectors of (along x, along y, rotation).
-  Eigen::MatrixXd modes() const {
-    if (!direction_) return Eigen::Matrix3d::Identity();
-    return Eigen::Vector3d(direction_->x(), direction_->y(), 0);
+  /// As the sides and the case leave it.
+  Mounting mounting() const {
+    const MountingSpec& held = spec_.mounting;
+    return {.pivot = held.pivot,
+            .freedoms = freedoms(),
+            .spring = Eigen::Map<const Vec3>(held.spring.data()),
+            .damper = Eigen::Map<const Vec3>(held.damper.data())};
   }
 
  private:
   const SolidSpec& spec_;
   std::optional<Vec2> direction_;
+
+  Eigen::MatrixXd freedoms() const {
+    if (direction_) return Vec3(direction_->x(), direction_->y(), 0);
+    Eigen::MatrixXd columns(3, std::ranges::count(spec_.mounting.free, true));
+    for (Eigen::Index k = 0, column = 0; k < 3; ++k)
+      if (spec_.mounting.free[static_cast<std::size_t>(k)]) columns.col(column++) = Vec3::Unit(k);
+    return columns;
+  }
 
   void slide(Side side, const Vec2& along) {
     if (spec_.fixed) return;  // it moves nowhere, whatever its sides leave it
@@ -130,7 +142,7 @@ BodyFromCase body_of_shape(const SolidSpec& spec, const BodyFittedSpec& fitted) 
   const Outline outline{.x = fitted.curve.x,
                         .ends = fitted.curve.closed() ? grid::Curve::closed : grid::Curve::open,
                         .orientation = grid::outward(fitted.side)};
-  return {.body = RigidBody(outline, inertia, spec.rho, freedom.modes()),
+  return {.body = RigidBody(outline, inertia, spec.rho, freedom.mounting()),
           .area = inertia.area,
           .meets_gas = is_interface(at(fitted.boundary, fitted.side))};
 }
@@ -155,7 +167,7 @@ BodyFromCase body_of_grid(const SolidSpec& spec) {
   const Inertia inertia = inertia_of(rim_of(grid));
   const bool meets_gas = !outlines.empty();
   if (!meets_gas) add_outline(Side::bottom);
-  BodyFromCase result{.body = RigidBody(outlines.front(), inertia, spec.rho, freedom.modes()),
+  BodyFromCase result{.body = RigidBody(outlines.front(), inertia, spec.rho, freedom.mounting()),
                       .area = inertia.area,
                       .meets_gas = meets_gas,
                       .across = std::move(across)};

@@ -26,10 +26,10 @@ RigidParticipant::RigidParticipant(const Setup& setup, const SolidSpec& spec)
       from_case_(body_from_case(spec)),
       body_(from_case_.body),
       own_(own_load(0)) {
-  if (!from_case_.meets_gas && spec.body_force && !spec.fixed && !setup.problem.time.dt) {
+  if (!from_case_.meets_gas && spec.is_driven() && !setup.problem.time.dt) {
     throw UserMistake(fmt::format(
         "solid \"{}\" is rigid and without a gas: nothing limits the step with which it follows its "
-        "`body_force`; write `time.dt`",
+        "`body_force` and what holds it; write `time.dt`",
         spec.name));
   }
   Shape shape{.outlines = {}, .points = body_.points(), .meets_gas = from_case_.meets_gas};
@@ -49,8 +49,7 @@ void RigidParticipant::fill(std::size_t k, wire::PredictedInterface& predicted) 
   predicted.x = body_.positions(k);
   predicted.v = body_.velocities(predicted.x);
   predicted.a.clear();
-  if (predicted.step == 0 && body_.velocity()[2] != 0)
-    predicted.a = body_.centripetal_accelerations(predicted.x);
+  if (predicted.step == 0 && body_.starts_unevenly()) predicted.a = body_.initial_accelerations(predicted.x);
   if (spec_.fixed) {  // one mode that moves no point
     predicted.modal = {
         .modes = 1, .S = {.row = {0}, .column = {0}, .value = {1}}, .g = {0}, .N = {}, .q_dot = {0}};
@@ -111,14 +110,14 @@ void RigidParticipant::write_tables(double t, double /*dt*/, ProjectedStates /*p
 }
 
 bool RigidParticipant::is_surrounded() const {
-  return !spec_.fixed && !spec_.body_force && !spec_.body_fitted.empty() &&
+  return !spec_.fixed && !spec_.body_force && !spec_.mounting.holds() && !spec_.body_fitted.empty() &&
          spec_.body_fitted.front().curve.closed();
 }
 
 bodies::BodyTotals RigidParticipant::totals() const {
   return {.momentum = body_.momentum(),
           .angular_momentum = body_.angular_momentum(),
-          .energy = body_.kinetic_energy()};
+          .energy = body_.kinetic_energy() + body_.spring_energy()};
 }
 
 /// The body force of the reference centre, on the whole area: no moment.

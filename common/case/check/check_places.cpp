@@ -171,7 +171,37 @@ void check_ways(const SolidSpec& solid, const Node& boundary, const std::string&
   }
 }
 
+bool slides(const SolidSpec& solid) {
+  const auto holds_normal = [](const BoundarySpec& spec) {
+    return schema::solid_boundary(spec.kind).holds == Hold::normal;
+  };
+  const auto of_body = [&](Side side) {
+    return holds_normal(solid.boundary[static_cast<std::size_t>(side)]);
+  };
+  return solid.body_fitted.empty() ? std::ranges::any_of(sides_of_body(solid), of_body)
+                                   : std::ranges::any_of(solid.body_fitted.front().boundary, holds_normal);
+}
+
+/// A wall leaves the motion along it alone.
+void check_mounting(const SolidSpec& solid, const Node& node) {
+  if (!slides(solid)) return;
+  const auto refuse = [&](const Node& within, const std::string& path, const char* key) {
+    const Node* given = within.find(key);
+    if (given == nullptr) return;
+    fail(given->place, fmt::format("{}.{}", path, key),
+         fmt::format(
+             "the body slides along a wall, which leaves it the motion along the wall alone; leave `{}` out",
+             key));
+  };
+  const std::string path = "solids." + solid.name;
+  for (const char* key : {"degrees_of_freedom", "pivot"}) refuse(node, path, key);
+  for (const char* key : {"spring", "damper"}) {
+    if (const Node* section = node.find(key)) refuse(*section, fmt::format("{}.{}", path, key), "rotation");
+  }
+}
+
 void check_rigid(const SolidSpec& solid, const Node& node) {
+  check_mounting(solid, node);
   const std::string path = fmt::format("solids.{}.boundary", solid.name);
   const Node* boundary = node.find("boundary");
   if (boundary == nullptr) return;
@@ -195,14 +225,16 @@ void check_free_outline(const Case& problem, const SolidSpec& solid, const Node&
                    solid.law == beam_law ? "beam" : "rigid solid"));
 }
 
-/// A rigid body has no waves that would limit a step: under a force of its own it would go from output to output in one.
+/// A rigid body has no waves that would limit a step: under a force of its own, or of what holds it, it would go from output to
+/// output in one.
 void check_step(const Case& problem, const SolidSpec& solid, const Node& root) {
-  if (!problem.fluids.empty() || problem.time.dt || solid.fixed || !solid.body_force) return;
-  fail(root.find("time")->place, "time",
-       fmt::format(
-           "the rigid solid `{}` without a gas has no largest step of its own, with which to follow its "
-           "`body_force`; write `dt` [time]",
-           solid.name));
+  if (!problem.fluids.empty() || problem.time.dt || !solid.is_driven()) return;
+  fail(
+      root.find("time")->place, "time",
+      fmt::format(
+          "the rigid solid `{}` without a gas has no largest step of its own, with which to follow {}; write "
+          "`dt` [time]",
+          solid.name, solid.body_force ? "its `body_force`" : "what holds it"));
 }
 
 }  // namespace

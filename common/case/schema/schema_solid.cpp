@@ -139,6 +139,44 @@ constexpr Section solid_initial{.title = "Initial state of a solid", .keys = sol
 constexpr Key data_element{.name = "number", .type = Type::number, .meaning = "a number for the program"};
 
 constexpr array<string_view, 2> motion_words{"free", "fixed"};
+constexpr Key rigid_motion{
+    .name = "motion", .type = Type::word, .meaning = "what the body may do", .words = rigid_motions};
+constexpr array spring_keys{
+    Key{.name = "x",
+        .meaning = "stiffness against displacements of the pivot along x",
+        .unit = "force/length/depth",
+        .fallback = "0",
+        .range = not_negative},
+    Key{.name = "y",
+        .meaning = "along y",
+        .unit = "force/length/depth",
+        .fallback = "0",
+        .range = not_negative},
+    Key{.name = "rotation",
+        .meaning = "against rotation, per radian",
+        .unit = "force*length/depth",
+        .fallback = "0",
+        .range = not_negative},
+};
+constexpr Section spring_section{.title = "The spring of a rigid body", .keys = spring_keys};
+constexpr array damper_keys{
+    Key{.name = "x",
+        .meaning = "resistance to velocities of the pivot along x",
+        .unit = "force*time/length/depth",
+        .fallback = "0",
+        .range = not_negative},
+    Key{.name = "y",
+        .meaning = "along y",
+        .unit = "force*time/length/depth",
+        .fallback = "0",
+        .range = not_negative},
+    Key{.name = "rotation",
+        .meaning = "to rotation, per radian and time",
+        .unit = "force*length*time/depth",
+        .fallback = "0",
+        .range = not_negative},
+};
+constexpr Section damper_section{.title = "The damper of a rigid body", .keys = damper_keys};
 constexpr Key end_element{
     .name = "end", .type = Type::word, .meaning = "what holds an end", .words = words_of<BeamEnd>};
 constexpr Key line_point{
@@ -252,6 +290,26 @@ constexpr array solid_keys{
         .meaning = "of a rigid body: `fixed` holds it where it is; its load is in forces_NAME.csv",
         .fallback = "free",
         .words = motion_words},
+    Key{.name = "degrees_of_freedom",
+        .type = Type::list,
+        .meaning = "of a rigid body: what it is free to do at its pivot",
+        .fallback = "[x, y, rotation], or along the walls that it slides along",
+        .element = &rigid_motion},
+    Key{.name = "pivot",
+        .type = Type::pair,
+        .meaning = "of a rigid body: the point of it, inside or outside, at which it is held, at t = 0",
+        .unit = "length",
+        .fallback = "its centre of mass"},
+    Key{.name = "spring",
+        .type = Type::section,
+        .meaning = "of a rigid body: pulls the pivot back to where it was at t = 0",
+        .fallback = "none",
+        .section = &spring_section},
+    Key{.name = "damper",
+        .type = Type::section,
+        .meaning = "of a rigid body: resists its motion at the pivot",
+        .fallback = "none",
+        .section = &damper_section},
     Key{.name = "grid",
         .type = Type::section,
         .meaning = "the reference configuration; with a `shape` the core of its grids, a rectangle around it",

@@ -24,20 +24,21 @@ def gas(u):
     return ((1 + (GAMMA - 1) / 2 * u) ** (2 * GAMMA / (GAMMA - 1)) - 1) / GAMMA
 
 
-def motion(mass, times):
-    """[(velocity, way)] of a piston of this mass per area, by the classical Runge-Kutta method with small steps."""
-    def rate(t, u):
-        return (force(t) - gas(u)) / mass
+def motion(mass, times, spring=0, damper=0):
+    """[(velocity, way)] of a piston of this mass per area on a spring and a damper per area, by the classical Runge-Kutta method
+    with small steps."""
+    def rate(t, u, x):
+        return (force(t) - gas(u) - damper * u - spring * x) / mass
 
     result, t, u, x = [], 0.0, 0.0, 0.0
     for end in times:
         steps = math.ceil((end - t) / (2e-3 * min(1.0, mass)))
         h = (end - t) / max(steps, 1)
         for _ in range(steps):
-            a = rate(t, u)
-            b = rate(t + h / 2, u + h / 2 * a)
-            c = rate(t + h / 2, u + h / 2 * b)
-            d = rate(t + h, u + h * c)
+            a = rate(t, u, x)
+            b = rate(t + h / 2, u + h / 2 * a, x + h / 2 * u)
+            c = rate(t + h / 2, u + h / 2 * b, x + h / 2 * u + h * h / 4 * a)
+            d = rate(t + h, u + h * c, x + h * u + h * h / 2 * b)
             x += h * u + h * h / 6 * (a + b + c)
             u += h / 6 * (a + 2 * b + 2 * c + d)
             t += h
@@ -58,10 +59,10 @@ class Rigid(unittest.TestCase):
                 rows = [[float(value) for value in row] for row in list(csv.reader(lines))[1:]]
             return json.loads(Path(f"{scratch}/run/summary.json").read_text(encoding="utf-8")), rows
 
-    def piston_errors(self, ratio, factor, *arguments):
+    def piston_errors(self, ratio, factor, *arguments, spring=0, damper=0):
         _, rows = self.run_case("rigid_piston", f"--set=parameters.density_ratio={ratio}",
                                 f"--set=grid.factor={factor}", *arguments)
-        exact = motion(ratio, [row[0] for row in rows])
+        exact = motion(ratio, [row[0] for row in rows], spring, damper)
         return (max(abs(row[7] - u) for row, (u, _) in zip(rows, exact)),
                 max(abs(row[5] - rows[0][5] - x) for row, (_, x) in zip(rows, exact)))
 
@@ -71,6 +72,15 @@ class Rigid(unittest.TestCase):
             for a, b in zip(coarse, fine):
                 self.assertLess(b, bound, f"density ratio {ratio}")
                 self.assertGreater(math.log2(a / b), 1.8, f"density ratio {ratio}")
+
+    def test_piston_on_a_spring_and_a_damper_follows_the_exact_motion_to_second_order(self):
+        height = 0.5   # of the interface: the springs of a case are per depth, those of `motion` per area
+        for ratio, spring, damper in ((1, 8, 0), (1, 8, 0.5), (1e-2, 8, 0), (1, 0, 0.5)):
+            held = (f"--set=solids.solid.spring={{x: {height * spring}}}", f"--set=solids.solid.damper={{x: {height * damper}}}")
+            coarse, fine = (self.piston_errors(ratio, factor, *held, spring=spring, damper=damper) for factor in (2, 4))
+            for a, b in zip(coarse, fine):
+                self.assertLess(b, 1e-4, (ratio, spring, damper))
+                self.assertGreater(math.log2(a / b), 1.8, (ratio, spring, damper))
 
     def test_turned_piston_moves_along_its_walls(self):
         _, rows = self.run_case("rigid_piston", "--set=grid.factor=2")

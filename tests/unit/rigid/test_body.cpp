@@ -27,7 +27,7 @@ using std::numbers::pi;
 constexpr double z_f = 1.3, p_e = 1;
 
 RigidBody body_within(const std::vector<double>& x, double rho, const Vec3& start = Vec3::Zero()) {
-  RigidBody body(Outline{.x = x}, inertia_of(x), rho, Eigen::Matrix3d::Identity());
+  RigidBody body(Outline{.x = x}, inertia_of(x), rho, {});
   body.start(start);
   return body;
 }
@@ -152,7 +152,7 @@ TEST(RigidBody, ADiskThatIsPushedSlowsDownExponentiallyToSecondOrder) {
   const Vec3 start(0.4, -0.3, 0);
   const auto errors = [&](int steps) {
     InGas run(disk(0.7, start), at_rest);
-    const double m = run.body().dynamics().mass, drag = added_mass(run.body())(0, 0);
+    const double m = run.body().masses().mass, drag = added_mass(run.body())(0, 0);
     const Vec2 centre = run.body().pose().centre;
     run.run(1, steps);
     const Vec2 v = start.head<2>() * std::exp(-drag / m), way = (start.head<2>() - v) * m / drag;
@@ -174,7 +174,7 @@ TEST(RigidBody, ADiskKeepsItsRotationWhichPressureCannotChange) {
 TEST(RigidBody, AMomentTurnsADiskThoughTheOutlineDoesNotShowIt) {
   InGas run(disk(0.7), at_rest, {0, 0, 0.1});
   run.run(2, 40);
-  const double rate = 0.1 / run.body().dynamics().moment_of_inertia;
+  const double rate = 0.1 / run.body().masses().moment_of_inertia;
   EXPECT_NEAR(run.body().velocity()[2], 2 * rate, 1e-8);
   EXPECT_NEAR(run.body().pose().angle, 2 * rate, 1e-8);
 }
@@ -211,7 +211,7 @@ TEST(RigidBody, AnAlmostMasslessBodyForgetsAStepLoadInAFewSteps) {
 TEST(RigidBody, PointsThatGoRoundAccelerateTowardsTheCentre) {
   RigidBody body = disk(0.7, {0.4, -0.3, 2});
   const std::vector<double> x = body.positions(), v = body.velocities(x);
-  const std::vector<double> a = body.centripetal_accelerations(x);
+  const std::vector<double> a = body.initial_accelerations(x);
   const double dt = 1e-5;
   body.advance(dt);  // without a load
   const std::vector<double> later = body.velocities(body.positions());

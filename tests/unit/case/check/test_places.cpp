@@ -231,6 +231,46 @@ TEST(CaseLaw, ARigidBodySlidesAlongAStraightWallOnly) {
         << on_floor(floor);
 }
 
+TEST(CaseLaw, ARigidBodyIsHeldWhereItMayMove) {
+  const auto held = [](const std::string& more) {
+    return rigid_alone(
+        "    grid: {x: [0, 1], y: [0, 1], points: [11, 11]}\n"
+        "    boundary: {left: free, right: free, top: free, bottom: free}\n" +
+            more,
+        "end: 2, dt: 0.01");
+  };
+  const auto refused = [&](const std::string& more, const std::string& why) {
+    EXPECT_NE(held(more).find(why), std::string::npos) << held(more);
+  };
+  const std::string pitch = "    degrees_of_freedom: [rotation]\n    pivot: [2, 0.5]\n";
+  EXPECT_EQ(held(pitch + "    spring: {rotation: 3}\n    damper: {rotation: 0.1, x: 0}\n"), "");
+  refused(pitch + "    spring: {y: 3}\n",
+          "solids.body.spring.y: `y` is not among the `degrees_of_freedom`; add it there, or leave this out");
+  refused("    degrees_of_freedom: []\n", "leaves no motion; write `motion: fixed`");
+  refused("    degrees_of_freedom: [x, x]\n", "`x` stands there twice");
+  refused("    degrees_of_freedom: [z]\n", "`z` does not exist here (one of x, y, rotation)");
+  for (const char* key : {"pivot: [0, 0]", "degrees_of_freedom: [x]", "spring: {x: 1}", "damper: {x: 1}"})
+    refused(fmt::format("    motion: fixed\n    {}\n", key), "the body is fixed (`motion: fixed`)");
+  EXPECT_NE(
+      mistake_of("beam", {"solids.beam.spring={x: 1}"}).find("solids.beam.spring: belongs to `law: rigid`"),
+      std::string::npos);
+}
+
+TEST(CaseLaw, WhatSlidesAlongAWallIsHeldAlongItAlone) {
+  const auto refused = [](const std::string& key, const char* value, const char* out) {
+    const std::string message = mistake_of("rigid_piston", {fmt::format("solids.solid.{}={}", key, value)});
+    EXPECT_NE(message.find(fmt::format("solids.solid.{}: the body slides along a wall", key)),
+              std::string::npos)
+        << message;
+    EXPECT_NE(message.find(fmt::format("leave `{}` out", out)), std::string::npos) << message;
+  };
+  EXPECT_EQ(mistake_of("rigid_piston", {"solids.solid.spring={x: 1}", "solids.solid.damper={x: 1}"}), "");
+  refused("spring", "{rotation: 1}", "rotation");
+  refused("damper", "{rotation: 1}", "rotation");
+  refused("pivot", "[0, 0]", "pivot");
+  refused("degrees_of_freedom", "[x]", "degrees_of_freedom");
+}
+
 TEST(CaseLaw, LoadedSideCannotBeRigid) {
   const std::string side = "solids.beam.boundary.bottom={kind: traction, value: [t, 0]}";
   const std::string message = mistake_of("beam", {side}, {"beam=rigid"});
@@ -250,6 +290,11 @@ TEST(CaseLaw, ARigidBodyWithoutAGasFollowsItsForceInStepsThatTheCaseGives) {
                               "with which to follow its `body_force`; write `dt` [time]"),
       std::string::npos)
       << rigid_alone(force);
+  const std::string spring = square + "    spring: {x: 3}\n";
+  EXPECT_EQ(rigid_alone(spring, "end: 2, dt: 0.01"), "");
+  EXPECT_NE(rigid_alone(spring).find("with which to follow what holds it; write `dt` [time]"),
+            std::string::npos)
+      << rigid_alone(spring);
 }
 
 /// With `shape` the load of a side is that of the outline, where neither program looks for one.

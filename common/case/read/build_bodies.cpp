@@ -1,9 +1,14 @@
-#include "common/case/read/build_beam.hpp"
+#include "common/case/read/build_bodies.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "common/case/schema/laws.hpp"
 
@@ -13,6 +18,40 @@ namespace {
 
 using config::fail;
 using config::Node;
+
+// --- rigid bodies
+
+constexpr std::array<const char*, 4> mounting_keys{"degrees_of_freedom", "pivot", "spring", "damper"};
+
+std::array<bool, 3> freedoms_of(const Node& list, const std::string& path) {
+  if (list.items.empty()) fail(list.place, path, "leaves no motion; write `motion: fixed` in its place");
+  std::array<bool, 3> free{};
+  for (const Node& word : list.items) {
+    const auto k =
+        static_cast<std::size_t>(std::ranges::find(rigid_motions, word.text) - rigid_motions.begin());
+    if (free[k]) fail(word.place, path, fmt::format("`{}` stands there twice; leave one out", word.text));
+    free[k] = true;
+  }
+  return free;
+}
+
+/// Stiffnesses or resistances of a section; of motions that there are.
+std::array<double, 3> values_of(const Node& section, const std::array<bool, 3>& free,
+                                const std::string& path) {
+  std::array<double, 3> values{};
+  for (const config::Entry& entry : section.entries) {
+    const auto k =
+        static_cast<std::size_t>(std::ranges::find(rigid_motions, entry.key) - rigid_motions.begin());
+    values[k] = *entry.value.number;
+    if (values[k] > 0 && !free[k])
+      fail(entry.place, fmt::format("{}.{}", path, entry.key),
+           fmt::format("`{}` is not among the `degrees_of_freedom`; add it there, or leave this out",
+                       entry.key));
+  }
+  return values;
+}
+
+// --- beams
 
 constexpr double fewest_elements = 3, most_elements = 5000;  ///< elements, as in the schema
 
@@ -49,6 +88,27 @@ int elements_of(const Reader& reader, const BeamSpec& beam) {
 }
 
 }  // namespace
+
+MountingSpec build_mounting(const Node& solid, const std::string& path, bool rigid) {
+  const bool fixed = solid.find("motion") != nullptr && solid.find("motion")->text == "fixed";
+  for (const char* key : mounting_keys) {
+    const Node* given = solid.find(key);
+    if (given == nullptr || (rigid && !fixed)) continue;
+    fail(given->place, fmt::format("{}.{}", path, key),
+         rigid ? "the body is fixed (`motion: fixed`) and moves nowhere; leave one of them out"
+               : "belongs to `law: rigid`; leave it out");
+  }
+  MountingSpec result;
+  if (const Node* list = solid.find("degrees_of_freedom"))
+    result.free = freedoms_of(*list, path + ".degrees_of_freedom");
+  if (const Node* pivot = solid.find("pivot"))
+    result.pivot = Vec2(*pivot->items[0].number, *pivot->items[1].number);
+  if (const Node* spring = solid.find("spring"))
+    result.spring = values_of(*spring, result.free, path + ".spring");
+  if (const Node* damper = solid.find("damper"))
+    result.damper = values_of(*damper, result.free, path + ".damper");
+  return result;
+}
 
 std::optional<BeamSpec> build_beam(const Reader& reader, const Node& solid, std::string_view law,
                                    const std::string& path) {
