@@ -10,8 +10,8 @@
 
 #include "common/case/document/fluid_sections.hpp"
 #include "common/case/document/reader.hpp"
-#include "common/case/read/build_bodies.hpp"
 #include "common/case/read/build_block.hpp"
+#include "common/case/read/build_bodies.hpp"
 #include "common/case/read/build_domain.hpp"
 #include "common/case/read/build_levels.hpp"
 #include "common/case/read/build_material.hpp"

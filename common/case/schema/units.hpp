@@ -19,7 +19,7 @@ struct Unit {
   Dimensions dimensions = {};
 };
 
-inline constexpr std::array<Unit, 16> units{{
+inline constexpr std::array<Unit, 20> units{{
     {.name = "-"},
     {.name = "degree"},
     {.name = "cell"},
@@ -36,6 +36,10 @@ inline constexpr std::array<Unit, 16> units{{
     {.name = "mass/area", .dimensions = {.length = 1, .density = 1}},
     {.name = "pressure", .dimensions = {.length = 2, .time = -2, .density = 1}},
     {.name = "force/volume", .dimensions = {.length = 1, .time = -2, .density = 1}},
+    {.name = "force/length/depth", .dimensions = {.length = 2, .time = -2, .density = 1}},
+    {.name = "force*length/depth", .dimensions = {.length = 4, .time = -2, .density = 1}},
+    {.name = "force*time/length/depth", .dimensions = {.length = 2, .time = -1, .density = 1}},
+    {.name = "force*length*time/depth", .dimensions = {.length = 4, .time = -1, .density = 1}},
 }};
 
 /// Nothing for a word that is no unit.
