@@ -4,7 +4,7 @@ import numpy as np
 from matplotlib.collections import TriMesh
 from matplotlib.colors import ListedColormap
 from matplotlib.image import AxesImage
-from matplotlib.patches import Rectangle
+from matplotlib.patches import Polygon, Rectangle
 
 from fsi_launch.plot.reading import mesh
 
@@ -35,6 +35,8 @@ def _triangles(axes, grid, values):
     drawn = TriMesh(triangles)
     drawn.set_array(np.where(grid.used(), values, 0).ravel())
     axes.add_collection(drawn, autolim=False)   # the box is known; finding it takes longer than the drawing
+    if grid.fan:
+        drawn.set_clip_path(Polygon(mesh.rim_of_fan(grid), transform=axes.transData))
     return drawn
 
 

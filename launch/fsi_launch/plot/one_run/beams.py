@@ -90,7 +90,7 @@ def _displacement_of_line(grid, ends, s):
 def _beam(one):
     """The beam a program computed, or None: a rigid body, two lines of points without a rotation of their own, is none."""
     fitted = [grid for grid in one.outputs[0].grids if not grid.is_cartesian() and not grid.closed]
-    rigid = len(fitted) == 1 and len(fitted[0].x1) == 2 and "theta" not in fitted[0].fields
+    rigid = len(fitted) == 1 and fitted[0].fan and "theta" not in fitted[0].fields
     ends = _axis(fitted[0]) if len(fitted) == 1 and not rigid else None
     if ends is None:
         return None

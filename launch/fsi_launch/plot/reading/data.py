@@ -33,6 +33,7 @@ class Grid:
     fields: dict
     closed: bool
     level: int = 0     # of a background of several levels; 0 is the finest one
+    fan: bool = False  # a body without a grid: from its outline to a line inside it, or to its centre
 
     def __getitem__(self, name):
         """A field by its name; "speed", and of a gas "T", are made of the others."""
@@ -44,7 +45,7 @@ class Grid:
 
     def filled(self):
         """The same with lines between its two, if it has no more: what is linear there, the velocity of a rigid body, has a size that is not."""
-        if len(self.x1) != 2:
+        if not self.fan:
             return self
         share = np.linspace(0, 1, FILLED)[:, None]
 
@@ -105,7 +106,7 @@ class Series:
 
     def has_an_inside(self):
         """False of rigid bodies and beams, which are two lines of points."""
-        return len(self.outputs[0].grids[0].x1) > 2
+        return not self.outputs[0].grids[0].fan
 
 
 @dataclass
@@ -137,7 +138,7 @@ def _read_grid(name, group):
     if closed and not _is_there_again(arrays["x1"], arrays["x2"]):
         arrays = {key: np.concatenate([values, values[:, :1]], axis=1) for key, values in arrays.items()}
     fields = {key: values for key, values in arrays.items() if key not in NOT_FIELDS}
-    return Grid(name, arrays["x1"], arrays["x2"], arrays["kind"].astype(int), fields, closed)
+    return Grid(name, arrays["x1"], arrays["x2"], arrays["kind"].astype(int), fields, closed, fan=len(arrays["x1"]) == 2)
 
 
 def _read_grids(group):

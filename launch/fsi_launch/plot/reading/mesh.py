@@ -56,6 +56,11 @@ def _loops(grid):
     return [np.column_stack([np.concatenate([x[p] for p in part]) for x in (grid.x1, grid.x2)]) for part in parts]
 
 
+def rim_of_fan(grid):
+    """Its outline there and the line inside it back: in a hollow its cells leave the body."""
+    return np.column_stack([np.concatenate([x[0], x[-1, ::-1]]) for x in (grid.x1, grid.x2)])
+
+
 def runs(used):
     """Index ranges of the used points of a line."""
     parts = np.split(np.arange(len(used)), np.flatnonzero(np.diff(used)) + 1)

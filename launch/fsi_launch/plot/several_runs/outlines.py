@@ -54,7 +54,7 @@ def outline(grids):
     of its grids follows it."""
     if (found := ring(grids)) is not None:
         return found
-    if len(grids) == 1 and len(grids[0].x1) > 2:
+    if len(grids) == 1 and not grids[0].fan:
         return max(mesh.outer_lines(grids[0]), key=_length)
     fitted = [grid for grid in grids if not grid.is_cartesian()]
     rows = [row for row in (0, -1) if (fitted[-1].kind[row] != data.INTERPOLATED).mean() > 0.5] if fitted else []
