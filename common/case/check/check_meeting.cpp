@@ -56,9 +56,12 @@ void check_periods_meet(const FluidSpec& fluid, const SolidSpec& solid, Side gas
                              own ? "" : "not ", own ? "not" : "periodic"));
   }
   if (own && (solid.law == rigid_law || solid.law == beam_law)) {
-    config::fail(place.place, path,
-                 fmt::format("a {} ends somewhere: it cannot be periodic; write symmetry",
-                             solid.law == beam_law ? "beam" : "rigid body"));
+    config::fail(
+        place.place, path,
+        fmt::format(
+            "a {} cannot be periodic: write `symmetry` for these sides, here and in the gases that it "
+            "meets, or take a law that deforms",
+            solid.law == beam_law ? "beam" : "rigid body"));
   }
 }
 

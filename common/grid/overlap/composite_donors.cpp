@@ -27,6 +27,14 @@ std::string while_moving(double t) {
   return t > 0 ? "; write a larger grid.factor, whose grids are thinner, or let the run end before" : "";
 }
 
+constexpr const char* grid_along_a_wall =
+    "if that side is a wall, give it a grid along it in fluid.body_fitted (docs/troubleshooting.md)";
+
+/// In cells, for people; rounded down: where it is too small it must not look large enough.
+double to_a_tenth(double cells) {
+  return std::floor(10 * cells) / 10;
+}
+
 /// How a curve is related to the side of a rectangle that is nearest to a position.
 struct Standing {
   bool on_rim = false;  ///< one of its ends is on that side
@@ -286,25 +294,25 @@ std::string CompositeGrid::nearest_curves(const Vec2& x, double t) const {
     constexpr double fewest_cells = 3;  // between a curve and a side without a grid along it
     if (t > 0 && order[0].first + to_rim < fewest_cells * cell) {
       const std::string what = fmt::format(
-          "; {} has come within {:.2g} cells of the rim of \"{}\" there, less than the {} that gas between "
+          "; {} has come within {:g} cells of the rim of \"{}\" there, less than the {} that gas between "
           "them takes; ",
-          name_of_body(bodies_[a]), (order[0].first + std::max(to_rim, 0.0)) / cell, background_.name,
-          fewest_cells);
+          name_of_body(bodies_[a]), to_a_tenth((order[0].first + std::max(to_rim, 0.0)) / cell),
+          background_.name, fewest_cells);
       if (const Standing standing = standing_of(curves[a], background_, x); standing.on_rim)
         return what + remedy_at_foot(standing, cell);
-      return what +
-             "let the rectangle reach farther; if that side is a wall, give it a grid along it in "
-             "fluid.body_fitted (docs/troubleshooting.md); or let the run end before";
+      return fmt::format("{}let the rectangle reach farther; {}; or let the run end before", what,
+                         grid_along_a_wall);
     }
     if (t > 0 && to_rim < order[0].first)
       return fmt::format(
           "; {} comes to the rim of \"{}\": let the run end before, or the rectangle reach farther (with a "
-          "larger grid.factor it may come nearer)",
-          name_of_body(bodies_[a]), background_.name);
+          "larger grid.factor it may come nearer); {}",
+          name_of_body(bodies_[a]), background_.name, grid_along_a_wall);
+    const bool comes = t > 0 && !standing_of(curves[a], background_, x).on_rim;
     return fmt::format(
-        "; the curve of grid \"{}\" is {:.3g} ({:.2g} cells) from there, the rim of \"{}\" {:.3g}{}",
+        "; the curve of grid \"{}\" is {:.3g} ({:.2g} cells) from there, the rim of \"{}\" {:.3g}{}{}{}",
         bodies_[a].name, order[0].first, order[0].first / cell, background_.name, std::max(to_rim, 0.0),
-        while_moving(t));
+        while_moving(t), comes ? "; " : "", comes ? grid_along_a_wall : "");
   }
   const std::size_t b = order[1].second;
   const Gap gap = gap_between(curves[a], curves[b]);

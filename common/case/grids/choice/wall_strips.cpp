@@ -73,7 +73,8 @@ void refuse_touching(const BodyFittedSpec& ring, const Node& item, Side side, do
       fmt::format(
           "the outline of solid `{0}` comes within {2:.3g} of the {1} side of the gas, less than half a "
           "cell; if it stands there, write `walls: [{1}, {1}]` into the shape, with its first and its "
-          "last point on that side; if not, move it away, or take grid.factor greater",
+          "last point on that side (a circle or an ellipse has no such points: draw it as a polygon or a "
+          "spline); if not, move it away, or take grid.factor greater",
           ring.solid, name_of(side), std::max(distance, 0.0))));
 }
 

@@ -101,6 +101,8 @@ TEST(ThinOverlap, ABodyThatHasComeToTheRimIsNamedWithItsDistance) {
   EXPECT_EQ(message(1.5, 1), "");
   const std::string later = message(1.04, 1), first = message(1.04, 0);
   EXPECT_NE(later.find("; body `disk` has come within "), std::string::npos) << later;
+  EXPECT_EQ(later.find("within 3 cells"), std::string::npos)
+      << later;  // of which it says that they are enough
   EXPECT_NE(later.find("let the run end before"), std::string::npos) << later;
   EXPECT_NE(later.find("let the rectangle reach farther; if that side is a wall, give it a grid along it in"),
             std::string::npos)
