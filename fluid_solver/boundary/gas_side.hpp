@@ -84,7 +84,7 @@ inline void set_wall_ghosts(const GasSide& side, const Wall& wall) {
   if (side.forcing != nullptr) {
     extrapolate_ghosts(side);
   } else {
-    side.bounded += wall_ghosts(side.q, side.x, side.points, wall, side.limited());
+    side.bounded += wall_ghosts(side.q, side.x, side.points, wall, side.options);
   }
 }
 

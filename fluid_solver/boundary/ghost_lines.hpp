@@ -48,8 +48,9 @@ struct Wall {
 /// written out; the derivative across the side is split into normal and tangential parts so that skewed grids
 /// keep second order. Where another wall holds the gas, too, it goes with the corner: grad p = -rho g_tt. A one-sided
 /// derivative along the side grows there once the two walls are far from a right angle, by what it makes of p itself.
+/// With a limiter, the image of the gas inside where a shock leaves.
 std::uint64_t wall_ghosts(FieldView q, ConstFieldView x, const SidePoints& side, const Wall& wall,
-                          bool limited);
+                          const GasOptions& options);
 
 /// Behind an outflow: what leaves along characteristics is extrapolated, what would enter stays as it is on
 /// the boundary. `v` is the velocity of the side's points.

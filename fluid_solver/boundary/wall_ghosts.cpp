@@ -51,57 +51,97 @@ double pressure_slope(ConstFieldView q, ConstFieldView x, const SidePoints& side
   return p_n * across.dot(n) + p_r * across.dot(g_r) / g_r.squaredNorm();
 }
 
-/// How much of `change`, by which the extrapolated density behind a wall differs from that of its mirror image, is left: all up to
-/// half of the density, then less and less, and not at all where it would be all of it. There a shock stands between the wall and the
-/// first line, which is its own mirror image, and the ghosts of smooth gas do not fit:
-///
-///     denser at the wall,     a shock that leaves it. The reflected velocity would give the wall's dense gas a slope, at its face
-///     its pressure higher     half the speed of the gas before the shock: it would push the shock back, and where gas
-///                             can leave along the wall the shock would stay for ever. The wall's own state has no slope
-///     thinner at the wall     a shock that meets it. Ghosts with the density at the wall and the speed before the
-///                             shock would push the wall's gas away as fast as it comes. The mirror's density does not
-double part_of_change(double change, double inside) {
-  return std::clamp(2 * (1 - std::fabs(change) / inside), 0.0, 1.0);
+/// 0 up to `low`, 1 from `high` on.
+double ramp(double value, double low, double high) {
+  return std::clamp((value - low) / (high - low), 0.0, 1.0);
 }
 
-/// The same of the pressure, where only a rise makes a shock.
-double part_of_rise(double rise, double inside) {
-  return rise > 0 ? part_of_change(rise, inside) : 1;
+/// What the gas beside a point of a wall is told by the wall and the next two lines of the grid.
+struct WallGas {
+  StateVector at_wall, first, second;
+  Vec2 n;        ///< unit normal into the gas
+  double slope;  ///< change of pressure per line, by the momentum equation on the wall
+  double gamma;
+
+  /// 1 where a shock leaves: the ghosts of smooth gas do not fit there, extrapolation makes dense gas behind the wall,
+  /// and only what the scheme makes of the image gets the entropy of the shock. In smooth gas what the pressure has
+  /// beyond its slope falls with h^2.
+  double shock() const {
+    constexpr double smooth = 0.05, sharp = 0.15;  // of the pressure
+    return ramp(std::max(rise(first, 1), rise(second, 2)), smooth, sharp);
+  }
+
+  /// 1 where the gas runs against the wall faster than it does behind any shock that the wall reflects: none has left
+  /// yet, and where gas can leave along the wall it may stay for ever. With the image's state the wall's dense gas has a
+  /// slope of the normal velocity, at its face half the speed of the gas before the shock, which pushes the shock back.
+  /// The wall's own state has no slope.
+  double stream() const {
+    constexpr double behind_shocks = 1.5, before_shocks = 2;  // Mach numbers
+    const double a = std::sqrt(gamma * first[3] / first[0]);
+    return ramp(n.dot(Vec2(at_wall.segment<2>(1) - first.segment<2>(1))) / a, behind_shocks, before_shocks);
+  }
+
+ private:
+  /// Of the pressure at the wall above that of smooth gas, over the pressure inside.
+  double rise(const StateVector& inside, int line) const {
+    return (at_wall[3] - (inside[3] - line * slope)) / std::min(inside[3], at_wall[3]);
+  }
+};
+
+/// Of gas inside, with its normal velocity reflected about that of the wall.
+Vec2 reflected(const WallGas& gas, const StateVector& inside) {
+  const Vec2 v = inside.segment<2>(1);
+  return v + 2 * gas.n.dot(Vec2(gas.at_wall.segment<2>(1)) - v) * gas.n;
+}
+
+/// How much of `change`, by which the extrapolated density behind a wall differs from that of its image, is left: all up
+/// to half of the density, then less and less, and not at all where it would be all of it. There a shock meets the wall:
+/// ghosts with the density at the wall and the speed before the shock would push the wall's gas away as fast as it comes.
+double part_of_change(double change, double inside) {
+  return 1 - ramp(std::fabs(change) / inside, 0.5, 1);
+}
+
+/// Line -m behind the wall, from line m inside and from what smooth gas would have there. The pressure of both is that
+/// of the image and of the wall's slope.
+StateVector behind_wall(const WallGas& gas, const StateVector& inside, const StateVector& smooth) {
+  StateVector ghost = smooth, image = inside;
+  image.segment<2>(1) = reflected(gas, inside);
+  image[3] = smooth[3];
+  // odd reflection here, too: the wall stays where it is when a shock meets it
+  ghost.segment<2>(1) += gas.n.dot(Vec2((image - smooth).segment<2>(1))) * gas.n;
+  ghost[0] = inside[0] + part_of_change(smooth[0] - inside[0], inside[0]) * (smooth[0] - inside[0]);
+  ghost += gas.shock() * (image - ghost);
+  return ghost + gas.shock() * gas.stream() * (gas.at_wall - ghost);
 }
 
 }  // namespace
 
 std::uint64_t wall_ghosts(FieldView q, ConstFieldView x, const SidePoints& side, const Wall& wall,
-                          bool limited) {
+                          const GasOptions& options) {
+  const bool limited = options.limiter != Limiter::none;
+  const double share = limited ? 0.5 : 1 - 1e-3;  // of the pressure inside, that its change may have
   const WallVectors normals(wall.n, wall.closed);
   std::uint64_t count = 0;
   for (int k = 0; k < side.n(); ++k) {
     if (!side.live(k)) continue;
-    const Vec2 n = normals(k);
-    const double slope = pressure_slope(q, x, side, wall, k);
-    const double v_n = n.dot(Vec2(load(q, side.at(k, 0)).segment<2>(1)));
+    const WallGas gas{.at_wall = load(q, side.at(k, 0)),
+                      .first = load(q, side.at(k, 1)),
+                      .second = load(q, side.at(k, 2)),
+                      .n = normals(k),
+                      .slope = pressure_slope(q, x, side, wall, k),
+                      .gamma = options.gamma};
     bool bounded = false;
     for (int m = 1; m <= Layout::ghosts; ++m) {
       const StateVector inside = load(q, side.at(k, m));
       const BoundedState beyond = extrapolated(load(q, side.at(k, 1 - m)), load(q, side.at(k, 2 - m)),
                                                load(q, side.at(k, 3 - m)), limited);
       StateVector ghost = beyond.q;
-      const double change = 2 * m * slope, largest = limited ? 0.5 * inside[3] : (1 - 1e-3) * inside[3];
+      const double change = 2 * m * gas.slope, largest = share * inside[3];
       ghost[3] = inside[3] - std::clamp(change, -largest, largest);
       bounded |= beyond.bounded || std::fabs(change) > largest;
-      if (limited) {  // odd reflection: the wall stays where it is when a shock meets it
-        Vec2 v = ghost.segment<2>(1);
-        v += (2 * v_n - n.dot(Vec2(inside.segment<2>(1))) - n.dot(v)) * n;
-        ghost.segment<2>(1) = v;
-        const double change_of_density = ghost[0] - inside[0],
-                     part = part_of_change(change_of_density, inside[0]);
-        ghost[0] = inside[0] + part * change_of_density;
-        if (change_of_density > 0) {
-          const StateVector at_wall = load(q, side.at(k, 0));
-          const double smooth = std::max(part, part_of_rise(at_wall[3] - inside[3], inside[3]));
-          ghost += (1 - smooth) * (at_wall - ghost);
-        }
-        bounded |= part < 1;
+      if (limited) {
+        bounded |= part_of_change(ghost[0] - inside[0], inside[0]) < 1;
+        ghost = behind_wall(gas, inside, ghost);
       }
       store(q, side.at(k, -m), ghost);
     }

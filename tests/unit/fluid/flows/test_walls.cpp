@@ -207,7 +207,7 @@ TEST(Eq31WallGhosts, BalanceTheCentrifugalForceOnCurvedSkewedTurningWalls) {
 }
 
 TEST(Eq31SlipWall, ReflectsAShockAsTheJumpConditionsSay) {
-  for (const double M : {2.0, 3.0, 10.0}) {
+  for (const double M : {1.3, 1.6, 2.0, 3.0, 10.0}) {
     const double p1 = 1 + 2 * gamma / (gamma + 1) * (M * M - 1),
                  rho1 = (gamma + 1) * M * M / ((gamma - 1) * M * M + 2);
     const double u1 = std::sqrt(gamma) * 2 / (gamma + 1) * (M - 1 / M);
@@ -222,8 +222,9 @@ TEST(Eq31SlipWall, ReflectsAShockAsTheJumpConditionsSay) {
       test::run(gas, 0.7 / (M * std::sqrt(gamma)));
       EXPECT_NEAR(gas.state()(3, 100, 2), p2, 0.01 * p2)
           << M;  // the wall's own start-up error has left by now
-      EXPECT_NEAR(gas.state()(0, 100, 2), rho2, 0.15 * rho2)
-          << M;  // but for its entropy, which stays at the wall
+      // but for its entropy, which stays at the wall
+      EXPECT_NEAR(gas.state()(0, 100, 2), rho2, (M > 3 ? 0.15 : 0.05) * rho2) << M;
+      EXPECT_NEAR(gas.state()(0, 99, 2), rho2, (M > 3 ? 0.15 : 0.03) * rho2) << M;
       EXPECT_EQ(gas.state()(1, 100, 2), 0);
     }
   }
