@@ -179,6 +179,7 @@ void Coupler::answer() {
     interface.fill_robin(to_solid);
     interface.fit(to_fluid, to_solid);
     leave_out_what_the_other_needs(to_fluid, to_solid);
+    if (moment_.dt == 0 && !options_.path) to_fluid.a.clear();  // not known: no step has shown it
   }
 }
 

@@ -113,7 +113,7 @@ struct ProjectedInterface {
   std::vector<double> v_n;    ///< normal velocity v_n^I, n
   std::vector<double> w_n;    ///< normal traction w_n^I = p_e - p^I, n
   std::vector<double> v;      ///< gas: velocity of the interface points at t, n_d * n
-  std::vector<double> a;      ///< gas: their acceleration at t, n_d * n
+  std::vector<double> a;      ///< gas: their acceleration at t, n_d * n; empty at step 0: not known
   std::vector<double> q_dot;  ///< solid with degrees of freedom: their velocities at t, k
   // To a solid: the gas characteristic w_n + z_f v_n = r(t); where it takes substeps with r_k at t_k, newest first.
   std::vector<double> z_f;      ///< n

@@ -32,7 +32,7 @@ BoundedState extrapolated(const StateVector& q0, const StateVector& q1, const St
 struct Wall {
   std::span<const double> n;                           ///< unit normal into the gas
   std::span<const double> v;                           ///< velocity of the wall's points
-  std::span<const double> a;                           ///< their acceleration
+  std::span<const double> a;                           ///< their acceleration; empty: not known yet
   bool closed = false;                                 ///< the side is periodic along itself
   bool mirrored_first = false, mirrored_last = false;  ///< ghosts beyond its ends along the side are known
   bool held_first = false, held_last = false;          ///< at its ends another wall holds the gas, too

@@ -15,7 +15,7 @@ struct InterfaceValues {
   std::span<const double> v_n;  ///< v_n^I, n
   std::span<const double> w_n;  ///< w_n^I = p_e - p^I, n
   std::span<const double> v;    ///< velocity of the wall points, 2 n
-  std::span<const double> a;    ///< acceleration of the wall points, 2 n
+  std::span<const double> a;    ///< acceleration of the wall points, 2 n; empty: not known yet
   int grid = 0;                 ///< component grid it belongs to
 };
 

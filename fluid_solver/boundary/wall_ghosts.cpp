@@ -51,6 +51,15 @@ double pressure_slope(ConstFieldView q, ConstFieldView x, const SidePoints& side
   return p_n * across.dot(n) + p_r * across.dot(g_r) / g_r.squaredNorm();
 }
 
+/// The same of gas inside, lines 1 to 3: nobody knows how the wall begins to move, and the pressure on it may be new.
+double initial_slope(ConstFieldView q, const SidePoints& side, int k, bool limited) {
+  const auto p = [&](int line) { return load(q, side.at(k, line))[3]; };
+  const double first = p(2) - p(1), second = p(3) - p(2), at_wall = 2.5 * first - 1.5 * second;
+  if (!limited) return at_wall;
+  if (first * second <= 0) return 0;
+  return first > 0 ? std::clamp(at_wall, 0.0, 2 * first) : std::clamp(at_wall, 2 * first, 0.0);
+}
+
 /// 0 up to `low`, 1 from `high` on.
 double ramp(double value, double low, double high) {
   return std::clamp((value - low) / (high - low), 0.0, 1.0);
@@ -124,12 +133,13 @@ std::uint64_t wall_ghosts(FieldView q, ConstFieldView x, const SidePoints& side,
   std::uint64_t count = 0;
   for (int k = 0; k < side.n(); ++k) {
     if (!side.live(k)) continue;
-    const WallGas gas{.at_wall = load(q, side.at(k, 0)),
-                      .first = load(q, side.at(k, 1)),
-                      .second = load(q, side.at(k, 2)),
-                      .n = normals(k),
-                      .slope = pressure_slope(q, x, side, wall, k),
-                      .gamma = options.gamma};
+    const WallGas gas{
+        .at_wall = load(q, side.at(k, 0)),
+        .first = load(q, side.at(k, 1)),
+        .second = load(q, side.at(k, 2)),
+        .n = normals(k),
+        .slope = wall.a.empty() ? initial_slope(q, side, k, limited) : pressure_slope(q, x, side, wall, k),
+        .gamma = options.gamma};
     bool bounded = false;
     for (int m = 1; m <= Layout::ghosts; ++m) {
       const StateVector inside = load(q, side.at(k, m));

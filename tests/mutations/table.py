@@ -63,6 +63,8 @@ MUTATIONS = [
      "inside[0]) < 1;", "inside[0]) > 1;", "test_fluid", "*Wall*:GasOnRanks*"),
     ("wall: density of the ghosts for a shock that stands before it", "fluid_solver/boundary/wall_ghosts.cpp",
      "return 1 - ramp(std::fabs(change)", "return 1 + ramp(std::fabs(change)", "test_fluid", "*Wall*"),
+    ("wall: slope of the initial pressure", "fluid_solver/boundary/wall_ghosts.cpp",
+     "2.5 * first - 1.5 * second", "2.5 * first + 1.5 * second", "test_fluid", "Eq31WallGhosts*"),
     ("wall: image of the gas where a shock leaves", "fluid_solver/boundary/wall_ghosts.cpp",
      "ghost += gas.shock() *", "ghost += 0 * gas.shock() *", "test_fluid", "Eq31SlipWall*"),
     ("wall: state of the ghosts for a stream whose shock is to leave", "fluid_solver/boundary/wall_ghosts.cpp",

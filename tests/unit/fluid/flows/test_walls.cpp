@@ -89,6 +89,27 @@ TEST(Eq31Interface, KeepsAVacuumPositiveWithoutAPressureOutside) {
   EXPECT_LT(gas.state()(3, 0, 4), 1e-6);
 }
 
+/// Of second degree, whatever pressure the wall itself was given; with a limiter, gas of one pressure shows no slope.
+TEST(Eq31WallGhosts, ContinueThePressureInsideWhereNoAccelerationIsKnown) {
+  for (const Limiter limiter : {Limiter::none, Limiter::minmod}) {
+    for (const double curvature : {0.0, 0.02}) {
+      const double slope = limiter == Limiter::none || curvature > 0 ? 0.1 : 0;
+      const auto p = [=](double x) { return 1 + slope * x + curvature * x * x; };
+      GasSolver gas = box_with_interface(
+          [=](double x, double, double) {
+            return State{1, 0, 0, p(x)};
+          },
+          0.8, limiter);
+      test::OwnedInterface side = uniform_interface(9, {1, 0}, 0, 0.8 - p(0));
+      side.a.clear();
+      const std::vector<InterfaceValues> values{side.view()};
+      gas.apply_fluid_bcs(0, values);
+      EXPECT_NEAR(gas.state()(3, -1, 4), p(-0.1), 1e-14);
+      EXPECT_NEAR(gas.state()(3, -2, 4), p(-0.2), 1e-14);
+    }
+  }
+}
+
 TEST(Eq31WallGhosts, ContinueThePressureOfAnAcceleratedColumnOfGas) {
   // In a column accelerated with a, gas of constant density
   // has dp/dx = -rho a: the ghosts lie on the same line.
