@@ -305,8 +305,9 @@ void SolidComponent<L>::dissipate(const DissipationBetas& betas, double dt, RowR
   const ConstFieldView q = q_.view();
   const FieldView next = next_.view();
   if (betas.P != 0) add_tangential_stress_dissipation<Row>(q, next, metrics_, betas.P, run);
-  if (betas.u != 0) add_displacement_dissipation(q, next, betas.u, run);
-  if (betas.r != 0) add_relaxation(q, next, Gradient(grid_.x(), metrics_, run.j), law_, betas.r, run);
+  const Gradient gradient(grid_.x(), metrics_, run.j);
+  if (betas.u != 0) add_displacement_dissipation(q, next, gradient, betas.u, run);
+  if (betas.r != 0) add_relaxation(q, next, gradient, law_, betas.r, run);
   diffuse(dt, run);
 }
 

@@ -28,7 +28,8 @@ inline double traction_share(const SideMetrics& m, double beta) {
 /// A ghost point of paper eq. (43) contains differences along the side, times the cell's depth over its length:
 /// what (40) makes of them on the side itself is no dissipation, and grows on deep cells. So the side's own
 /// points take none across the side, and beside cells that are not square the next line takes it with an extrapolated
-/// ghost point.
+/// ghost point. Both are what (40) has there beyond a linear displacement (beyond_linear): where lines bend, a ghost
+/// point is not where extrapolation has it, nor is the displacement of a body that has turned.
 void correct_displacement_dissipation(const Sides& sides, ConstFieldView q, FieldView next, double beta);
 
 }  // namespace fsi::solid

@@ -29,6 +29,11 @@ struct WideRow {
     return {fourth_difference(here[i - 2], here[i - 1], here[i], here[i + 1], here[i + 2]),
             fourth_difference(below2[i], below[i], here[i], above[i], above2[i])};
   }
+  /// Their sum.
+  [[gnu::always_inline]] double fourth_of_both(int i) const {
+    const Pair d = fourth(i);
+    return d.x + d.y;
+  }
   /// Sum over the directions of the undivided second differences.
   [[gnu::always_inline]] double second(int i) const {
     return (here[i - 1] + here[i + 1]) + (below[i] + above[i]) - 4.0 * here[i];
@@ -45,6 +50,7 @@ struct WideRow {
 /// alike, so that a linear displacement still has the exact gradient.
 class MappedGradient4 {
  public:
+  static constexpr bool bends = true;
   MappedGradient4(ConstFieldView x, const ReferenceMetrics& /*metrics*/, int j) : x_(x, 0, j), y_(x, 1, j) {}
   [[gnu::always_inline]] Tensor2 operator()(int i, Pair d1, Pair d2) const {
     const Pair x = x_.first(i), y = y_.first(i);
@@ -54,6 +60,8 @@ class MappedGradient4 {
             .a21 = scale * (d2.x * y.y - d2.y * y.x),
             .a22 = scale * (d2.y * x.x - d2.x * x.y)};
   }
+  /// Sums over the directions of D^(4) x and D^(4) y.
+  [[gnu::always_inline]] Pair bend(int i) const { return {x_.fourth_of_both(i), y_.fourth_of_both(i)}; }
 
  private:
   WideRow x_, y_;
@@ -62,11 +70,13 @@ class MappedGradient4 {
 /// The same on a Cartesian grid.
 class CartesianGradient4 {
  public:
+  static constexpr bool bends = false;
   CartesianGradient4(ConstFieldView /*x*/, const ReferenceMetrics& metrics, int /*j*/)
       : i1_(1.0 / metrics.h1()), i2_(1.0 / metrics.h2()) {}
   [[gnu::always_inline]] Tensor2 operator()(int /*i*/, Pair d1, Pair d2) const {
     return {.a11 = d1.x * i1_, .a12 = d1.y * i2_, .a21 = d2.x * i1_, .a22 = d2.y * i2_};
   }
+  [[gnu::always_inline]] Pair bend(int /*i*/) const { return {0.0, 0.0}; }
 
  private:
   double i1_, i2_;
@@ -120,6 +130,24 @@ template <Law L>
           .a22 = beta * (P_now.a22 - P.a22)};
 }
 
+/// What differences of u over indices have beyond those of the linear displacement with the gradient du: positions have some of
+/// their own where grid lines bend, and so has u = (R - 1) x of a body that only turns. On Cartesian grids that is all of them.
+/// @param of_u of both components, @param of_x of the positions
+template <class Gradient>
+[[gnu::always_inline]] inline Pair beyond_linear(Pair of_u, const Tensor2& du, Pair of_x) {
+  if constexpr (!Gradient::bends) return of_u;
+  return {of_u.x - (du.a11 * of_x.x + du.a12 * of_x.y), of_u.y - (du.a21 * of_x.x + du.a22 * of_x.y)};
+}
+
+/// Paper eq. (40) at a point: D^(4) of u beyond that of a linear displacement, times beta^u / 2.
+template <class Gradient>
+[[gnu::always_inline]] inline Pair displacement_part(const Gradient& gradient, const Tensor2& du,
+                                                     const WideRow& u1, const WideRow& u2, int i,
+                                                     double factor) {
+  const Pair d = beyond_linear<Gradient>({u1.fourth_of_both(i), u2.fourth_of_both(i)}, du, gradient.bend(i));
+  return {factor * d.x, factor * d.y};
+}
+
 /// A run of points of paper eq. (39). beta = beta^P.
 template <class Row>
 [[gnu::noinline]] void add_tangential_stress_dissipation(ConstFieldView q, FieldView next,
@@ -137,17 +165,17 @@ template <class Row>
 }
 
 /// A run of points of paper eq. (40). beta = beta^u.
-[[gnu::noinline]] inline void add_displacement_dissipation(ConstFieldView q, FieldView next, double beta,
-                                                           RowRun run) {
+template <class Gradient>
+[[gnu::noinline]] void add_displacement_dissipation(ConstFieldView q, FieldView next,
+                                                    const Gradient& gradient, double beta, RowRun run) {
+  const WideRow u1(q, plane::u1, run.j), u2(q, plane::u2, run.j);
+  double *to1 = next.row(plane::u1, run.j), *to2 = next.row(plane::u2, run.j);
   const double factor = 0.5 * beta;
-  for (int k = plane::u1; k <= plane::u2; ++k) {
-    const WideRow u(q, k, run.j);
-    double* target = next.row(k, run.j);
 #pragma omp simd
-    for (int i = run.begin; i < run.end; ++i) {
-      const Pair d = u.fourth(i);
-      target[i] -= factor * (d.x + d.y);
-    }
+  for (int i = run.begin; i < run.end; ++i) {
+    const Pair part = displacement_part(gradient, gradient(i, u1.first(i), u2.first(i)), u1, u2, i, factor);
+    to1[i] -= part.x;
+    to2[i] -= part.y;
   }
 }
 
@@ -205,11 +233,11 @@ class AllDissipation {
   };
   /// The law comes first: it takes longest.
   [[gnu::always_inline]] Parts at(int i) const {
-    const Tensor2 two = surplus(law_, gradient_(i, u1_.first(i), u2_.first(i)), P_.here(i), beta_r_);
+    const Tensor2 du = gradient_(i, u1_.first(i), u2_.first(i));
+    const Tensor2 two = surplus(law_, du, P_.here(i), beta_r_);
     const Tensor2 one = tangential_part(row_, P_, i, factor_P_);
-    const Pair d1 = u1_.fourth(i), d2 = u2_.fourth(i);
-    return {
-        .u1 = factor_u_ * (d1.x + d1.y), .u2 = factor_u_ * (d2.x + d2.y), .tangential = one, .surplus = two};
+    const Pair u = displacement_part(gradient_, du, u1_, u2_, i, factor_u_);
+    return {.u1 = u.x, .u2 = u.y, .tangential = one, .surplus = two};
   }
 
  private:

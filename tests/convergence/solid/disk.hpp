@@ -18,19 +18,16 @@ struct DiskGrids {
   std::vector<grid::BodyFittedGrid> bodies;
 };
 
-/// `cells` per `unit` of length, in the background and along the outline; `rim` is the condition on the outline,
-/// side bottom of grid 1.
-inline DiskGrids body_of(const grid::PlaneCurve& outline, int cells, Boundary rim, int lines = 9,
-                         double unit = 1) {
-  const double h = unit / cells;
-  const int points = static_cast<int>(grid::length_of(outline) / unit * cells) + 1;
-  const grid::HyperbolicGrid annulus{.name = "annulus", .points = points, .lines = lines, .spacing = h};
+/// An annulus of these points, lines and spacing, and a square background of spacing h, `half` to either side; `rim` is the
+/// condition on the outline, side bottom of grid 1.
+inline DiskGrids body_of(const grid::PlaneCurve& outline, const grid::HyperbolicGrid& annulus, Boundary rim,
+                         double h, double half) {
   Boundaries nothing, sides;
   for (Boundary& boundary : nothing) boundary.condition = no_condition;
   sides[0].condition = sides[1].condition = Periodic::condition;
   sides[2] = std::move(rim);
   sides[3].condition = no_condition;
-  const double low = -1.25 * unit, high = 1.25 * unit;
+  const double low = -half, high = half;
   const int n = static_cast<int>(std::lround((high - low) / h)) + 1;
   DiskGrids disk;
   disk.parts.push_back({grid::MovingGrid({.name = "inside",
@@ -42,9 +39,18 @@ inline DiskGrids body_of(const grid::PlaneCurve& outline, int cells, Boundary ri
                                          0),
                         nothing});
   disk.parts.push_back(
-      {grid::MovingGrid(grid::marched_from(annulus, grid::points_on(outline, points)), 0), sides});
-  disk.bodies.push_back({.name = "annulus", .n1 = points, .n2 = lines});
+      {grid::MovingGrid(grid::marched_from(annulus, grid::points_on(outline, annulus.points)), 0), sides});
+  disk.bodies.push_back({.name = annulus.name, .n1 = annulus.points, .n2 = annulus.lines});
   return disk;
+}
+
+/// `cells` per `unit` of length, in the background and along the outline.
+inline DiskGrids body_of(const grid::PlaneCurve& outline, int cells, Boundary rim, int lines = 9,
+                         double unit = 1) {
+  const double h = unit / cells;
+  const int points = static_cast<int>(grid::length_of(outline) / unit * cells) + 1;
+  return body_of(outline, {.name = "annulus", .points = points, .lines = lines, .spacing = h}, std::move(rim),
+                 h, 1.25 * unit);
 }
 
 inline DiskGrids disk_of(int cells, Boundary rim, int lines = 9, double unit = 1) {

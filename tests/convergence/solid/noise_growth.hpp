@@ -20,6 +20,7 @@ struct NoiseCase {
   double cfl = 0.9;
   /// Sides under the stress of the strained body as a dead load; the others are held.
   std::array<bool, 4> loaded = {};
+  double bend = 0;  ///< angle of the arc that the block's lower side is of; the body has to be at rest [rad]
   bool given = false;  ///< all of the strained body's state at sides and ghost points
 };
 
@@ -86,21 +87,23 @@ double growth_of_noise(const NoiseCase& noise, int steps) {
   const L law{.lambda = noise.lambda, .mu = 1};
   const Tensor2 F = noise.F, P = law.P(F);
   const double h1 = 1.0 / noise_cells, h2 = noise.aspect * h1;
-  SolidSolver<L> solver(
-      grid::MovingGrid({.name = "body",
-                        .n1 = noise_cells + 1,
-                        .n2 = noise_cells + 1,
-                        .mapping = [height = noise.aspect](double r, double s, double) -> Vec2 {
-                          return {r, height * s};
-                        }},
-                       0),
-      law,
-      {.rho = 1,
-       .tangential_stress = {.scaled = noise.beta_P},
-       .displacement = {.scaled = noise.beta_u},
-       .relaxation = {.scaled = noise.beta_r},
-       .cfl = noise.cfl},
-      noise_boundaries(noise, P), 0);
+  SolidSolver<L> solver(grid::MovingGrid({.name = "body",
+                                          .n1 = noise_cells + 1,
+                                          .n2 = noise_cells + 1,
+                                          .mapping = [height = noise.aspect, bend = noise.bend](
+                                                         double r, double s, double) -> Vec2 {
+                                            if (bend == 0) return {r, height * s};
+                                            const double radius = 1.0 / bend + height * s, angle = bend * r;
+                                            return {radius * std::sin(angle), radius * std::cos(angle)};
+                                          }},
+                                         0),
+                        law,
+                        {.rho = 1,
+                         .tangential_stress = {.scaled = noise.beta_P},
+                         .displacement = {.scaled = noise.beta_u},
+                         .relaxation = {.scaled = noise.beta_r},
+                         .cfl = noise.cfl},
+                        noise_boundaries(noise, P), 0);
   solver.assign_initial_conditions([&](double x, double y, double) {
     return SolidState{
         .u = {(F.a11 - 1) * x + F.a12 * y, F.a21 * x + (F.a22 - 1) * y}, .v = Vec2::Zero(), .P = P};

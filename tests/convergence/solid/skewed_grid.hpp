@@ -30,6 +30,11 @@ inline Vec2 trapezoid(double r, double s) {
 inline Vec2 slightly_tapered(double r, double s) {
   return tapered_position(r, s, 0.08);
 }
+/// Two thirds of a ring, whose lines lie closer together towards its middle and are not at right angles.
+inline Vec2 fan(double r, double s) {
+  const double radius = 0.3 + 0.3 * s + 0.2 * s * s, angle = 1 + 4 * r + 0.3 * s;
+  return {radius * std::sin(angle), radius * std::cos(angle)};
+}
 
 inline grid::MovingGrid grid_of(Shape shape, int cells) {
   return {{.name = "block",

@@ -22,7 +22,7 @@ SOLID = ("solid::GodunovSweep<.*::predict\\(", *(f"solid::WavePasses<.*::{loop}\
          "solid::WavePasses<.*::spread_squared<", "solid::PointPasses<.*::update<.*NoTerms", "solid::PointPasses<.*::update<.*AllDissipation",
          *(f"solid::{loop}<" for loop in ("find_misses", "find_stresses", "find_impedances", "show_interface")),
          "solid::take_newton_steps\\(", "solid::add_relaxation<",
-         "solid::add_tangential_stress_dissipation<", "solid::add_displacement_dissipation\\(", "solid::add_bulk_diffusion\\(")
+         "solid::add_tangential_stress_dissipation<", "solid::add_displacement_dissipation<", "solid::add_bulk_diffusion\\(")
 FIND_STIFFNESS = "solid::PointPasses<.*::find_stiffness\\("  # of laws whose K takes longer than the rest of the prediction
 GAS = (*(f"fluid::{loop}<" for loop in ("predict_row", "flux_row", "update_row", "viscosity_row")), "::cartesian_rates<",
        "::mapped_rates<", "fluid::conserved_row\\(", "fluid::add_viscous_flux_row\\(",

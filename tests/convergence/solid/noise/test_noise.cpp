@@ -73,6 +73,25 @@ TYPED_TEST(RoundOffNoise, DoesNotGrowInABodyUnderPressureEq36) {
   }
 }
 
+/// A third of a radian from point to point along the inner side: what (40) leaves of a linear displacement has the gradient of u, which at
+/// loaded sides is that of the ghost points of (43).
+TYPED_TEST(RoundOffNoise, DoesNotGrowWhereGridLinesBendEq40Eq43) {
+  for (const double aspect : {0.125, 1.0, 4.0}) {
+    for (const bool free : {false, true}) {
+      for (const Betas& beta : {Betas{0.5, 0.5, 0.2}, Betas{0.5, 1, 0.5}}) {
+        const NoiseCase noise = {.aspect = aspect,
+                                 .beta_P = beta.P,
+                                 .beta_u = beta.u,
+                                 .beta_r = beta.r,
+                                 .loaded = {false, free, free, free},
+                                 .bend = 4};
+        EXPECT_LT(test::growth_of_noise<TypeParam>(noise, 5000), 1.0)
+            << name(noise) << (free ? ", free" : "");
+      }
+    }
+  }
+}
+
 /// Half of its area and less is left.
 TEST(RoundOffNoiseUnderPressure, DoesNotGrowInABodySqueezedFar) {
   for (const Betas& beta : betas) {

@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <numbers>
+#include <utility>
 
+#include "common/grid/shapes/ellipse.hpp"
+#include "tests/convergence/solid/disk.hpp"
 #include "tests/convergence/solid/errors_in_time.hpp"
 #include "tests/convergence/solid/skewed_grid.hpp"
 #include "tests/convergence/solid/solvers.hpp"
@@ -53,18 +56,9 @@ struct Drift {
   double energy = 0, angular_momentum = 0, momentum = 0;
 };
 
-/// Free unit block, set spinning as if rigid; relative drifts after some turns.
-Drift spin(int cells, double turns) {
-  const double omega = 0.5;
-  Boundaries all_free;
-  SolidSolver<NeoHookean> solver(grid::MovingGrid({.name = "block",
-                                                   .n1 = cells + 1,
-                                                   .n2 = cells + 1,
-                                                   .mapping = [](double r, double s, double) -> Vec2 {
-                                                     return {r - 0.5, s - 0.5};
-                                                   }},
-                                                  0),
-                                 NeoHookean{.lambda = 1, .mu = 1}, little_dissipation, all_free, 0);
+/// A free body, set spinning as if rigid; relative drifts at t_end.
+template <class L>
+Drift spin(SolidSolver<L>& solver, double omega, double t_end) {
   solver.assign_initial_conditions(
       [](double, double, double) -> Vec2 {
         return {0, 0};
@@ -73,7 +67,6 @@ Drift spin(int cells, double turns) {
         return {-omega * y, omega * x};
       });
   const Totals before = solver.totals();
-  const double t_end = turns * 2 * std::numbers::pi / omega;
   double t = 0;
   while (t < t_end - 1e-12) {
     const double dt = std::min(solver.compute_time_step().dt, t_end - t);
@@ -85,6 +78,21 @@ Drift spin(int cells, double turns) {
   return {.energy = std::abs(after.energy() / before.energy() - 1),
           .angular_momentum = std::abs(after.angular_momentum / before.angular_momentum - 1),
           .momentum = after.momentum.norm()};
+}
+
+/// Free unit block after some turns.
+Drift spin(int cells, double turns) {
+  const double omega = 0.5;
+  Boundaries all_free;
+  SolidSolver<NeoHookean> solver(grid::MovingGrid({.name = "block",
+                                                   .n1 = cells + 1,
+                                                   .n2 = cells + 1,
+                                                   .mapping = [](double r, double s, double) -> Vec2 {
+                                                     return {r - 0.5, s - 0.5};
+                                                   }},
+                                                  0),
+                                 NeoHookean{.lambda = 1, .mu = 1}, little_dissipation, all_free, 0);
+  return spin(solver, omega, turns * 2 * std::numbers::pi / omega);
 }
 
 /// The first turn; measured 2e-4 and 2e-5 for the angular momentum, third order.
@@ -106,6 +114,25 @@ TEST(Eq41SpinningBlock, KeepsEnergyAndAngularMomentumOverManyTurns) {
   EXPECT_LT(twenty.angular_momentum, 40 * one.angular_momentum);
   EXPECT_LT(twenty.angular_momentum, 5e-3);
   EXPECT_LT(twenty.energy, 5e-3);
+}
+
+/// A turn by one radian of a stiff ellipse whose grid goes round each tip in a few points, with the options' defaults. Where (40)
+/// takes the fourth differences of (R - 1) x from u, it gains 4.4 % of its angular momentum and 9.6 % of its energy.
+TEST(Eq40SpinningEllipse, KeepsItsAngularMomentumThoughGridLinesBend) {
+  DiskGrids ellipse =
+      body_of(grid::ellipse({.a = 0.9, .b = 0.3, .angle = 0.5}),
+              {.name = "annulus", .points = 81, .lines = 7, .spacing = 0.01}, Boundary{}, 0.0125, 1);
+  SolidSolver<SaintVenantKirchhoff> solver(std::move(ellipse.parts), ellipse.bodies,
+                                           SaintVenantKirchhoff{.lambda = 288, .mu = 192},
+                                           {.rho = 20,
+                                            .limiter = Limiter::mc,
+                                            .tangential_stress = {.scaled = 0.5},
+                                            .displacement = {.scaled = 0.5},
+                                            .relaxation = {.scaled = 0.2}},
+                                           0);
+  const Drift drift = spin(solver, 0.5, 2);
+  EXPECT_LT(drift.angular_momentum, 0.006);
+  EXPECT_LT(drift.energy, 0.012);
 }
 
 }  // namespace

@@ -2,18 +2,23 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <functional>
 #include <limits>
+#include <numbers>
 #include <vector>
 
 #include "solid_solver/boundary/conditions/ghost_frame.hpp"
 #include "solid_solver/boundary/conditions/given_motion.hpp"
+#include "solid_solver/boundary/conditions/loaded_dissipation.hpp"
 #include "solid_solver/boundary/conditions/tractions.hpp"
 #include "solid_solver/boundary/every_boundary.hpp"
 #include "solid_solver/boundary/ghost_lines.hpp"
 #include "solid_solver/boundary/traction_ghost.hpp"
+#include "solid_solver/kernels/sweep/dissipation.hpp"
 #include "tests/convergence/solid/skewed_grid.hpp"
 
 namespace fsi::solid {
@@ -233,6 +238,72 @@ TEST(GhostFrame, IsWhatTheSidesSayOfIt) {
   EXPECT_EQ(body.at(Side::left, 3, -1).P.a12, body.at(Side::right, 3, 1).P.a12);
   const Vec2 below = body.sides.position(body.sides.line(Side::bottom).at(3, -1));
   EXPECT_EQ(body.at(Side::bottom, 3, -1).v, various(below.x() + 0.5, below.y()).v);
+}
+
+/// The displacement's change by paper eq. (40) with beta^u = 0.5 at all points, and what loaded sides take back of it.
+template <class Gradient>
+Field displacement_dissipation(Body& body, bool corrected) {
+  const Layout& layout = body.grid.layout();
+  Field next(layout, plane::count);
+  for (int j = 0; j < layout.n2; ++j) {
+    add_displacement_dissipation(body.q.view(), next.view(), Gradient(body.grid.x(), body.metrics, j), 0.5,
+                                 {j, 0, layout.n1});
+  }
+  if (corrected) correct_displacement_dissipation(body.sides, body.q.view(), next.view(), 0.5);
+  return next;
+}
+
+double largest(const Field& next) {
+  double most = 0;
+  for (const double value : next.values()) most = std::max(most, std::abs(value));
+  return most;
+}
+
+TEST(Eq40Eq43LoadedDissipation, LeavesABodyAloneThatHasTurnedOrIsStrainedOnAGridThatBends) {
+  const double angle = 40 * std::numbers::pi / 180, c = std::cos(angle), s = std::sin(angle);
+  for (const Tensor2& F : {Tensor2{c, -s, s, c}, Tensor2{1.3, 0.4, -0.2, 0.8}}) {
+    Body body(test::grid_of(test::fan, 8), {});  // loads on all sides
+    body.assign([&](double x, double y) {
+      return SolidState{
+          .u = {(F.a11 - 1) * x + F.a12 * y, F.a21 * x + (F.a22 - 1) * y}, .v = Vec2::Zero(), .P = {}};
+    });
+    EXPECT_LT(squareness(body.sides.at(Side::bottom, 4)), 0.6);  // lines beside the sides are corrected too
+    EXPECT_LT(largest(displacement_dissipation<MappedGradient4>(body, false)), 1e-15);
+    EXPECT_LT(largest(displacement_dissipation<MappedGradient4>(body, true)), 1e-15);
+  }
+}
+
+TEST(Eq40Eq43LoadedDissipation, TakesBackWhatWentAcrossASideAndNoMore) {
+  Body body(test::grid_of(test::fan, 8),
+            of_conditions({no_condition, no_condition, Traction::condition, Traction::condition}));
+  const int n = body.grid.layout().n2;
+  for (const bool across : {true, false}) {
+    // A sawtooth of u, which central differences do not see, across the loaded sides or along them.
+    for (int j = -2; j < n + 2; ++j) {
+      for (int i = -2; i < n + 2; ++i) body.q(plane::u1, i, j) = (across ? j : i) % 2 == 0 ? 1 : -1;
+    }
+    const Field next = displacement_dissipation<MappedGradient4>(body, true);
+    for (const int j : {0, n - 1}) {
+      for (int i = 0; i < n; ++i)
+        EXPECT_DOUBLE_EQ(next(plane::u1, i, j), across ? 0 : -0.25 * body.q(plane::u1, i, j));
+    }
+  }
+}
+
+TEST(Eq40Eq43LoadedDissipation, GivesTheNextLineAnExtrapolatedGhostPointAsFarAsCellsAreNotSquare) {
+  const auto flat = [](double r, double s) -> Vec2 { return {r, 0.5 * s}; };
+  Body body(test::grid_of(flat, 8),
+            of_conditions({no_condition, no_condition, Traction::condition, no_condition}));
+  body.assign(various);
+  const Field without = displacement_dissipation<CartesianGradient4>(body, false),
+              with = displacement_dissipation<CartesianGradient4>(body, true);
+  const double share = 0.25 * (1 - 1.5 / 16) / 16;  // cells of 1:2
+  for (int k = 0; k < 9; ++k) {
+    const auto u = [&](int m) { return body.at(Side::bottom, k, m).u; };
+    const std::ptrdiff_t next_line = body.sides.line(Side::bottom).at(k, 1);
+    const Vec2 back = load(with.view(), next_line).u - load(without.view(), next_line).u;
+    EXPECT_NEAR((back - share * (u(-1) - (u(2) + 3 * (u(0) - u(1))))).norm(), 0, 1e-16) << k;
+  }
 }
 
 /// Beyond the first of four values of f at 0, 1, 2, 3.

@@ -333,9 +333,9 @@ TEST(Eq39Eq40Eq41Sweep, TermsAddedWhileAStepIsMadeAreThoseAddedAfterwards) {
           return sweep.run([](int) { return NoTerms(); },
                            [&](RowRun run) {
                              add_tangential_stress_dissipation<Row>(q, next, block.metrics(), betas.P, run);
-                             add_displacement_dissipation(q, next, betas.u, run);
-                             add_relaxation(q, next, Gradient(block.grid().x(), block.metrics(), run.j), law,
-                                            betas.r, run);
+                             const Gradient gradient(block.grid().x(), block.metrics(), run.j);
+                             add_displacement_dissipation(q, next, gradient, betas.u, run);
+                             add_relaxation(q, next, gradient, law, betas.r, run);
                            });
         });
     const Field none = block.step<Limiter::minmod>(wavy, 0.01);
