@@ -58,7 +58,7 @@ TEST(Coupler, UniformMotionAtEquilibriumPressureStaysUniformToTheLastBit) {
         const auto answers = coupler.step(std::vector{gas, solid});
         EXPECT_EQ(answers[0].v, everywhere(n, 0.3, -0.7));
         EXPECT_EQ(answers[0].w_n, std::vector<double>(n, 0.0));
-        EXPECT_EQ(answers[0].a, everywhere(n, 0, 0));
+        EXPECT_EQ(answers[0].a, k == 0 ? std::vector<double>{} : everywhere(n, 0, 0));  // not known at first
       }
     }
   }
@@ -136,9 +136,10 @@ TEST(Coupler, SendsNobodyWhatOnlyTheOtherSideNeeds) {
     CouplerOptions options = until(1);
     options.multirate = true;
     Coupler coupler(options, piston_hellos(n));
-    auto solid = solid_state(n, 0);
+    coupler.step(std::vector{gas_state(n, 0), solid_state(n, 0)});
+    auto solid = solid_state(n, 1);
     solid.proposed_dt = substeps ? 0.03 : 1;
-    const auto answers = coupler.step(std::vector{gas_state(n, 0), solid});
+    const auto answers = coupler.step(std::vector{gas_state(n, 1), solid});
     EXPECT_EQ(answers[0].x_next.size(), 2 * n);
     EXPECT_EQ(answers[0].v.size() + answers[0].a.size(), 4 * n);
     EXPECT_EQ(answers[0].z_f.size() + answers[0].robin_t.size() + answers[0].robin_r.size(), 0);
