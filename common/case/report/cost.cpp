@@ -1,10 +1,13 @@
 #include "common/case/report/cost.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <vector>
 
 #include "common/case/grids/composite_from_case.hpp"
 #include "common/case/grids/curve_side.hpp"
@@ -331,12 +334,19 @@ namespace {
 std::string multirate_text(const RunCost& cost) {
   constexpr double worth_it = 1.5;
   if (!(cost.multirate_steps > 0 && cost.steps > worth_it * cost.multirate_steps)) return "";
-  const StepCost& smallest =
-      *std::ranges::min_element(cost.programs, {}, [](const StepCost& program) { return program.dt; });
+  double of_gas = std::numeric_limits<double>::infinity();
+  for (const StepCost& program : cost.programs) {
+    if (program.is_gas) of_gas = std::min(of_gas, program.dt);
+  }
+  std::vector<std::string> small;  // solids whose steps are
+  for (const StepCost& program : cost.programs) {
+    if (!program.is_gas && program.dt < of_gas) small.push_back(program.program);
+  }
   return fmt::format(
-      "  {}: all programs take its small steps, {:.2g} times as many as the gas needs; with "
-      "`time.multirate: true` it alone takes them: about {:.0f} steps, {}\n",
-      smallest.program, cost.steps / cost.multirate_steps, cost.multirate_steps,
+      "  {}: all programs take steps as small, {:.2g} times as many as the gas needs; with `time.multirate: "
+      "true` no "
+      "other takes them: about {:.0f} steps, {}\n",
+      fmt::join(small, ", "), cost.steps / cost.multirate_steps, cost.multirate_steps,
       time_text(cost.multirate_seconds));
 }
 

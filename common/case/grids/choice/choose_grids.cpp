@@ -4,7 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "common/case/document/fluid_sections.hpp"
 #include "common/case/document/reader.hpp"
@@ -121,6 +125,42 @@ void refuse_slope(const CurveSpec& outline) {
        .otherwise = "write `law: beam` for a thin one, `law: rigid`, or let it stand elsewhere"});
 }
 
+/// Of the rectangles of the gases, the largest width and the largest height; none where a gas has another grid or leaves them open.
+std::optional<Vec2> largest_rectangle(Node& root) {
+  Vec2 largest = Vec2::Zero();
+  for (const FluidSection<Node>& fluid : fluid_sections(root)) {
+    const Node* grid = fluid.node->find("grid");
+    if (grid == nullptr) return std::nullopt;
+    for (const int direction : {0, 1}) {
+      const Node* range = grid->find(direction == 0 ? "x" : "y");
+      if (range == nullptr || range->items.size() != 2 || !range->items[0].number || !range->items[1].number)
+        return std::nullopt;
+      largest[direction] = std::max(largest[direction], *range->items[1].number - *range->items[0].number);
+    }
+    if (grid->find("rotation") != nullptr) return std::nullopt;
+  }
+  return largest;
+}
+
+/// Before anything is said of the points that grids in it would take.
+void refuse_outgrown(const CurveSpec& outline, Node& root, const Node& shape, const std::string& path) {
+  const std::optional<Vec2> room = largest_rectangle(root);
+  if (!room) return;
+  const auto n = static_cast<std::ptrdiff_t>(outline.points());
+  const auto [left, right] = std::minmax_element(outline.x.begin(), outline.x.begin() + n);
+  const auto [low, high] = std::minmax_element(outline.x.begin() + n, outline.x.end());
+  const Vec2 size(*right - *left, *high - *low);
+  constexpr double round_off = 1 + 1e-9;
+  if (size[0] <= round_off * (*room)[0] && size[1] <= round_off * (*room)[1]) return;
+  config::fail(
+      shape.place, path,
+      fmt::format(
+          "the outline is {:.4g} x {:.4g} and no gas has room for it, {:.4g} x {:.4g} at the most: are its "
+          "coordinates in another unit of length? write both in the same one, make it smaller or the "
+          "gas's grid.x and grid.y larger",
+          size[0], size[1], (*room)[0], (*room)[1]));
+}
+
 void choose_for_solids(Node& root, const Reader& reader, std::vector<std::string>& chosen) {
   Node* solids = root.find("solids");
   if (solids == nullptr) return;
@@ -139,6 +179,7 @@ void choose_for_solids(Node& root, const Reader& reader, std::vector<std::string
     const bool outline_only = !is_continuum(law);
     const double h = reader.scope().constants.at("h");
     refuse_own_crossing(outline.closely, shape, path);
+    refuse_outgrown(outline.closely, root, shape, path);
     try {
       if (!outline_only && leaves_block_open(solid)) {
         if (const BlockCorners corners = block_corners(outline.closely); corners.at) {

@@ -140,6 +140,18 @@ TEST(CostOfARun, OffersSubstepsWhereASolidMakesTheGasTakeSmallSteps) {
   EXPECT_FALSE(offers(with("solids.body_0.rho=1000")));            // the gas needs the smaller ones
 }
 
+TEST(CostOfARun, NamesAllSolidsWhoseStepsAreSmall) {
+  const std::string text = costly_case(
+      {"{kind: circle, centre: [-1, 0], radius: 0.5}", "{kind: circle, centre: [1, 0], radius: 0.5}"});
+  std::vector<std::string> settings = {"time.multirate=false"};
+  for (const char* body : {"solids.body_0", "solids.body_1"}) {
+    settings.push_back(std::string(body) + ".lambda=98");
+    settings.push_back(std::string(body) + ".mu=1");
+  }
+  const std::string said = cost_text(cost_of(load_text(text, settings)));
+  EXPECT_NE(said.find("body_0, body_1: all programs take steps as small"), std::string::npos) << said;
+}
+
 TEST(CostOfARun, GridsThatMoveCostMoreThanThoseThatStay) {
   const std::string thin = costly_case({"{kind: ellipse, semi_axes: [0.5, 0.06]}"});
   const RunCost moves = cost_of(load_text(thin, {}, {"body_0=rigid"})),

@@ -106,6 +106,23 @@ TEST(RemediesForSpacings, SayTheFactorWhereTheFileHasNone) {
   EXPECT_EQ(mistake_in(box_case(0.003, "", "grid: {factor: 2000}\n") + body), "");
 }
 
+/// Millimetres in a case of metres: not the resolution is to blame.
+TEST(RemediesForOutlines, SayThatNoGasHasRoomForOne) {
+  const auto with_radius = [](double radius) {
+    return mistake_in(
+        box_case(3, "", "grid: {factor: 2}\n") +
+        fmt::format("solids:\n  a: {{law: neo_hookean, rho: 1, E: 1, nu: 0.3, shape: {{kind: circle, "
+                    "centre: [4, 1.5], radius: {}}}}}\n",
+                    radius));
+  };
+  EXPECT_EQ(with_radius(0.5), "");
+  const std::string message = with_radius(500);
+  EXPECT_NE(message.find("solids.a.shape: the outline is 1000 x 1000 and no gas has room for it"),
+            std::string::npos)
+      << message;
+  EXPECT_NE(message.find("another unit of length"), std::string::npos) << message;
+}
+
 TEST(RemediesForSpacings, SayASpacingWhereTheFileHasANumber) {
   for (const char* given : {"1e-9", "0.05", "20"}) {  // in place of about 1e-4
     const std::string message = mistake_in(box_case(0.007, fmt::format(", spacing: {}", given)));
