@@ -335,17 +335,15 @@ std::string multirate_text(const RunCost& cost) {
   constexpr double worth_it = 1.5;
   if (!(cost.multirate_steps > 0 && cost.steps > worth_it * cost.multirate_steps)) return "";
   double of_gas = std::numeric_limits<double>::infinity();
-  for (const StepCost& program : cost.programs) {
-    if (program.is_gas) of_gas = std::min(of_gas, program.dt);
-  }
+  for (const StepCost& program : cost.programs)
+    of_gas = std::min(of_gas, program.is_gas ? program.dt : of_gas);
   std::vector<std::string> small;  // solids whose steps are
   for (const StepCost& program : cost.programs) {
     if (!program.is_gas && program.dt < of_gas) small.push_back(program.program);
   }
   return fmt::format(
-      "  {}: all programs take steps as small, {:.2g} times as many as the gas needs; with `time.multirate: "
-      "true` no "
-      "other takes them: about {:.0f} steps, {}\n",
+      "  {}: all programs take steps as small, {:.2g} times as many as the gas needs; not so with "
+      "`time.multirate: true`: about {:.0f} steps, {}\n",
       fmt::join(small, ", "), cost.steps / cost.multirate_steps, cost.multirate_steps,
       time_text(cost.multirate_seconds));
 }

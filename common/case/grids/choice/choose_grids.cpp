@@ -139,6 +139,7 @@ std::optional<Vec2> largest_rectangle(Node& root) {
     }
     if (grid->find("rotation") != nullptr) return std::nullopt;
   }
+  if (largest.isZero()) return std::nullopt;  // a solid alone
   return largest;
 }
 
