@@ -359,8 +359,7 @@ std::string fine_solid_text(const RunCost& cost) {
     return "";
   return fmt::format(
       "  {}: takes most of the time: its sharpest bend and thinnest place ask for cells {:.2g} times as "
-      "small as h = "
-      "{:.2g}; make the outline thicker, round it more there, or not at all (`radius: 0` of a polygon)\n",
+      "small as h = {:.2g}; make it thicker, round it more, or not at all (`radius: 0` of a polygon)\n",
       slowest.program, cost.h / cell, cost.h);
 }
 
