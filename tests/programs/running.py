@@ -24,6 +24,9 @@ LONG = ("elastic_piston", "--set", "grid.factor=2", "--set", "time.dt=1e-7", "--
 sys.path.insert(0, str(ROOT / "launch"))
 from fsi_launch.living import processes  # noqa: E402
 
+# A shell starts what runs in its background with SIGINT ignored, and so would everything below.
+signal.signal(signal.SIGINT, signal.default_int_handler)
+
 
 def until(condition):
     """Waits for `condition()` to hold; returns its value, false where it never does."""
