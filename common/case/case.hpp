@@ -3,6 +3,7 @@
 /// evaluated, overrides applied and everything checked. docs/case_file.md
 /// is generated from the same description.
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <map>
@@ -162,13 +163,16 @@ inline constexpr std::array<std::string_view, 3> rigid_motions{"x", "y", "rotati
 struct MountingSpec {
   std::optional<Vec2> pivot;                   ///< at t = 0; none: the centre of mass
   std::array<bool, 3> free{true, true, true};  ///< of `rigid_motions`
-  std::array<double, 3> spring{};              ///< [force/length/depth], [force*length/depth]
-  std::array<double, 3> damper{};              ///< the same times time
+  /// Of `rigid_motions`: displacement or angle as a formula of t, whatever the gas does. [length], [rad]
+  std::array<std::optional<Expression>, 3> given{};
+  std::array<double, 3> spring{};  ///< [force/length/depth], [force*length/depth]
+  std::array<double, 3> damper{};  ///< the same times time
 
   bool holds() const {
     const auto any = [](const std::array<double, 3>& of) { return of != std::array<double, 3>{}; };
     return free != std::array{true, true, true} || any(spring) || any(damper);
   }
+  bool moves_as_given() const { return std::ranges::any_of(given, &std::optional<Expression>::has_value); }
 };
 
 struct SolidSpec {

@@ -13,6 +13,9 @@
 ///
 ///     S = b B^T diag(m, m, I) B + E^T (dt C + dt^2/b K) E
 ///     g = B^T diag(m, m, I) h_V + dt (B^T (own force, moment) - E^T K h_q / b)
+///
+/// Where its case gives a part of its motion, q = p(t), it has one more mode, of which the velocity is 1: the last column
+/// of E is p'. That mode has so much inertia that no load changes it, to the last bit.
 
 #include <Eigen/Core>
 #include <cstddef>
@@ -53,8 +56,8 @@ class RigidBody {
   /// Starts with velocity `V` of the centre and rate of rotation, as far as the mounting leaves it: what an impulse that
   /// would give a body without one this velocity gives it.
   void start(const Vec3& V);
-  /// Predicts pose and velocity after a step of size dt: q + dt q' + dt^2/2 q'', s + dt s'.
-  void advance(double dt);
+  /// Predicts pose and velocity at `t`, after a step of size dt: q + dt q' + dt^2/2 q'', s + dt s'.
+  void advance(double t, double dt);
   /// S and g of S s = g + dt f at the end of the step, with the own load there.
   Eigen::MatrixXd response() const;
   Eigen::VectorXd history(const Vec3& own_load) const;
@@ -64,7 +67,7 @@ class RigidBody {
 
   std::size_t outlines() const { return outlines_.size(); }
   std::size_t points(std::size_t outline = 0) const { return outlines_[outline].x.size() / 2; }
-  Eigen::Index modes() const { return mounting_.freedoms.cols(); }
+  Eigen::Index modes() const { return E_.cols(); }
   const Masses& masses() const { return masses_; }
   const Outline& outline(std::size_t outline = 0) const { return outlines_[outline]; }
   const Vec2& reference_centre() const { return reference_centre_; }
@@ -73,7 +76,7 @@ class RigidBody {
   /// V = B s.
   Vec3 velocity_of(const Eigen::VectorXd& s) const { return modes_now() * s; }
   const Eigen::VectorXd& modal_velocity() const { return s_; }
-  Eigen::MatrixXd mass_matrix() const;
+  Eigen::MatrixXd mass_matrix() const;  ///< B^T diag(m, m, I) B
   /// N, k x n: normal velocity of every point of an outline for every mode.
   Eigen::MatrixXd mode_vectors(std::size_t outline = 0) const;
   /// B^T load.
@@ -88,7 +91,9 @@ class RigidBody {
   std::vector<double> positions(std::size_t outline = 0) const;
   std::vector<double> velocities(std::span<const double> x) const;
   /// Before the first step: does it turn, or slow down?
-  bool starts_unevenly() const { return velocity()[2] != 0 || !acceleration_.isZero(0); }
+  bool starts_unevenly() const {
+    return velocity()[2] != 0 || !acceleration_.isZero(0) || !given_acceleration_.isZero(0);
+  }
   /// Of points at x then, without a load: 2 n.
   std::vector<double> initial_accelerations(std::span<const double> x) const;
 
@@ -103,6 +108,9 @@ class RigidBody {
   Vec2 reference_centre_, arm_;  ///< of the centre of mass; from the pivot to it [length]
   Masses masses_;
   Mounting mounting_;
+  double t_ = 0;
+  Eigen::Matrix3Xd E_;                      ///< now
+  Vec3 given_acceleration_ = Vec3::Zero();  ///< p'' at t = 0
   Vec3 q_ = Vec3::Zero(), old_q_ = Vec3::Zero(),
        older_q_ = Vec3::Zero();  ///< now, before the step, and before
   Eigen::VectorXd s_, old_s_;    ///< modal velocities now, and before the step
@@ -113,8 +121,13 @@ class RigidBody {
 
   BackwardDifference difference() const { return backward_difference(dt_, old_dt_); }
   Vec2 arm() const;
+  Eigen::Matrix3d at_centre() const;
   Eigen::MatrixXd modes_now() const;
+  Eigen::MatrixXd resisted(Eigen::MatrixXd S) const;
+  Eigen::VectorXd pushed(Eigen::VectorXd g) const;
+  Eigen::VectorXd modes_at_rest() const;
   Eigen::VectorXd unloaded_acceleration() const;
+  void go_as_given(double t);
   void take_acceleration();
 };
 

@@ -57,21 +57,22 @@ class Freedom {
   }
 
   /// As the sides and the case leave it.
-  Mounting mounting() const {
+  Mounting mounting(double t_end) const {
     const MountingSpec& held = spec_.mounting;
     return {.pivot = held.pivot,
             .freedoms = freedoms(),
             .spring = Eigen::Map<const Vec3>(held.spring.data()),
-            .damper = Eigen::Map<const Vec3>(held.damper.data())};
+            .damper = Eigen::Map<const Vec3>(held.damper.data()),
+            .given = GivenMotion(held.given, t_end)};
   }
 
  private:
   const SolidSpec& spec_;
   std::optional<Vec2> direction_;
 
-  Eigen::MatrixXd freedoms() const {
-    if (direction_) return Vec3(direction_->x(), direction_->y(), 0);
-    Eigen::MatrixXd columns(3, std::ranges::count(spec_.mounting.free, true));
+  Eigen::Matrix3Xd freedoms() const {
+    if (direction_ && !spec_.mounting.moves_as_given()) return Vec3(direction_->x(), direction_->y(), 0);
+    Eigen::Matrix3Xd columns(3, std::ranges::count(spec_.mounting.free, true));
     for (Eigen::Index k = 0, column = 0; k < 3; ++k)
       if (spec_.mounting.free[static_cast<std::size_t>(k)]) columns.col(column++) = Vec3::Unit(k);
     return columns;
@@ -126,7 +127,8 @@ std::vector<double> rim_of(const grid::MovingGrid& grid) {
   return rim;
 }
 
-BodyFromCase body_of_shape(const SolidSpec& spec, const BodyFittedSpec& fitted) {
+BodyFromCase body_of_shape(const SolidSpec& spec, double t_end) {
+  const BodyFittedSpec& fitted = spec.body_fitted.front();
   Freedom freedom(spec);
   for (const Side side : all_sides) {
     const BoundarySpec& boundary = at(fitted.boundary, side);
@@ -142,12 +144,12 @@ BodyFromCase body_of_shape(const SolidSpec& spec, const BodyFittedSpec& fitted) 
   const Outline outline{.x = fitted.curve.x,
                         .ends = fitted.curve.closed() ? grid::Curve::closed : grid::Curve::open,
                         .orientation = grid::outward(fitted.side)};
-  return {.body = RigidBody(outline, inertia, spec.rho, freedom.mounting()),
+  return {.body = RigidBody(outline, inertia, spec.rho, freedom.mounting(t_end)),
           .area = inertia.area,
           .meets_gas = is_interface(at(fitted.boundary, fitted.side))};
 }
 
-BodyFromCase body_of_grid(const SolidSpec& spec) {
+BodyFromCase body_of_grid(const SolidSpec& spec, double t_end) {
   const grid::MovingGrid grid(grid_from_case(spec.grid, false), 0);
   Freedom freedom(spec);
   std::vector<Outline> outlines;
@@ -167,7 +169,7 @@ BodyFromCase body_of_grid(const SolidSpec& spec) {
   const Inertia inertia = inertia_of(rim_of(grid));
   const bool meets_gas = !outlines.empty();
   if (!meets_gas) add_outline(Side::bottom);
-  BodyFromCase result{.body = RigidBody(outlines.front(), inertia, spec.rho, freedom.mounting()),
+  BodyFromCase result{.body = RigidBody(outlines.front(), inertia, spec.rho, freedom.mounting(t_end)),
                       .area = inertia.area,
                       .meets_gas = meets_gas,
                       .across = std::move(across)};
@@ -192,12 +194,11 @@ Vec3 initial_motion(const RigidBody& body, const VectorExpressions& v) {
 
 }  // namespace
 
-BodyFromCase body_from_case(const SolidSpec& spec) {
+BodyFromCase body_from_case(const SolidSpec& spec, double t_end) {
   if (spec.initial_from_reference || spec.initial_u) {
     refuse(spec, "initial may give `v`, and nothing else");
   }
-  BodyFromCase result =
-      spec.body_fitted.empty() ? body_of_grid(spec) : body_of_shape(spec, spec.body_fitted.front());
+  BodyFromCase result = spec.body_fitted.empty() ? body_of_grid(spec, t_end) : body_of_shape(spec, t_end);
   if (spec.fixed && spec.initial_v)
     refuse(spec, "it is fixed, but `initial` gives it a velocity; leave one of them out");
   if (spec.initial_v) result.body.start(initial_motion(result.body, *spec.initial_v));

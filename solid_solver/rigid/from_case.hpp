@@ -20,7 +20,8 @@ struct BodyFromCase {
 /// The body of `spec`: that of its shape, or of its grid. Where a side slides along a wall, the motion along
 /// the wall is left. Laws of deformation, dissipation and time steps have no meaning for it and are not
 /// looked at. An initial velocity gives that of the centre, and the rotation that fits it along the outline.
+/// @param t_end of the case [time]
 /// @throws UserMistake for conditions a rigid body cannot meet
-BodyFromCase body_from_case(const SolidSpec& spec);
+BodyFromCase body_from_case(const SolidSpec& spec, double t_end);
 
 }  // namespace fsi::rigid

@@ -23,7 +23,7 @@ constexpr std::array<const char*, 8> quantities{"u1", "u2", "v1", "v2", "P11", "
 
 RigidParticipant::RigidParticipant(const Setup& setup, const SolidSpec& spec)
     : bodies::BodyParticipant(setup, spec, quantities),
-      from_case_(body_from_case(spec)),
+      from_case_(body_from_case(spec, setup.problem.time.end)),
       body_(from_case_.body),
       own_(own_load(0)) {
   if (!from_case_.meets_gas && spec.is_driven() && !setup.problem.time.dt) {
@@ -82,7 +82,7 @@ void RigidParticipant::apply_bcs(double /*t*/, ProjectedStates projected) {
 void RigidParticipant::advance(double t, double dt, int /*substeps*/, ProjectedStates /*projected*/) {
   dt_ = dt;
   own_ = own_load(t + dt);
-  if (!spec_.fixed) body_.advance(dt);
+  if (!spec_.fixed) body_.advance(t + dt, dt);
 }
 
 void RigidParticipant::values_at(const Vec2& x_bar, std::span<double> values) const {

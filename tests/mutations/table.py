@@ -243,7 +243,7 @@ MUTATIONS = [
     ("motion: points that go round are thrown outwards", "solid_solver/rigid/body.cpp",
      "- omega * omega * r;", "+ omega * omega * r;", "test_rigid", "RigidBody*"),
     ("rigid body: what holds it back of where it was", "solid_solver/rigid/body.cpp",
-     "- dt_ * (mounting_.freedoms.transpose() * pulled)", "+ dt_ * (mounting_.freedoms.transpose() * pulled)", "test_rigid", "HeldBody*"),
+     "- dt_ * (E_.transpose() * pulled)", "+ dt_ * (E_.transpose() * pulled)", "test_rigid", "HeldBody*"),
     ("rigid body: the way of its centre about the pivot", "solid_solver/rigid/body.cpp",
      "D.block<2, 1>(0, 2) = turned(arm())", "D.block<2, 1>(0, 2) = -turned(arm())", "test_rigid", "HeldBody*"),
     ("interpolation weights along an interface", "coupler/exchange/curve_interpolation.cpp",

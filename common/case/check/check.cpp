@@ -14,6 +14,7 @@
 #include "common/case/check/check_overlap.hpp"
 #include "common/case/check/check_places.hpp"
 #include "common/case/check/check_rim.hpp"
+#include "common/case/check/given/check_motions.hpp"
 #include "common/case/check/given/check_reference.hpp"
 #include "common/case/check/given/check_side_data.hpp"
 #include "common/case/check/given/check_starts.hpp"
@@ -252,6 +253,7 @@ void check_case(const Case& problem, const Node& root) {
   check_images(problem, root);
   check_reference(problem, root);
   check_starts(problem, root);
+  check_motions(problem, root);
   check_side_data(problem, root);
   check_interfaces(problem, root);
   check_held_ends(problem, root);

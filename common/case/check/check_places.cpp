@@ -114,7 +114,7 @@ void check_rigid_side(const BoundarySpec& spec, bool fixed, const Node& node, co
              "a rigid solid cannot have its motion given (or be clamped) at a side: {}; write free, or "
              "take a law that deforms",
              fixed ? "`motion: fixed` holds all of it"
-                   : "it moves as a whole, or not at all with "
+                   : "it moves as a whole, as its section `motion` says, or not at all with "
                      "`motion: fixed`"));
   }
   if (carries_load(spec)) {
@@ -182,9 +182,48 @@ bool slides(const SolidSpec& solid) {
                                    : std::ranges::any_of(solid.body_fitted.front().boundary, holds_normal);
 }
 
+/// Directions along the walls that a body slides along.
+std::vector<Vec2> ways_of(const SolidSpec& solid) {
+  std::vector<Vec2> ways;
+  const auto add = [&](const BoundarySpec& spec, const Vec2& along) {
+    if (schema::solid_boundary(spec.kind).holds == Hold::normal) ways.push_back(along.normalized());
+  };
+  if (solid.body_fitted.empty()) {
+    for (const Side side : sides_of_body(solid))
+      add(solid.boundary[static_cast<std::size_t>(side)],
+          side_point(solid.grid, side, points_along(solid.grid, side) - 1) - side_point(solid.grid, side, 0));
+    return ways;
+  }
+  const BodyFittedSpec& fitted = solid.body_fitted.front();
+  if (!fitted.curve.walls) return ways;
+  for (const Side end : {Side::left, Side::right}) {
+    const std::size_t k = at_upper_end(end) ? 1 : 0;
+    const Vec2 along = direction_of((*fitted.curve.walls)[k]) == 0 ? Vec2(0, 1) : Vec2(1, 0);
+    add(fitted.boundary[static_cast<std::size_t>(end)],
+        fitted.curve.on.empty() ? along : fitted.curve.along[k]);
+  }
+  return ways;
+}
+
+/// A body between walls goes as it is told along them, and nowhere else.
+void check_given_ways(const SolidSpec& solid, const Node& motion) {
+  constexpr double parallel = 1e-8;
+  for (const config::Entry& entry : motion.entries) {
+    const Vec2 told = entry.key == "x" ? Vec2(1, 0) : Vec2(0, 1);
+    for (const Vec2& way : ways_of(solid)) {
+      if (entry.key != "rotation" && std::abs(cross(way, told)) <= parallel) continue;
+      fail(entry.place, fmt::format("solids.{}.motion.{}", solid.name, entry.key),
+           fmt::format("the body slides along a wall in the direction ({:.4g}, {:.4g}), which leaves it the "
+                       "motion along the wall alone; leave `{}` out",
+                       way.x(), way.y(), entry.key));
+    }
+  }
+}
+
 /// A wall leaves the motion along it alone.
 void check_mounting(const SolidSpec& solid, const Node& node) {
   if (!slides(solid)) return;
+  if (solid.mounting.moves_as_given()) check_given_ways(solid, *node.find("motion"));
   const auto refuse = [&](const Node& within, const std::string& path, const char* key) {
     const Node* given = within.find(key);
     if (given == nullptr) return;

@@ -180,7 +180,7 @@ SolidSpec solid_of(const Reader& reader, const config::Entry& entry) {
       fail(motion->place, owner.path + ".motion", "belongs to `law: rigid`; leave it out");
     result.fixed = motion->text == "fixed";
   }
-  result.mounting = build_mounting(node, owner.path, result.law == rigid_law);
+  result.mounting = build_mounting(reader, node, owner.path, result.law == rigid_law);
   build_material(node, owner.path, result);
   result.grid = build_solid_grid(reader, owner);
   result.boundary = build_boundaries(reader, owner, result.grid);

@@ -35,6 +35,34 @@ std::array<bool, 3> freedoms_of(const Node& list, const std::string& path) {
   return free;
 }
 
+/// Formulas of the section `motion`, and whether the other motions are free by default: they are not.
+void take_given(const Reader& reader, const Node& section, const std::string& path, MountingSpec& mounting) {
+  if (section.entries.empty())
+    fail(section.place, path, "says of no motion what it is; give `x`, `y` or `rotation`, or leave it out");
+  mounting.free = {};
+  for (const config::Entry& entry : section.entries) {
+    const auto k =
+        static_cast<std::size_t>(std::ranges::find(rigid_motions, entry.key) - rigid_motions.begin());
+    const Expression formula = reader.expression(entry.value);
+    for (const char* variable : {"x", "y", "r", "s"}) {
+      if (formula.uses(variable))
+        fail(entry.place, fmt::format("{}.{}", path, entry.key),
+             fmt::format("the body moves as a whole: a formula of `t` alone, not of `{}`", variable));
+    }
+    mounting.given[k] = formula;
+  }
+}
+
+void refuse_given_twice(const MountingSpec& mounting, const Node& list, const std::string& path) {
+  for (const Node& word : list.items) {
+    const auto k =
+        static_cast<std::size_t>(std::ranges::find(rigid_motions, word.text) - rigid_motions.begin());
+    if (mounting.given[k])
+      fail(word.place, path,
+           fmt::format("`{}` is given by `motion`, and cannot be free; leave one of them out", word.text));
+  }
+}
+
 /// Stiffnesses or resistances of a section; of motions that there are.
 std::array<double, 3> values_of(const Node& section, const std::array<bool, 3>& free,
                                 const std::string& path) {
@@ -89,8 +117,9 @@ int elements_of(const Reader& reader, const BeamSpec& beam) {
 
 }  // namespace
 
-MountingSpec build_mounting(const Node& solid, const std::string& path, bool rigid) {
-  const bool fixed = solid.find("motion") != nullptr && solid.find("motion")->text == "fixed";
+MountingSpec build_mounting(const Reader& reader, const Node& solid, const std::string& path, bool rigid) {
+  const Node* motion = solid.find("motion");
+  const bool fixed = motion != nullptr && motion->text == "fixed";
   for (const char* key : mounting_keys) {
     const Node* given = solid.find(key);
     if (given == nullptr || (rigid && !fixed)) continue;
@@ -99,8 +128,11 @@ MountingSpec build_mounting(const Node& solid, const std::string& path, bool rig
                : "belongs to `law: rigid`; leave it out");
   }
   MountingSpec result;
-  if (const Node* list = solid.find("degrees_of_freedom"))
+  if (motion != nullptr && motion->is_map()) take_given(reader, *motion, path + ".motion", result);
+  if (const Node* list = solid.find("degrees_of_freedom")) {
     result.free = freedoms_of(*list, path + ".degrees_of_freedom");
+    refuse_given_twice(result, *list, path + ".degrees_of_freedom");
+  }
   if (const Node* pivot = solid.find("pivot"))
     result.pivot = Vec2(*pivot->items[0].number, *pivot->items[1].number);
   if (const Node* spring = solid.find("spring"))

@@ -139,6 +139,15 @@ constexpr Section solid_initial{.title = "Initial state of a solid", .keys = sol
 constexpr Key data_element{.name = "number", .type = Type::number, .meaning = "a number for the program"};
 
 constexpr array<string_view, 2> motion_words{"free", "fixed"};
+constexpr array motion_keys{
+    Key{.name = "x",
+        .type = Type::field,
+        .meaning = "how far the pivot has gone along x at the time t, from 0 at t = 0",
+        .unit = "length"},
+    Key{.name = "y", .type = Type::field, .meaning = "along y", .unit = "length"},
+    Key{.name = "rotation", .type = Type::field, .meaning = "turned about the pivot, in radians"},
+};
+constexpr Section motion_section{.title = "The given motion of a rigid body", .keys = motion_keys};
 constexpr Key rigid_motion{
     .name = "motion", .type = Type::word, .meaning = "what the body may do", .words = rigid_motions};
 constexpr array spring_keys{
@@ -286,14 +295,17 @@ constexpr array solid_keys{
         .fallback = "required with `law: gent`",
         .range = positive},
     Key{.name = "motion",
-        .type = Type::word,
-        .meaning = "of a rigid body: `fixed` holds it where it is; its load is in forces_NAME.csv",
+        .type = Type::section,
+        .meaning = "of a rigid body: `fixed` holds it where it is; a section says where it is at t, whatever "
+                   "the gas does. Its load is in forces_NAME.csv",
         .fallback = "free",
-        .words = motion_words},
+        .words = motion_words,
+        .section = &motion_section},
     Key{.name = "degrees_of_freedom",
         .type = Type::list,
         .meaning = "of a rigid body: what it is free to do at its pivot",
-        .fallback = "[x, y, rotation], or along the walls that it slides along",
+        .fallback = "[x, y, rotation], or along the walls that it slides along; where its motion is given, "
+                    "nothing else",
         .element = &rigid_motion},
     Key{.name = "pivot",
         .type = Type::pair,

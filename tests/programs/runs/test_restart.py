@@ -23,6 +23,9 @@ CASES = {  # with the number of steps between checkpoints
                       "--set", "reference.points=400"),
     "shock_ellipse": (25, "--set", "grid.factor=4", "--set", "time.end=0.5", "--set", "output.times=[0, 0.3, 0.5]"),
     "rigid_piston": (10, "--set", "time.end=0.4", "--set", "output.times=[0.2, 0.4]"),
+    "flapping_foil": (40, "--set", "grid.factor=1", "--set", "time.end=0.5", "--set", "output={times: [0.3, 0.5]}",
+                      "--set", "solids.foil.motion={rotation: 0.2 * sin(3 * t)}", "--set", "solids.foil.degrees_of_freedom=[y]",
+                      "--set", "solids.foil.spring={y: 1}"),
     "sprung_foil": (40, "--set", "grid.factor=1", "--set", "time.end=1", "--set", "output={times: [0.6, 1]}"),
     "manufactured_piston": (6, "--set", "grid.factor=1"),
     "sod_tube": (10, "--set", "grid.factor=2"),
@@ -86,6 +89,9 @@ class Restart(Restarting):
 
     def test_foil_on_springs(self):
         self.assert_goes_on("sprung_foil")
+
+    def test_foil_whose_rotation_is_given(self):
+        self.assert_goes_on("flapping_foil")
 
     def test_sources_of_a_chosen_solution(self):
         self.assert_goes_on("manufactured_piston")

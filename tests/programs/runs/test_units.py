@@ -23,7 +23,7 @@ STEPS = 3
 
 # Distances of points that are chosen here are rounded, to decimal digits in the units of the case: they are taken as chosen.
 CHOSEN = {"airfoil", "elastic_wedge", "gas_at_rest", "moving_together_block", "moving_together_corners", "panel_on_step", "shocked_panel_on_step",
-          "sprung_foil"}
+          "sprung_foil", "flapping_foil"}
 # The reference solution of the rotating disk is that of the disk of radius 1; the run itself is not.
 ONE_SIZE = {"rotating_disk"}
 

@@ -2,9 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <functional>
 #include <initializer_list>
+#include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -34,8 +37,10 @@ RigidBody held(Mounting mounting, const Vec3& start = Vec3::Zero()) {
 
 /// After steps of 0.7 and 1.3 of their mean by turns.
 RigidBody after(RigidBody body, double t, int steps, const Vec3& load = Vec3::Zero()) {
+  double now = 0;
   for (int k = 0; k < steps; ++k) {
-    body.advance((k % 2 == 0 ? 0.7 : 1.3) * t / steps);
+    const double dt = (k % 2 == 0 ? 0.7 : 1.3) * t / steps;
+    body.advance(now += dt, dt);
     body.correct(solve_few_modes(body.response(), body.history(load)));
   }
   return body;
@@ -168,6 +173,79 @@ TEST(HeldBody, AnImpulseGivesItWhatItsMountingLeaves) {
   const Vec2 arm = body.reference_centre() - pivot;
   const double m = body.masses().mass, inertia = body.masses().moment_of_inertia + m * arm.squaredNorm();
   EXPECT_NEAR(body.velocity()[2], m * (arm.x() * -0.2 - arm.y() * 0.3) / inertia, 1e-13);
+}
+
+/// Along x and y and its rotation, as far as there is a formula.
+GivenMotion given(const std::array<const char*, 3>& formulas, double t_end) {
+  GivenMotion::Formulas of;
+  for (std::size_t k = 0; k < 3; ++k)
+    if (std::string(formulas[k]) != "") of[k] = Expression(formulas[k], {});
+  return {of, t_end};
+}
+
+TEST(GivenMotion, HasItsRateAndItsAccelerationFromTheStartOn) {
+  const GivenMotion motion = given({"3 * sin(2 * t)", "", "t^2 - 0.3 * t"}, 5);
+  for (const double t : {0.0, 1e-5, 0.7, 5.0}) {
+    const Vec3 rate(6 * std::cos(2 * t), 0, 2 * t - 0.3), acceleration(-12 * std::sin(2 * t), 0, 2);
+    EXPECT_LE((motion.rate(t) - rate).norm(), 1e-9) << t;
+    EXPECT_LE((motion.acceleration(t) - acceleration).norm(), 1e-5) << t;
+  }
+  EXPECT_FALSE(GivenMotion());
+  EXPECT_FALSE(given({"", "", ""}, 1));
+}
+
+TEST(HeldBody, GoesAsGivenWhateverLoadsIt) {
+  const Vec2 pivot(0.4, 2.3);
+  const Mounting mounting{
+      .pivot = pivot, .freedoms = freedoms({}), .given = given({"0.2 * t^2", "", "sin(3 * t)"}, 2)};
+  const RigidBody body = after(held(mounting), 2, 20, {1e9, -1e12, 1e9});
+  EXPECT_EQ(body.modes(), 1);
+  EXPECT_EQ(body.modal_velocity()[0], 1);
+  EXPECT_NEAR(body.pose().angle, std::sin(6.0), 1e-13);
+  EXPECT_LE((body.position(pivot) - pivot - Vec2(0.8, 0)).norm(), 1e-13);
+  EXPECT_LE((body.velocity_at(body.position(pivot)) - Vec2(0.8, 0)).norm(), 1e-9);
+  EXPECT_NEAR(body.velocity()[2], 3 * std::cos(6.0), 1e-9);
+}
+
+TEST(HeldBody, APendulumWhosePivotIsPulledAwaySwingsAsIfItsWeightLeanedBackToSecondOrder) {
+  const Vec2 pivot(1, 3.5);
+  const Mounting mounting{
+      .pivot = pivot, .freedoms = freedoms({2}), .given = given({"0.6 * t^2", "0.1 * t", ""}, 3)};
+  const RigidBody at_rest = held(mounting);
+  const Vec2 arm = at_rest.reference_centre() - pivot;
+  const double m = at_rest.masses().mass;
+  const Vec2 pull(-1.2 * m, -2 * m);  // of what the pivot's acceleration is, and of the weight
+  const double inertia = at_rest.masses().moment_of_inertia + m * arm.squaredNorm();
+  const Vec2 exact = swung(3, 0, [&](double angle) {
+    const Vec2 now(std::cos(angle) * arm.x() - std::sin(angle) * arm.y(),
+                   std::sin(angle) * arm.x() + std::cos(angle) * arm.y());
+    return (now.x() * pull.y() - now.y() * pull.x()) / inertia;
+  });
+  EXPECT_GT(std::abs(exact[0]), 0.5);
+  const auto error = [&](int steps) {
+    const RigidBody body = after(held(mounting), 3, steps, {0, pull.y(), 0});
+    EXPECT_LE((body.position(pivot) - pivot - Vec2(5.4, 0.3)).norm(), 1e-11);
+    return (Vec2(body.pose().angle, body.velocity()[2]) - exact).norm();
+  };
+  EXPECT_GE(order(error, 1e-3), 1.9);
+}
+
+TEST(HeldBody, StartsWithTheAccelerationOfItsGivenMotion) {
+  const std::vector<Mounting> mountings{
+      {.pivot = Vec2(0.4, 2.3),
+       .freedoms = freedoms({}),
+       .given = given({"0.6 * t^2", "0.2 * t", "t^2 + t"}, 1)},
+      {.pivot = Vec2(0.4, 2.3), .freedoms = freedoms({0}), .given = given({"", "", "2 * t^2 - t"}, 1)},
+      {.freedoms = freedoms({2}), .damper = {0, 0, 0.1}, .given = given({"sin(t)", "t^2", ""}, 1)}};
+  for (const Mounting& mounting : mountings) {
+    RigidBody body = held(mounting);
+    const std::vector<double> x = body.positions(), v = body.velocities(x), a = body.initial_accelerations(x);
+    EXPECT_TRUE(body.starts_unevenly());
+    constexpr double dt = 1e-5;
+    body = after(body, dt, 1);
+    const std::vector<double> later = body.velocities(body.positions());
+    for (std::size_t i = 0; i < x.size(); ++i) EXPECT_NEAR(a[i], (later[i] - v[i]) / (0.7 * dt), 5e-4) << i;
+  }
 }
 
 }  // namespace

@@ -15,7 +15,8 @@ namespace {
 
 BodyFromCase body_of(const std::string& name, const std::vector<std::string>& overrides,
                      const std::vector<std::string>& laws = {}) {
-  return body_from_case(load_case(configs_folder() + "/" + name + ".yaml", overrides, laws).solids.front());
+  const Case problem = load_case(configs_folder() + "/" + name + ".yaml", overrides, laws);
+  return body_from_case(problem.solids.front(), problem.time.end);
 }
 
 std::string refusal(const std::string& name, const std::vector<std::string>& overrides,

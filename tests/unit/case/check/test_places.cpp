@@ -271,6 +271,58 @@ TEST(CaseLaw, WhatSlidesAlongAWallIsHeldAlongItAlone) {
   refused("degrees_of_freedom", "[x]", "degrees_of_freedom");
 }
 
+TEST(CaseLaw, TheMotionOfARigidBodyIsGivenByFormulasOfTimeThatBeginAtZeroAndDoNotJump) {
+  const auto given = [](const std::string& motion, const std::string& more = "") {
+    return rigid_alone(
+        "    grid: {x: [0, 1], y: [0, 1], points: [11, 11]}\n"
+        "    boundary: {left: free, right: free, top: free, bottom: free}\n"
+        "    motion: " +
+            motion + "\n" + more,
+        "end: 2, dt: 0.01");
+  };
+  const auto refused = [&](const std::string& motion, const std::string& why, const std::string& more = "") {
+    EXPECT_NE(given(motion, more).find(why), std::string::npos) << given(motion, more);
+  };
+  EXPECT_EQ(given("{x: 0.1 * sin(t), rotation: t^2}", "    degrees_of_freedom: [y]\n    spring: {y: 1}\n"),
+            "");
+  for (const char* steep :
+       {"tanh(200 * (t - 1)) + tanh(200)", "'t < 1 ? 0 : t - 1'", "sqrt(t)", "sin(500 * t)"})
+    EXPECT_EQ(given(fmt::format("{{x: {}}}", steep)), "") << steep;
+  refused("{}", "solids.body.motion: says of no motion what it is");
+  refused("{z: t}", "unknown key `z`; one of x, y, rotation");
+  refused("gone", "(a section of keys, or one of free, fixed)");
+  refused("{x: x * t}",
+          "solids.body.motion.x: the body moves as a whole: a formula of `t` alone, not of `x`");
+  refused("{y: 1 + t}", "solids.body.motion.y: is 1 at t = 0");
+  refused("{y: 1 / (t - 1)}", "solids.body.motion.y: is inf at t = 1; must be finite");
+  refused("{rotation: 't < 1.2345 ? t : t + 0.02'}",
+          "solids.body.motion.rotation: jumps by 0.02 at t = 1.2345;");
+  refused("{x: t}", "`x` is given by `motion`, and cannot be free", "    degrees_of_freedom: [y, x]\n");
+  refused("{x: t}", "solids.body.spring.y: `y` is not among the `degrees_of_freedom`",
+          "    spring: {y: 1}\n");
+  EXPECT_NE(
+      mistake_of("beam", {"solids.beam.motion={x: t}"}).find("solids.beam.motion: belongs to `law: rigid`"),
+      std::string::npos);
+}
+
+TEST(CaseLaw, AGivenMotionStaysInItsGasAndOnItsWalls) {
+  const auto refused = [](const char* name, const char* motion, const char* why) {
+    const bool piston = std::string(name) == "rigid_piston";
+    const std::string message =
+        mistake_of(name, {fmt::format("solids.{}.motion={}", piston ? "solid" : "ellipse", motion)},
+                   piston ? std::vector<std::string>{} : std::vector<std::string>{"ellipse=rigid"});
+    EXPECT_NE(message.find(why), std::string::npos) << message;
+  };
+  EXPECT_EQ(mistake_of("rigid_piston", {"solids.solid.motion={x: 0.1 * t^2}"}), "");
+  refused("rigid_piston", "{y: 0.1 * t^2}", "the body slides along a wall in the direction (1, 0)");
+  refused("rigid_piston", "{x: t, rotation: t}", "leave `rotation` out");
+  EXPECT_EQ(
+      mistake_of("shock_ellipse", {"solids.ellipse.motion={x: 0.3 * t, rotation: t}"}, {"ellipse=rigid"}),
+      "");
+  refused("shock_ellipse", "{x: 3 * t}", "takes the body out of its gas: at t = ");
+  refused("shock_ellipse", "{y: -3 * t, rotation: t}", "takes the body out of its gas: at t = ");
+}
+
 TEST(CaseLaw, LoadedSideCannotBeRigid) {
   const std::string side = "solids.beam.boundary.bottom={kind: traction, value: [t, 0]}";
   const std::string message = mistake_of("beam", {side}, {"beam=rigid"});
