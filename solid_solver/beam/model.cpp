@@ -49,20 +49,24 @@ Line straight_line(const Vec2& from, const Vec2& to, int elements) {
   return line;
 }
 
-/// An element and its strains.
+/// An element and its strains. Its degrees of freedom: x, y and theta of its first node, then of its second.
 struct BeamModel::Strained {
   std::array<Eigen::Index, 6> index{};  ///< of its degrees of freedom
-  double l = 1, c = 1, s = 0;           ///< length, direction of its section
-  Vec2 e = Vec2::Zero();                ///< its chord in the section's frame
+  double l = 1, chord = 1;              ///< length at rest and now
+  Vec2 t = Vec2::UnitX();               ///< direction of its chord
   Section stiff;                        ///< with the compliance of its own bending
-  Vec2 Gamma = Vec2::Zero();
-  double kappa = 0;
+  double stretch = 0, shear = 0, kappa = 0;
 
-  Vec6 stretching() const { return {-c, -s, 0.5 * e[1], c, s, 0.5 * e[1]}; }
-  Vec6 shearing() const { return {s, -c, -0.5 * e[0], -s, c, -0.5 * e[0]}; }
+  Vec2 across() const { return {-t[1], t[0]}; }
+  /// Derivatives of l stretch, l shear and l kappa.
+  Vec6 stretching() const { return {-t[0], -t[1], 0, t[0], t[1], 0}; }
+  Vec6 shearing() const {
+    const Vec2 n = l / chord * across();
+    return {-n[0], -n[1], -0.5 * l, n[0], n[1], -0.5 * l};
+  }
   static Vec6 bending() { return {0, 0, -1, 0, 0, 1}; }
-  double N() const { return stiff.EA * Gamma[0]; }
-  double Q() const { return stiff.GA * Gamma[1]; }
+  double N() const { return stiff.EA * stretch; }
+  double Q() const { return stiff.GA * shear; }
   double M() const { return stiff.EI * kappa; }
 
   Vec6 gradient() const { return N() * stretching() + Q() * shearing() + M() * bending(); }
@@ -72,13 +76,11 @@ struct BeamModel::Strained {
     Mat6 H =
         (stiff.EA * b1 * b1.transpose() + stiff.GA * b2 * b2.transpose() + stiff.EI * b3 * b3.transpose()) /
         l;
-    const double N = stress.N, Q = stress.Q;
-    const double along1 = 0.5 * (N * s + Q * c), along2 = 0.5 * (Q * s - N * c);
-    for (const int turn : {2, 5}) {
-      const Vec6 mixed(along1, along2, 0, -along1, -along2, 0);
-      H.col(turn) += mixed;
-      H.row(turn) += mixed.transpose();
-      for (const int other : {2, 5}) H(turn, other) -= 0.25 * (N * e[0] + Q * e[1]);
+    const Vec2 n = across();
+    const Mat2 turning = stress.N / chord * n * n.transpose() -
+                         stress.Q * l / (chord * chord) * (t * n.transpose() + n * t.transpose());
+    for (const int row : {0, 3}) {
+      for (const int column : {0, 3}) H.block<2, 2>(row, column) += row == column ? turning : Mat2(-turning);
     }
     return H;
   }
@@ -132,12 +134,13 @@ BeamModel::Strained BeamModel::strain(const Eigen::VectorXd& u, int element) con
   const Vec2 d = line_.x[static_cast<std::size_t>(b)] - line_.x[k] + u.segment<2>(freedom_of(b)) -
                  u.segment<2>(freedom_of(a));
   result.l = l;
-  result.c = std::cos(angle);
-  result.s = std::sin(angle);
-  result.e = in_section(angle, d);
+  result.chord = d.norm();
+  result.t = d / result.chord;
   result.stiff = sections_[k];
   result.stiff.GA = 1 / (1 / sections_[k].GA + l * l / (12 * sections_[k].EI));
-  result.Gamma = result.e / l - at_rest_[k];
+  result.stretch = result.chord / l - 1;
+  const Vec2 e = in_section(angle, d);
+  result.shear = std::atan2(cross(at_rest_[k], e), at_rest_[k].dot(e));
   result.kappa = (u[3 * b + 2] - u[3 * a + 2]) / l;
   return result;
 }
@@ -180,9 +183,8 @@ double BeamModel::strain_energy(const Eigen::VectorXd& u) const {
   double sum = 0;
   for (int element = 0; element < elements(); ++element) {
     const Strained strained = strain(u, element);
-    sum +=
-        0.5 * strained.l *
-        (strained.N() * strained.Gamma[0] + strained.Q() * strained.Gamma[1] + strained.M() * strained.kappa);
+    sum += 0.5 * strained.l *
+           (strained.N() * strained.stretch + strained.Q() * strained.shear + strained.M() * strained.kappa);
   }
   return sum;
 }

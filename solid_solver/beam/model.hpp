@@ -1,16 +1,16 @@
 #pragma once
-/// A geometrically exact beam in the plane (Simo and Reissner): a line of nodes, each with a position and the
-/// rotation of its section.
+/// A geometrically exact beam in the plane: a line of nodes, each with a position and the rotation of its section.
 ///
-///     Gamma = Lambda^T x' - Gamma at rest,   kappa = theta'                stretch, shear, curvature
-///     W = 1/2 int (EA Gamma_1^2 + GA Gamma_2^2 + EI kappa^2) ds            strain energy
+///     epsilon = |x'| - 1,   gamma = angle of x' - angle of the section,   kappa = theta'      stretch, shear, curvature
+///     W = 1/2 int (EA epsilon^2 + GA gamma^2 + EI kappa^2) ds                                 strain energy
 ///
-/// Lambda turns by the angle of the section: alpha at rest, alpha + theta later. Elements join two nodes,
-/// with one point of integration in the middle (no locking); the bending of an element between its nodes,
-/// which straight elements do not have, is a compliance l^2 / (12 EI) in series with that of shear (R. H.
-/// MacNeal, A simple quadrilateral shell element, Computers & Structures 8, 1978: residual bending
-/// flexibility). So a straight beam under small loads on its nodes has the exact deflections, whatever its
-/// number of elements.
+/// The axial force N = EA epsilon acts along the line, not along the normal of the section as in the theory of Simo and
+/// Reissner. For small strains both are the same, but there a section can evade a tension beyond GA by shearing, and GA is
+/// small here: elements join two nodes, with one point of integration in the middle (no locking); the bending of an
+/// element between its nodes, which straight elements do not have, is a compliance l^2 / (12 EI) in series with that of
+/// shear (R. H. MacNeal, A simple quadrilateral shell element, Computers & Structures 8, 1978: residual bending
+/// flexibility). So a straight beam under small loads on its nodes has the exact deflections, whatever its number of
+/// elements, and a thin strip under tension is a string.
 ///
 /// Degrees of freedom: u_1, u_2 (displacement) and theta of every node, in this order. Source: J. C. Simo, A
 /// finite strain beam formulation, Computer Methods in Applied Mechanics and Engineering 49, 1985.
@@ -129,7 +129,7 @@ class BeamModel {
   std::vector<Section> sections_;
   std::vector<double> lengths_;  ///< of the elements
   std::vector<double> angles_;   ///< of the sections in the middle of the elements at rest
-  std::vector<Vec2> at_rest_;    ///< Lambda^T x' there
+  std::vector<Vec2> at_rest_;    ///< direction of the line in the frame of the section there
   Eigen::VectorXd mass_;
 };
 
