@@ -29,4 +29,24 @@ struct MatrixSize {
 void check_entries(const Moment& moment, const wire::PredictedInterface& state, const char* quantity,
                    const wire::SparseMatrix& matrix, const MatrixSize& size);
 
+/// Throws where the diagonal of a modal response resists motion less than nothing, as a wrong sign makes it. @throws PeerLost
+void check_resistance(const wire::PredictedInterface& solid);
+
+/// Of the points of an interface: normal velocities that a body sends and that its modes have, and lengths.
+struct ModeVelocities {
+  std::span<const double> v_n, of_modes, ds;
+};
+
+/// Throws where the velocities that a body sends are not those of its modes: by more than a third of its speed, in
+/// the mean, for normals differ at corners. @param sound speed in the gas: what is round-off of it does not count
+/// @throws PeerLost
+void check_mode_vectors(const wire::PredictedInterface& solid, const ModeVelocities& velocities,
+                        double sound);
+
+/// Throws where a solid does not begin where its hello has it, at `x`. @throws PeerLost
+void check_start(const wire::PredictedInterface& solid, std::span<const double> x);
+
+/// Throws where `z_p` and Z are of different solids: several times one another along the normals. @throws PeerLost
+void check_impedance(const wire::PredictedInterface& solid, std::span<const double> normals);
+
 }  // namespace fsi::coupler

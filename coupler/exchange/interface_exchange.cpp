@@ -103,6 +103,7 @@ void InterfaceExchange::check_solid(const Moment& moment, const wire::PredictedI
     check_entries(moment, solid, "the mode vectors", solid.modal.N, {.rows = k, .columns = n});
     check_values(moment, solid, "the modal velocity", solid.modal.q_dot, k, k);
     check_values(moment, solid, "the modal response g", solid.modal.g, k, k);
+    check_resistance(solid);
     return;
   }
   check_values(moment, solid, "the traction", solid.w, 2 * n, n, why_broken());
@@ -142,6 +143,21 @@ void InterfaceExchange::take(const Moment& moment, const wire::PredictedInterfac
   const wire::ModalResponse& modes = solid_->modal;
   if (modes.modes > 0) wire::put_matrix(modes.N, modes.modes, static_cast<Eigen::Index>(curve_.n), N_);
   prepare(moment);
+  check_sense(moment);
+}
+
+/// What a solid says fits to what else it says.
+void InterfaceExchange::check_sense(const Moment& moment) const {
+  const wire::PredictedInterface& solid = *solid_;
+  const Eigen::Index modes = solid.modal.modes;
+  if (modes > 0) {
+    const Eigen::VectorXd of_modes =
+        N_.transpose() * Eigen::Map<const Eigen::VectorXd>(solid.modal.q_dot.data(), modes);
+    check_mode_vectors(solid, {.v_n = solid_v_n_, .of_modes = {of_modes.data(), curve_.n}, .ds = ds_},
+                       gas_.front().curve.sound());
+  }
+  if (moment.step == 0) check_start(solid, pair_.x);
+  if (moment.step == 0 && modes == 0) check_impedance(solid, n_);
 }
 
 void InterfaceExchange::prepare(const Moment& moment) {

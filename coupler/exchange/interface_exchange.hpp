@@ -97,6 +97,7 @@ class InterfaceExchange {
   void check_gas(const Moment& moment, const wire::PredictedInterface& gas) const;
   void check_solid(const Moment& moment, const wire::PredictedInterface& solid) const;
   void check_modes(const wire::PredictedInterface& solid) const;
+  void check_sense(const Moment& moment) const;
   std::string why_broken() const;
   void prepare(const Moment& moment);
   void project_deformable(const Moment& moment, const wire::PredictedInterface& solid);

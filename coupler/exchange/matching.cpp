@@ -31,6 +31,18 @@ void expect_fluid(std::span<const wire::Hello> hellos) {
     throw PeerLost("a coupled run needs a program with the role \"fluid\"");
 }
 
+void check_normals(const wire::Hello& hello, const wire::InterfaceInfo& info) {
+  constexpr double tolerance = 1e-3;
+  if (info.n.size() != info.x.size()) return;  // refused with its reason by `Curve`
+  for (std::size_t k = 0; k < info.n.size() / 2; ++k) {
+    const double length = vector_at(info.n, k).norm();
+    if (std::abs(length - 1) <= tolerance) continue;
+    throw PeerLost(
+        fmt::format("\"{}\" gives normal {} of interface \"{}\" the length {:.6g}; send unit normals",
+                    hello.name, k, info.name, length));
+  }
+}
+
 void check_shape(const wire::Hello& hello, const wire::InterfaceInfo& info) {
   if (info.dimension != 2) {
     throw PeerLost(
@@ -133,6 +145,7 @@ void match_gas(const wire::Hello& fluid, std::span<const wire::Hello> hellos,
       for (const wire::InterfaceInfo& solid : hello.interfaces) {
         if (solid.name != gas.name) continue;
         check_shape(hello, solid);
+        check_normals(hello, solid);
         const bool goes_on = std::ranges::find(periodic, gas.name) != periodic.end();
         pairs.push_back(pair_of({.fluid = fluid.name,
                                  .solid = hello.name,

@@ -43,6 +43,7 @@ std::vector<wire::PredictedInterface> exchange(std::uint64_t step, bool modal) {
   if (modal) {
     solid.w.clear();
     solid.Z.clear();
+    solid.v = everywhere(n, 0.1, -0.1 * s);
     solid.modal = one_mode(0.5, 0.02 * s, std::vector<double>(n, 1.0), 0.1);
   }
   return {gas, solid};

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <string>
 #include <utility>
 #include <vector>
@@ -69,6 +71,50 @@ TEST(Coupler, AModalResponseThatIsNoMatrixOfItsSizeIsNamed) {
   solid = solid_of_modes(2, 0);
   solid.modal.S.value.back() = std::nan("");
   EXPECT_NE(failure<Diverged>(gas_state(n, 0), solid).find("the modal response S is nan"), std::string::npos);
+}
+
+TEST(Coupler, ABodyWhoseVelocitiesAreNotThoseOfItsModesIsNamed) {
+  const auto body = [](double v, double N, double q_dot) {
+    auto solid = solid_of_modes(1, 0);
+    solid.v = everywhere(n, v, 0.2);
+    solid.modal = one_mode(1, 0, std::vector<double>(n, N), q_dot);
+    return solid;
+  };
+  Coupler(until(1), piston_hellos(n)).step(std::vector{gas_state(n, 0), body(0.5, 0.25, 2)});
+  for (const auto& [N, q_dot] : {std::pair{0.25, 0.5}, {-1.0, 0.5}, {1.0, 1.5}}) {
+    const std::string told = failure<PeerLost>(gas_state(n, 0), body(0.5, N, q_dot));
+    EXPECT_NE(told.find("with n.v = 0.5, but its modes with N q_dot = "), std::string::npos) << N << told;
+  }
+}
+
+TEST(Coupler, ABodyThatGivesWayToItsOwnMotionIsNamed) {
+  auto solid = solid_of_modes(2, 0);
+  solid.modal.S.value.back() = -1;
+  EXPECT_NE(failure<PeerLost>(gas_state(n, 0), solid).find("S(1, 1) = -1"), std::string::npos);
+}
+
+TEST(Coupler, ASolidThatBeginsElsewhereThanItsHelloIsNamed) {
+  auto solid = solid_of_modes(1, 0);
+  solid.x = vertical_line(n, 0.4 / (n - 1));
+  Coupler(until(1), piston_hellos(n)).step(std::vector{gas_state(n, 0), solid});
+  solid.x = vertical_line(n, 0.6 / (n - 1));
+  EXPECT_NE(failure<PeerLost>(gas_state(n, 0), solid).find("but its hello has it at (0, "),
+            std::string::npos);
+  std::reverse(solid.x.begin() + n, solid.x.end());
+  EXPECT_NE(failure<PeerLost>(gas_state(n, 0), solid).find("in the same order"), std::string::npos);
+}
+
+TEST(Coupler, ImpedancesOfDifferentSolidsAreNamed) {
+  auto solid = solid_state(n, 0);  // Z11 = 2, normals along x
+  for (const double z_p : {0.6, 7.0}) {
+    solid.z_p = z_p;
+    Coupler(until(1), piston_hellos(n)).step(std::vector{gas_state(n, 0), solid});
+  }
+  for (const double z_p : {0.4, 9.0}) {
+    solid.z_p = z_p;
+    EXPECT_NE(failure<PeerLost>(gas_state(n, 0), solid).find("but n.Z.n from 2 to 2"), std::string::npos)
+        << z_p;
+  }
 }
 
 TEST(Coupler, AModeThatNothingResistsIsNamed) {

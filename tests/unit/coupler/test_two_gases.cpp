@@ -67,6 +67,7 @@ wire::PredictedInterface body_at(const Face& face, std::uint64_t step, const Bdf
   wall.w.clear();
   wall.Z.clear();
   const double S = body.dt > 0 ? body.S() : 1, g = body.dt > 0 ? body.g() : 0;
+  wall.v = everywhere(n, body.now, 0);
   wall.modal = one_mode(S, g, std::vector<double>(n, face.outwards), body.now);
   return wall;
 }

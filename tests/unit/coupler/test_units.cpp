@@ -83,6 +83,7 @@ wire::PredictedInterface body_in(const Units& units, int step) {
   body.w.clear();
   body.Z.clear();
   body.z_p = 0;
+  for (std::size_t k = 0; k < scaled_points; ++k) body.v[k] = units.speed() * 0.1;
   body.modal = one_mode(units.mass() * (0.3 + 0.01 * odd(step)), units.mass() * units.speed() * odd(2 * step),
                         std::vector<double>(scaled_points, 1), units.speed() * 0.1);
   return body;

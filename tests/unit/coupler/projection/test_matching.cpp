@@ -96,6 +96,21 @@ TEST(Matching, ASideWithoutAPartnerIsNamed) {
   EXPECT_NE(mistake(hellos).find("no side of the gas"), std::string::npos);
 }
 
+TEST(Matching, NormalsThatAreNoUnitVectorsAreNamed) {
+  std::vector<wire::Hello> hellos = piston_hellos(5);
+  EXPECT_NO_THROW(match_interfaces(hellos));
+  hellos[1].interfaces[0].n[3] = 2;
+  try {
+    match_interfaces(hellos);
+    FAIL() << "a normal of length 2";
+  } catch (const PeerLost& lost) {
+    EXPECT_NE(
+        std::string(lost.what()).find("normal 3 of interface \"solid\" the length 2; send unit normals"),
+        std::string::npos)
+        << lost.what();
+  }
+}
+
 TEST(Matching, TwoSolidsOnOneSideAreNamed) {
   auto hellos = piston_hellos(5);
   hellos.push_back(hellos[1]);

@@ -242,6 +242,7 @@ TEST_P(PointRatio, AModalBodyOnOtherPointsMovesAsOnThoseOfTheGas) {
     for (std::uint64_t step = 0; step < 5; ++step) {
       wire::PredictedInterface gas = both.of_gas({0, 0}, 0.5);
       gas.step = body.step = step;
+      body.v = everywhere(n, motion.now, motion.now);
       body.modal = one_mode(motion.S(), motion.g(), N, motion.now);
       const auto answers = coupler.step(std::vector{gas, body});
       motion.take(answers[1].q_dot.front(), answers[1].dt_next);
@@ -275,7 +276,7 @@ std::vector<wire::ProjectedInterface> answers_at_two_different_ends(std::size_t 
                                                                     std::size_t solid_points, bool opposite) {
   const auto bend = [](std::vector<double> x) {
     const std::size_t n = x.size() / 2;
-    for (std::size_t k = 0; k < n; ++k) x[k] += 0.1 * wavy({x[k], x[n + k]});
+    for (std::size_t k = 0; k < n; ++k) x[k] += 0.01 * wavy({x[k], x[n + k]});
     return x;
   };
   wire::PredictedInterface gas = gas_state(gas_points, 0), solid = solid_state(solid_points, 0);
