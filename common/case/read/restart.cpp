@@ -61,6 +61,10 @@ Node fixed_part(const Node& root) {
   Node fixed = root;
   remove(fixed, free_sections);
   if (Node* time = fixed.find("time")) remove(*time, free_of_time);
+  if (Node* solids =
+          fixed.find("solids")) {  // where a program lies; whether it is the same, its checkpoint says
+    for (Entry& solid : solids->entries) remove(solid.value, std::array{"program"});
+  }
   if (Node* output = fixed.find("output")) {
     remove(*output, free_of_output);
     if (output->entries.empty()) remove(fixed, std::array{"output"});
@@ -82,7 +86,7 @@ void check_restart(const std::string& resolved, const std::string& former) {
   const std::span<const std::string> shown(found.data(), std::min(found.size(), most));
   throw UserMistake(
       fmt::format("{}: a restart cannot change the case: {}{}; only time.end and the time-outs, output but "
-                  "for its probes, and expect may differ",
+                  "for its probes, the path of a program, and expect may differ",
                   former, fmt::join(shown, "; "),
                   found.size() > most ? fmt::format("; and {} more", found.size() - most) : ""));
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "common/case/check/given/given.hpp"
 #include "common/case/check/given/given_states.hpp"
@@ -40,13 +41,23 @@ bool presses_from_all_sides(const Case& problem, const FluidSpec& fluid) {
   return everywhere;
 }
 
-/// Largest p / rho of a gas [pressure volume/mass].
-double highest_temperature(const Case& problem, const FluidSpec& fluid) {
+/// Smallest p / rho of what a case says of a gas [pressure volume/mass].
+double lowest_temperature(const Case& problem, const FluidSpec& fluid) {
+  double lowest = std::numeric_limits<double>::infinity();
+  each_state(problem, fluid, [&](double rho, const Vec2&, double p) { lowest = std::min(lowest, p / rho); });
+  return lowest;
+}
+
+/// Largest Mach number of what a case says of a gas.
+double highest_mach(const Case& problem, const FluidSpec& fluid) {
   double highest = 0;
-  each_state(problem, fluid,
-             [&](double rho, const Vec2&, double p) { highest = std::max(highest, p / rho); });
+  each_state(problem, fluid, [&](double rho, const Vec2& v, double p) {
+    if (p > 0) highest = std::max(highest, v.norm() / std::sqrt(fluid.gamma * p / rho));
+  });
   return highest;
 }
+
+constexpr double no_wind_has_more = 25;  ///< Mach number
 
 /// In SI units gases that people blow on solids have R T of 6000 (the heaviest, at room temperature) and more.
 constexpr double no_gas_has_less = 3000;
@@ -100,12 +111,17 @@ std::vector<std::string> remarks_on(const Case& problem) {
           "{}.boundary.{}: the state of this inflow goes out of the gas; is the sign of its velocity right?",
           fluid.path, name_of(side)));
     }
-    if (const double T = highest_temperature(problem, fluid); problem.in_si && T > 0 && T < no_gas_has_less)
-      remarks.push_back(
-          fmt::format("{}: p / rho is at most {:.3g} m2/s2, as of no gas (`units: SI`; air at 288 K has "
-                      "82700); `T` is p / rho and not "
-                      "kelvin: for air write 287 times the kelvin, and p in Pa",
-                      fluid.path, T));
+    if (const double mach = highest_mach(problem, fluid); mach > no_wind_has_more)
+      remarks.push_back(fmt::format(
+          "{}: the gas goes at Mach {:.3g} in one of its states; is a speed written where the case takes a "
+          "Mach number, or p in other units than rho v^2?",
+          fluid.path, mach));
+    if (const double T = lowest_temperature(problem, fluid); problem.in_si && T > 0 && T < no_gas_has_less)
+      remarks.push_back(fmt::format(
+          "{}: p / rho is {:.3g} m2/s2 in one of its states, as of no gas (`units: SI`; air at 288 K has "
+          "82700); `T` is p / rho and not "
+          "kelvin: for air write 287 times the kelvin, and p in Pa",
+          fluid.path, T));
     if (!presses_from_all_sides(problem, fluid)) continue;
     remarks.push_back(fmt::format(
         "{}.p_e is 0: elastic bodies are free of stress in a vacuum, and the whole pressure of the gas "

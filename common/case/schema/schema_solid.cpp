@@ -139,13 +139,18 @@ constexpr Section solid_initial{.title = "Initial state of a solid", .keys = sol
 constexpr Key data_element{.name = "number", .type = Type::number, .meaning = "a number for the program"};
 
 constexpr array<string_view, 2> motion_words{"free", "fixed"};
+constexpr const char* not_given = "held, but for what is among the `degrees_of_freedom`";
 constexpr array motion_keys{
     Key{.name = "x",
         .type = Type::field,
-        .meaning = "how far the pivot has gone along x at the time t, from 0 at t = 0",
-        .unit = "length"},
-    Key{.name = "y", .type = Type::field, .meaning = "along y", .unit = "length"},
-    Key{.name = "rotation", .type = Type::field, .meaning = "turned about the pivot, in radians"},
+        .meaning = "how far the pivot has gone along x at t, from 0 at t = 0",
+        .unit = "length",
+        .fallback = not_given},
+    Key{.name = "y", .type = Type::field, .meaning = "along y", .unit = "length", .fallback = not_given},
+    Key{.name = "rotation",
+        .type = Type::field,
+        .meaning = "turned about the pivot, in radians",
+        .fallback = not_given},
 };
 constexpr Section motion_section{.title = "The given motion of a rigid body", .keys = motion_keys};
 constexpr Key rigid_motion{

@@ -24,6 +24,8 @@ def _run(options):
                          ranks=options.ranks, hosts=options.hosts, remote_shell=options.remote_shell))
     if options.movie and result.summary["status"] in ("completed", "stopped"):
         plot.draw_movie(result.directory)
+    elif options.movie:
+        tell(f"no movie is made of a run that failed; `fsi plot {result.directory} --movie` makes one of the outputs there are")
     return result.code
 
 

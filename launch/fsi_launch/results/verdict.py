@@ -10,7 +10,7 @@ from fsi_launch.failure import DONE, INTERRUPTED, OUTPUT_FAILED, PEER_LOST, TERM
 DISK_SIGNALS = (-signal.SIGXFSZ,)   # a file grew larger than the shell allows
 
 # The words of a program whose peer's process is there no more (common/bus/peers/peer.cpp).
-DEAD = re.compile(r"(?:the )?(\S+) \(pid \d+(?: on \S+)?\) has died")
+DEAD = re.compile(r"(?:the |solid |fluid )?'?([^\s']+)'? \(pid \d+(?: on \S+)?\) has died")
 
 # Where in a run something failed, as the programs report it (common/io/place_json.hpp).
 PLACE = ("program", "step", "t", "interface", "grid", "point", "position", "reference_position")
@@ -88,11 +88,14 @@ def _seen_dead(ending, case, part):
     return found.group(1) if found and found.group(1) in case.programs and part.get("origin", ending.name) == ending.name else None
 
 
-def _explain(ending, case, directory, part):
+def _explain(ending, case, directory, part, endings):
     """(exit code, reason) of the run from the ending that caused it. `part`: what that program left."""
     label = _label(ending.name, case)
     if dead := _seen_dead(ending, case, part):
-        return PEER_LOST, f"lost {_label(dead, case)}: {ending.name} saw that it had died{_last_words(directory, dead)}"
+        how = f"{ending.name} saw that it had died"
+        if any(one.name == dead and one.code == 0 for one in endings):
+            how = "it ended with exit code 0 before the run was over"
+        return PEER_LOST, f"lost {_label(dead, case)}: {how}{_last_words(directory, dead)}"
     if ending.lost():
         name = signal.Signals(-ending.code).name
         code = OUTPUT_FAILED if ending.code in DISK_SIGNALS else PEER_LOST
@@ -138,7 +141,7 @@ def judge(outcome, case, directory, parts):
         return Verdict(TERMINATED, "failed", f"ended on request ({signal.Signals(outcome.signal).name})")
     origins = {name: part["origin"] for name, part in parts.items() if part.get("origin")}
     if cause := root_cause(outcome.endings, origins):
-        code, reason = _explain(cause, case, directory, parts.get(cause.name, {}))
+        code, reason = _explain(cause, case, directory, parts.get(cause.name, {}), outcome.endings)
         return Verdict(code, "failed", reason, _record(cause, parts, code, reason, case))
     for part in parts.values():
         if part.get("status") == "stopped":

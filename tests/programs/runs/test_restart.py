@@ -14,7 +14,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from comparing import Comparing, health, results  # noqa: E402
-from running import EndToEnd, LONG, until  # noqa: E402
+from running import BIN, EndToEnd, LONG, until  # noqa: E402
 
 CASES = {  # with the number of steps between checkpoints
     "elastic_piston": (10, "--set", "grid.factor=2", "--set", "output.every=0.1",
@@ -166,6 +166,15 @@ class ProgramOfSomebodyElses(Interrupted):
 
     def test_sigterm_writes_a_checkpoint(self):
         self.terminate_and_restart()
+
+    def test_program_may_lie_elsewhere_by_then(self):
+        run = self.begin()
+        run.process.send_signal(signal.SIGTERM)
+        self.assertEqual(run.wait(), 143, run.stderr)
+        moved = self.folder / "moved"
+        shutil.copy2(BIN / "spring_piston", moved)
+        again = self.restart(run, "--set", f"solids.piston.program={moved}")
+        self.assertEqual(again.wait(), 0, again.stderr)
 
 
 class Levels(Interrupted):

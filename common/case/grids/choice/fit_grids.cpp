@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "common/case/grids/composite_from_case.hpp"
@@ -28,10 +29,6 @@ grid::Curve ends_of(const CurveSpec& curve) {
   return curve.closed() ? grid::Curve::closed : grid::Curve::open;
 }
 
-double length_of(const CurveSpec& curve) {
-  return curve.spacing * (curve.points() - 1);
-}
-
 /// Outline, seen closely.
 struct Measures {
   double length = 0;
@@ -39,7 +36,7 @@ struct Measures {
   grid::Gap thickness;
 
   explicit Measures(const CurveSpec& curve)
-      : length(length_of(curve)),
+      : length(curve.spacing * (curve.points() - 1)),
         inwards(grid::sharpest_bend(curve.x, ends_of(curve), 1, curve.corners)),
         outwards(grid::sharpest_bend(curve.x, ends_of(curve), -1, curve.corners)),
         thickness(grid::narrowest(curve.x, ends_of(curve), 1)) {}
@@ -130,7 +127,12 @@ BodyGrids grids_of(const Outline& curves, const Trial& trial, const BodyWish& wi
   grids.lines = wish.lines.value_or(trial.lines);
   grids.line_spacing =
       as_written(wish.line_spacing.value_or(trial.depth / depth_of(grids.lines, wish.growth)));
-  grids.outline_points = std::max(9, static_cast<int>(std::round(outline.length / trial.curve)) + 1);
+  const double along = std::round(outline.length / trial.curve) + 1, most = 20 * std::sqrt(most_points);
+  const std::string smaller = fmt::format("take grid.factor {:.2g} times what it is", most / along / 8);
+  if (along > most)
+    throw NoGridsFit(
+        {.cause = fmt::format("this outline would take {:.2g} points", along), .otherwise = smaller});
+  grids.outline_points = std::max(9, static_cast<int>(along));
   const CurveSpec curve =
       curves.with_points(wish.curve_is_given ? std::nullopt : std::optional(grids.outline_points));
   grids.outline_points = curve.points();

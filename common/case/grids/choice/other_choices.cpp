@@ -99,9 +99,16 @@ std::vector<OtherChoice> rounded_polygons(const Node& root, const std::vector<st
                                           double h) {
   std::vector<OtherChoice> choices;
   for (const char* given : {"radius", "sharpness"}) {
+    std::vector<std::string> of;
+    for (const std::string& key : shapes) {
+      const Node* shape = value_under(root, words_in_key(key));
+      const bool has_corners = shape != nullptr && (shape->find("corners") || shape->find("file"));
+      if (has_corners && shape->find(given) != nullptr) of.push_back(key);
+    }
+    if (of.empty()) continue;
     OtherChoice usual{.words = fmt::format("leave out `{}` of {}, whose corners are then rounded", given,
-                                           fmt::join(shapes, " and "))};
-    for (const std::string& key : shapes) usual.left_out.push_back(fmt::format("{}.{}", key, given));
+                                           fmt::join(of, " and "))};
+    for (const std::string& key : of) usual.left_out.push_back(fmt::format("{}.{}", key, given));
     choices.push_back(std::move(usual));
   }
   for (const double radius : {2 * h, h, 0.5 * h}) {

@@ -63,7 +63,7 @@ class LastWord(unittest.TestCase):
         endings = [Ending("fluid", PEER_LOST, 1.0, cut="the connection to a ended"), Ending("coupler", 143, 2.0, ours=True)]
         cause = verdict.root_cause(endings, {"coupler": "coupler"})
         self.assertEqual(cause.name, "fluid")
-        code, reason = verdict._explain(cause, CASE, launcher.Path("/nowhere"), {})
+        code, reason = verdict._explain(cause, CASE, launcher.Path("/nowhere"), {}, [cause])
         self.assertEqual((code, reason), (PEER_LOST, "lost fluid (fluid_solver): the connection to a ended"))
 
 

@@ -244,6 +244,15 @@ class Verdict(InScratch):
         found = verdict.judge(Outcome(endings), piston(), self.folder, {"fluid": heard, "coupler": own})
         self.assertEqual((found.code, found.reason), (4, f"coupler: {own['reason']}"))
 
+    def test_program_that_ended_as_if_all_were_well_is_told_with_its_exit_code(self):
+        seen = {"reason": "solid 'solid' (pid 1695) has died", "origin": "coupler"}
+        heard = {"reason": "coupler ended the run: solid 'solid' (pid 1695) has died", "origin": "coupler"}
+        endings = [Ending("solid", 0, 0.0), Ending("coupler", 4, 1.0), Ending("fluid", 4, 1.1)]
+        found = verdict.judge(Outcome(endings), piston(), self.folder, {"coupler": seen, "fluid": heard})
+        self.assertEqual(found.code, 4)
+        self.assertRegex(found.reason, r"^lost solid.*: it ended with exit code 0 before the run was over$")
+        self.assertEqual(found.failure["origin"], "solid")
+
     def test_program_that_another_one_saw_dead_is_lost_also_where_mpirun_had_to_be_ended(self):
         seen = {"reason": "fluid (pid 1695) has died", "origin": "coupler"}
         heard = {"reason": "coupler ended the run: fluid (pid 1695) has died", "origin": "coupler"}
