@@ -10,6 +10,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[3]
 sys.path.insert(0, str(ROOT / "launch"))
+from fsi_launch.case import Case  # noqa: E402
 
 # The beginning of a script that stands for a program. `here(name)` says that it has come so far, `wait(names)` waits until others
 # have said so.
@@ -35,6 +36,12 @@ def ended(pidfd):
     select.select([pidfd], [], [])
     signal.alarm(0)
     os.close(pidfd)
+
+
+def piston():
+    """A Case of three programs."""
+    programs = {"fluid": "fluid_solver", "solid": "solid_solver_linear_elastic", "coupler": "coupler"}
+    return Case(name="piston", text="", programs=programs, reference="none", expect=[])
 
 
 class InScratch(unittest.TestCase):

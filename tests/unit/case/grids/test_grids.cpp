@@ -256,13 +256,6 @@ TEST(ChosenGrids, OfABodyThatIsTooLargeForItsSpacingAreNotBlamedOnItsBends) {
   EXPECT_GT(points_along_diameter * points_along_diameter, 2e6);
 }
 
-TEST(ChosenGrids, OfAnOutlineOfMillionsOfPointsAreRefusedBeforeAnyIsPlaced) {
-  const std::string message = mistake_in(bodies_case({circle}), {"grid.factor=1e6"});
-  EXPECT_NE(message.find("this outline would take 3.1e+07 points; take grid.factor "), std::string::npos)
-      << message;
-  EXPECT_EQ(mistake_in(bodies_case({circle}), {"grid.factor=40"}), "");
-}
-
 TEST(ChosenGrids, ABodyThatLiesOnAWallIsAskedWhetherItStandsThere) {
   for (const std::string& lying :
        {circle_above_the_floor(0), circle_above_the_floor(0.01),

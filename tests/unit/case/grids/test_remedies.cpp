@@ -131,5 +131,14 @@ TEST(RemediesForSpacings, SayASpacingWhereTheFileHasANumber) {
   EXPECT_EQ(mistake_in(box_case(0.007, ", spacing: 0.0001")), "");
 }
 
+TEST(RemediesForGrids, AnOutlineOfMillionsOfPointsIsRefusedBeforeAnyIsPlaced) {
+  const std::string disk =
+      case_with("law: neo_hookean, rho: 1, lambda: 1, mu: 1", "{kind: circle, radius: 0.5}");
+  const std::string message = mistake_in(disk, {"grid.factor=1e6"});
+  EXPECT_NE(message.find("this outline would take 3.1e+07 points; take grid.factor "), std::string::npos)
+      << message;
+  EXPECT_EQ(mistake_in(disk, {"grid.factor=40"}), "");
+}
+
 }  // namespace
 }  // namespace fsi
