@@ -60,6 +60,28 @@ solids:
 WALLS = ("bottom", "right", "top", "left")   # one follows from the other by a quarter turn
 
 
+# A reed of 0.2 mm on the floor of a shock tube, of which nothing is given but what it is: its tip goes by a tenth of its length.
+REED = """
+units: SI
+parameters: {rho_0: 1.161, p_0: 1e5, p_4: 1.2e5, d: 0.0002, length: 0.02}
+grid: {factor: 50}
+time: {end: 0.0008}
+fluid:
+  p_e: p_0
+  grid: {x: [-0.15, 0.15], y: [0, 0.05]}
+  boundary: {left: slip_wall, right: outflow, bottom: slip_wall, top: slip_wall}
+  initial: {rho: "x < -0.03 ? rho_0 * p_4 / p_0 : rho_0", v: [0, 0], p: "x < -0.03 ? p_4 : p_0"}
+solids:
+  reed:
+    law: beam
+    rho: 7850
+    E: 205e9
+    nu: 0.29
+    beam: {line: [[0, 0], [0, length]], thickness: d, ends: [clamped, free]}
+    shape: {kind: polygon, corners: [[-d/2, 0], [-d/2, length], [d/2, length], [d/2, 0]], radius: 0, walls: [bottom, bottom]}
+output: {probes: [{name: tip, in: reed, x: 0, y: length}]}
+"""
+
 class ThinBodies(EndToEnd):
     def forces(self, turns):
         """Of the beam on one of the walls, turned back, at each step: (force1, force2, moment)."""
@@ -110,6 +132,16 @@ class ThinBodies(EndToEnd):
 
     def test_a_plate_of_one_cell_whose_faces_are_columns_bears_what_a_shifted_one_bears(self):
         self.assertAlmostEqual(self.force(0.05, 0) / self.force(0.05, 0.02), 1, delta=0.01)
+
+
+class Reed(EndToEnd):
+    def test_the_grids_that_are_chosen_hold_while_it_bends(self):
+        case = self.folder / "reed.yaml"
+        case.write_text(REED, encoding="utf-8")
+        run = self.complete(case)
+        with (run.directory / "probes.csv").open(encoding="utf-8", newline="") as table:
+            ways = [abs(float(value)) for row in csv.DictReader(table) for name, value in row.items() if name.startswith("tip.u1")]
+        self.assertGreater(max(ways), 1e-3)
 
 
 if __name__ == "__main__":

@@ -258,6 +258,47 @@ std::vector<RingMotion> motions_of(const Case& draft, const FluidSpec& gas) {
   return motions;
 }
 
+/// Makes the chosen points along outlines of bodies without grids inside half as many again, where grids of a gas follow
+/// them: round the ends of thin ones cells are too long to turn. Says so; empty where none were chosen.
+std::vector<std::string> add_points(Node& root, const FluidSpec& gas, const std::vector<std::size_t>& open) {
+  std::vector<std::string> added;
+  for (const std::size_t k : open) {
+    Node* solid =
+        gas.body_fitted[k].solid.empty() ? nullptr : root.find("solids")->find(gas.body_fitted[k].solid);
+    if (solid == nullptr || is_continuum(solid->find("law")->text)) continue;
+    Node* points = solid->find("shape") == nullptr ? nullptr : solid->find("shape")->find("points");
+    if (points == nullptr || !points->chosen) continue;
+    *points = number_node(std::round(1.5 * *points->number), points->place);
+    added.push_back(fmt::format("solids.{}: {} points along its outline, for grids that hold while it moves",
+                                gas.body_fitted[k].solid, points->text));
+  }
+  return added;
+}
+
+/// Grids that hold while the bodies move, with more points along their outlines where they need them.
+GasGrids fit_with_points(Node& root, std::size_t index, const Scope& scope,
+                         const std::vector<std::size_t>& open, bool finer, std::vector<std::string>& said) {
+  constexpr int most_trials = 3;
+  const auto fit = [&](const Case& draft) {
+    const FluidSpec& gas = draft.fluids[index];
+    return fit_rings(gas.grid, gas.body_fitted, open, motions_of(draft, gas), finer);
+  };
+  const Case draft = build_case(root, scope);
+  const GasGrids first = fit(draft);
+  if (first.lasting) return first;
+  const Node solids = root.find("solids") == nullptr ? Node{} : *root.find("solids");
+  for (int k = 0; k < most_trials; ++k) {
+    const std::vector<std::string> added = add_points(root, draft.fluids[index], open);
+    if (added.empty()) break;
+    const GasGrids more = fit(build_case(root, scope));
+    if (!more.lasting) continue;
+    said.insert(said.end(), added.begin(), added.end());
+    return more;
+  }
+  if (root.find("solids") != nullptr) *root.find("solids") = solids;
+  return first;
+}
+
 /// @param index of the gas among those of the case
 void choose_for_gas(Node& root, std::size_t index, const Scope& scope, std::vector<std::string>& said) {
   const FluidSection<Node> fluid = fluid_sections(root)[index];
@@ -284,7 +325,7 @@ void choose_for_gas(Node& root, std::size_t index, const Scope& scope, std::vect
                       "grid's spacing is meant for? take grid.factor smaller",
                       ring.curve.points(), most));
   }
-  const GasGrids chosen = fit_rings(spec.grid, spec.body_fitted, open, motions_of(draft, spec), finer);
+  const GasGrids chosen = fit_with_points(root, index, scope, open, finer, said);
   if (finer) {
     put(background, "spacing", number_node(chosen.background, background.place));
     said.push_back(fmt::format("{}.grid: spacing {:.3g}", fluid.path, chosen.background));

@@ -390,7 +390,8 @@ GasGrids fit_rings(const GridSpec& background, const std::vector<BodyFittedSpec>
   if (reaches_beyond(background, given)) return {search.spacing, search.usual()};
   for (const bool lasting : {true, false}) {
     search.lasting = lasting;
-    if (std::optional<GasGrids> found = search.first(finer)) return *found;
+    if (std::optional<GasGrids> found = search.first(finer))
+      return {found->background, found->rings, lasting};
   }
   return {search.spacing, search.usual()};
 }

@@ -53,6 +53,7 @@ struct RingGrid {
 struct GasGrids {
   double background = 0;        ///< distance of the background's points [length]
   std::vector<RingGrid> rings;  ///< those that were open
+  bool lasting = false;         ///< they hold while the bodies move too
 };
 
 /// How the curve of a grid of the gas moves during a run.
