@@ -260,14 +260,17 @@ std::vector<RingMotion> motions_of(const Case& draft, const FluidSpec& gas) {
 
 /// Makes the chosen points along outlines of bodies without grids inside half as many again, where grids of a gas follow
 /// them: round the ends of thin ones cells are too long to turn. Says so; empty where none were chosen.
-std::vector<std::string> add_points(Node& root, const FluidSpec& gas, const std::vector<std::size_t>& open) {
+/// @param h spacing of the case: where points lie much closer it is not for want of them
+std::vector<std::string> add_points(Node& root, const FluidSpec& gas, const std::vector<std::size_t>& open,
+                                    double h) {
+  constexpr double close = 0.25;
   std::vector<std::string> added;
   for (const std::size_t k : open) {
     Node* solid =
         gas.body_fitted[k].solid.empty() ? nullptr : root.find("solids")->find(gas.body_fitted[k].solid);
     if (solid == nullptr || is_continuum(solid->find("law")->text)) continue;
     Node* points = solid->find("shape") == nullptr ? nullptr : solid->find("shape")->find("points");
-    if (points == nullptr || !points->chosen) continue;
+    if (points == nullptr || !points->chosen || gas.body_fitted[k].curve.spacing < close * h) continue;
     *points = number_node(std::round(1.5 * *points->number), points->place);
     added.push_back(fmt::format("solids.{}: {} points along its outline, for grids that hold while it moves",
                                 gas.body_fitted[k].solid, points->text));
@@ -288,7 +291,8 @@ GasGrids fit_with_points(Node& root, std::size_t index, const Scope& scope,
   if (first.lasting) return first;
   const Node solids = root.find("solids") == nullptr ? Node{} : *root.find("solids");
   for (int k = 0; k < most_trials; ++k) {
-    const std::vector<std::string> added = add_points(root, draft.fluids[index], open);
+    const std::vector<std::string> added =
+        add_points(root, draft.fluids[index], open, scope.constants.at("h"));
     if (added.empty()) break;
     const GasGrids more = fit(build_case(root, scope));
     if (!more.lasting) continue;
