@@ -179,7 +179,7 @@ TEST(HeldBody, AnImpulseGivesItWhatItsMountingLeaves) {
 GivenMotion given(const std::array<const char*, 3>& formulas, double t_end) {
   GivenMotion::Formulas of;
   for (std::size_t k = 0; k < 3; ++k)
-    if (std::string(formulas[k]) != "") of[k] = Expression(formulas[k], {});
+    if (!std::string(formulas[k]).empty()) of[k] = Expression(formulas[k], {});
   return {of, t_end};
 }
 
