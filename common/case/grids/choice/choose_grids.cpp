@@ -258,8 +258,8 @@ std::vector<RingMotion> motions_of(const Case& draft, const FluidSpec& gas) {
   return motions;
 }
 
-/// Makes the chosen points along outlines of bodies without grids inside half as many again, where grids of a gas follow
-/// them: round the ends of thin ones cells are too long to turn. Says so; empty where none were chosen.
+/// Makes the chosen points along the outlines of beams half as many again, where grids of a gas follow them: round their
+/// ends cells are too long to turn. Says so; empty where none were chosen.
 /// @param h spacing of the case: where points lie much closer it is not for want of them
 std::vector<std::string> add_points(Node& root, const FluidSpec& gas, const std::vector<std::size_t>& open,
                                     double h) {
@@ -268,7 +268,7 @@ std::vector<std::string> add_points(Node& root, const FluidSpec& gas, const std:
   for (const std::size_t k : open) {
     Node* solid =
         gas.body_fitted[k].solid.empty() ? nullptr : root.find("solids")->find(gas.body_fitted[k].solid);
-    if (solid == nullptr || is_continuum(solid->find("law")->text)) continue;
+    if (solid == nullptr || solid->find("law")->text != beam_law) continue;
     Node* points = solid->find("shape") == nullptr ? nullptr : solid->find("shape")->find("points");
     if (points == nullptr || !points->chosen || gas.body_fitted[k].curve.spacing < close * h) continue;
     *points = number_node(std::round(1.5 * *points->number), points->place);
